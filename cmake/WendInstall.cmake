@@ -1,0 +1,1 @@
+# The installed package: find_package(wend) gives the target wend::guide.

@@ -1,0 +1,23 @@
+# How every target of the project is compiled.
+
+function(wend_target_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  # Pictures are reproducible bit for bit: no fused operations that depend on the compiler's choice.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off -fno-math-errno
+    $<$<BOOL:${WEND_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+# A static library of all sources in the given rooms (folders of src/wend).
+function(wend_add_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS")
+  set(sources)
+  foreach(room IN LISTS arg_ROOMS)
+    file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/wend/${room}/*.cpp)
+    list(FILTER room_sources EXCLUDE REGEX "/app/main\\.cpp$")
+    list(APPEND sources ${room_sources})
+  endforeach()
+  add_library(${target} STATIC ${sources})
+  wend_target_options(${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+endfunction()

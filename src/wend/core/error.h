@@ -1,0 +1,27 @@
+// Errors that a user can cause. Nothing in the path loop throws these; scene loading and the command line do.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace wend {
+
+/// A position in a file that a user wrote. Line and column count from 1; 0 means "the whole file".
+struct Place {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+
+/// `file:line:column`, or as much of it as is known.
+std::string to_string(const Place& place);
+
+/// Bad input: the message says what is wrong, where, and what would be right. The program ends with exit status 2.
+class InputError : public std::runtime_error {
+public:
+    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    InputError(const Place& place, const std::string& message)
+        : std::runtime_error(to_string(place) + ": error: " + message) {}
+};
+
+}  // namespace wend

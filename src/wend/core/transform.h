@@ -1,0 +1,49 @@
+#pragma once
+
+#include <wend/core/vector.h>
+
+#include <Imath/ImathMatrix.h>
+
+namespace wend {
+
+/// An affine (or, for cameras, projective) map with its inverse, in the column-vector convention: `(a * b)(p) == a(b(p))`.
+/// Held in double precision: scene files chain many transforms, and the world is then float.
+class Transform {
+public:
+    /// Row-major matrix m[row][column] acting on column vectors.
+    using Matrix = double[4][4];
+
+    Transform();
+    /// Throws std::domain_error if the matrix is singular or not finite.
+    explicit Transform(const Matrix& m);
+
+    static Transform translate(double x, double y, double z);
+    static Transform scale(double x, double y, double z);
+    static Transform rotate(double degrees, double x, double y, double z);
+    /// World-to-camera transform with the camera at `eye`, looking along +z, left-handed as in pbrt. Throws std::domain_error
+    /// if the vectors are degenerate.
+    static Transform look_at(const Imath::V3d& eye, const Imath::V3d& look, const Imath::V3d& up);
+
+    Transform operator*(const Transform& first) const;
+    Transform inverse() const;
+
+    Vec3 point(const Vec3& p) const;
+    Vec3 vector(const Vec3& v) const;
+    /// Normals map by the inverse transpose; the result is not normalized.
+    Vec3 normal(const Vec3& n) const;
+    /// Whether right-handed frames become left-handed.
+    bool swaps_handedness() const;
+    double element(int row, int column) const { return m_.x[column][row]; }
+    /// The volume factor |det| of the linear part.
+    double determinant() const;
+
+    friend bool operator==(const Transform&, const Transform&) = default;
+
+private:
+    Transform(const Imath::M44d& m, const Imath::M44d& inverse) : m_(m), inverse_(inverse) {}
+
+    Imath::M44d m_;        // Imath multiplies row vectors from the left, so these hold the transposes
+    Imath::M44d inverse_;
+};
+
+}  // namespace wend

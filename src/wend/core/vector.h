@@ -1,0 +1,54 @@
+// Points, directions and boxes: Imath's types under the project's names, and the few operations Imath spells differently.
+#pragma once
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <cmath>
+
+namespace wend {
+
+using Vec2 = Imath::V2f;
+using Vec3 = Imath::V3f;
+using Vec2i = Imath::V2i;
+using Vec3i = Imath::V3i;
+using Box3 = Imath::Box3f;
+
+inline constexpr float pi = 3.14159265358979323846f;
+inline constexpr float inv_pi = 0.31830988618379067154f;
+inline constexpr float inv_4pi = 0.07957747154594766788f;
+
+/// Largest float below 1: where a uniform number in [0,1) is clamped to.
+inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
+
+inline float dot(const Vec3& a, const Vec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline float abs_dot(const Vec3& a, const Vec3& b) {
+    return std::abs(dot(a, b));
+}
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline float length_squared(const Vec3& v) {
+    return dot(v, v);
+}
+inline float length(const Vec3& v) {
+    return std::sqrt(dot(v, v));
+}
+/// v scaled to unit length; v must not be zero.
+inline Vec3 normalize(const Vec3& v) {
+    return v * (1.0f / length(v));
+}
+inline bool is_finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+inline float sqr(float x) {
+    return x * x;
+}
+/// sqrt of the positive part: rounding may leave a tiny negative number where mathematics has zero.
+inline float safe_sqrt(float x) {
+    return x > 0 ? std::sqrt(x) : 0.0f;
+}
+
+}  // namespace wend

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/core/vector.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace wend {
+
+/// A picture in memory: linear colour, row-major, the first row on top.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<Rgb> pixels;
+
+    Image() = default;
+    Image(int w, int h, Rgb fill = {})
+        : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+
+    Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
+    const Rgb& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
+};
+
+/// Named channels beside the beauty of a picture: "albedo" with channels R, G, B; "depth" with channel Z.
+struct Layer {
+    std::string name;
+    std::vector<std::string> channels;
+    std::vector<float> values;  ///< channel-interleaved: values[(y * width + x) * channels.size() + channel]
+};
+
+/// What a render leaves: the beauty, its layers, and where it comes from. `image` is the crop window, `offset` its corner in
+/// the full picture of size `full_size`.
+struct Picture {
+    Image image;
+    std::vector<Layer> layers;
+    std::map<std::string, std::string> metadata;
+    Vec2i offset{0, 0};
+    Vec2i full_size{0, 0};
+};
+
+}  // namespace wend
