@@ -2,15 +2,17 @@
 
 #include <wend/core/vector.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace wend {
 
-/// A scalar field sampled at integer points ("voxels") and interpolated trilinearly between them. Stored in bricks of 8³ cells,
-/// of which only the occupied ones take memory; each brick repeats its neighbours' first samples (9³ values), so that one look-up
-/// touches one brick. Outside `bounds()` the value is 0.
+/// A scalar field sampled at integer points ("voxels") and interpolated trilinearly between them. Stored in bricks of
+/// 8³ cells, of which only the occupied ones take memory; each brick repeats its neighbours' first samples (9³ values),
+/// so that one look-up touches one brick. Voxels that are not stored are 0, so the field falls continuously to 0 within
+/// one cell around the voxels and is 0 outside `bounds()`.
 class Grid {
 public:
     /// Whether the box of voxels [first, last] (inclusive) may hold anything but zeros.
@@ -20,46 +22,110 @@ public:
 
     Grid() = default;
 
-    /// The voxels first .. first + size - 1. Throws InputError if a size is not positive, the grid would need more than `max_bytes`,
-    /// or a value is negative or not finite.
+    /// The voxels first .. first + size - 1. Throws InputError if a size is not positive, a coordinate exceeds
+    /// `max_coordinate`, the grid would need more than `max_bytes`, or a value is negative or not finite.
     Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, const Value& value,
          std::size_t max_bytes = default_max_bytes);
 
     /// Interpolated value at a point in index space.
     float interpolate(const Vec3& p) const;
-    /// The value of one of the eight voxels around p, drawn with its trilinear weight by `u` in [0,1)³: its mean is interpolate(p).
+    /// The value of one of the eight voxels around p, drawn with its trilinear weight by `u` in [0,1)³: its mean is
+    /// interpolate(p).
     float sample_nearest(const Vec3& p, const Vec3& u) const;
 
-    /// Index-space box where the value can differ from 0.
+    /// Index-space box where the value can differ from 0: one cell more than the voxels on each side.
     const Box3& bounds() const { return bounds_; }
     Vec3i first() const { return first_; }
     Vec3i size() const { return size_; }
     float max_value() const { return max_; }
-    std::size_t bytes() const { return values_.size() * sizeof(float) + bricks_.size() * sizeof(std::int32_t); }
+    std::size_t bytes() const;
 
-    /// Smallest and largest value that interpolate() takes in an index-space box.
+    /// Smallest and largest value of a part of the field.
     struct Range {
         float min = 0;
         float max = 0;
     };
+    /// The values that interpolate() takes in an index-space box: exact up to rounding, whatever the box. An empty box
+    /// has {0, 0}.
     Range range(const Box3& box) const;
 
     static constexpr std::size_t default_max_bytes = std::size_t{12} << 30;
+    /// Beyond this, index-space points in single precision would not resolve a voxel's neighbourhood.
+    static constexpr int max_coordinate = 1 << 20;
 
 private:
-    static constexpr int cells = 8;          // a brick spans 8 cells a side
-    static constexpr int stride = cells + 1; // and holds 9 samples a side
+    static constexpr int cells = 8;           // a brick spans 8 cells a side
+    static constexpr int stride = cells + 1;  // and holds 9 samples a side
     static constexpr int brick_values = stride * stride * stride;
 
-    const float* brick_at(int bx, int by, int bz) const;
+    // The lowest of the eight samples around a point, and where the point lies between them. No samples: the value is
+    // 0.
+    struct Cell {
+        const float* samples = nullptr;
+        float x = 0, y = 0, z = 0;
+
+        float interpolate() const;
+    };
+    Cell cell_at(const Vec3& p) const;
+    static Cell cell_in_brick(const float* samples, const Vec3& local);
+
+    std::size_t brick_number(int bx, int by, int bz) const {
+        return (static_cast<std::size_t>(bz) * bricks_count_.y + by) * bricks_count_.x + bx;
+    }
+    const float* brick_samples(std::int32_t brick) const {
+        return values_.data() + static_cast<std::size_t>(brick) * brick_values;
+    }
+    void add_brick(std::size_t number, const Vec3i& first, const Value& value);
 
     Vec3i first_{0, 0, 0};
     Vec3i size_{0, 0, 0};
     Vec3i bricks_count_{0, 0, 0};
+    Vec3 origin_{0, 0, 0};  // lower corner of bounds_, from which cells are counted
+    Vec3 extent_{0, 0, 0};  // number of cells a side
     Box3 bounds_;
     float max_ = 0;
     std::vector<std::int32_t> bricks_;  // offset of a brick's values / brick_values, or -1 where empty
+    std::vector<Range> brick_ranges_;   // of the occupied bricks
     std::vector<float> values_;
 };
+
+inline float Grid::Cell::interpolate() const {
+    const auto edge = [this](const float* s) { return s[0] + x * (s[1] - s[0]); };
+    const auto face = [&](const float* s) {
+        const float low = edge(s);
+        return low + y * (edge(s + stride) - low);
+    };
+    const float low = face(samples);
+    return low + z * (face(samples + stride * stride) - low);
+}
+
+inline Grid::Cell Grid::cell_at(const Vec3& p) const {
+    const Vec3 q = p - origin_;
+    // Written so that a point that is not a number is outside.
+    if (!(q.x >= 0 && q.y >= 0 && q.z >= 0 && q.x < extent_.x && q.y < extent_.y && q.z < extent_.z)) {
+        return {};
+    }
+    const int x = static_cast<int>(q.x), y = static_cast<int>(q.y), z = static_cast<int>(q.z);
+    const std::int32_t brick = bricks_[brick_number(x / cells, y / cells, z / cells)];
+    if (brick < 0) {
+        return {};
+    }
+    const float* samples = brick_samples(brick) + ((z % cells) * stride + y % cells) * stride + x % cells;
+    return {samples, q.x - static_cast<float>(x), q.y - static_cast<float>(y), q.z - static_cast<float>(z)};
+}
+
+inline float Grid::interpolate(const Vec3& p) const {
+    const Cell cell = cell_at(p);
+    return cell.samples ? cell.interpolate() : 0.0f;
+}
+
+inline float Grid::sample_nearest(const Vec3& p, const Vec3& u) const {
+    const Cell cell = cell_at(p);
+    if (!cell.samples) {
+        return 0.0f;
+    }
+    const int x = u.x < cell.x, y = u.y < cell.y, z = u.z < cell.z;
+    return cell.samples[(z * stride + y) * stride + x];
+}
 
 }  // namespace wend

@@ -1,0 +1,206 @@
+#include <wend/core/error.h>
+#include <wend/medium/grid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace wend {
+namespace {
+
+std::string to_string(const Vec3i& v) {
+    return '(' + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ')';
+}
+
+void check_extent(const Vec3i& first, const Vec3i& size) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (size[axis] <= 0) {
+            throw InputError("a grid of " + to_string(size) + " voxels: every size must be positive");
+        }
+        const auto last = std::int64_t{first[axis]} + size[axis];
+        if (first[axis] < -Grid::max_coordinate || last > Grid::max_coordinate) {
+            throw InputError("a grid of " + to_string(size) + " voxels at " + to_string(first) +
+                             ": voxel coordinates must stay within " + std::to_string(Grid::max_coordinate));
+        }
+    }
+}
+
+[[noreturn]] void throw_too_large(const Vec3i& size, std::size_t max_bytes) {
+    throw InputError("a grid of " + to_string(size) + " voxels takes more memory than the " +
+                     std::to_string(max_bytes >> 20) + " MiB allowed");
+}
+
+// Where a trilinear function of pieces of unit length can take its extremes on [low, high]: at both ends and at the
+// integers between.
+struct Breakpoints {
+    std::array<float, 12> at;
+    int count = 0;
+
+    Breakpoints(float low, float high) {
+        at[count++] = low;
+        for (float x = std::floor(low) + 1; x < high; ++x) {
+            at[count++] = x;
+        }
+        if (high > low) {
+            at[count++] = high;
+        }
+    }
+};
+
+}  // namespace
+
+Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, const Value& value, std::size_t max_bytes)
+    : first_(first), size_(size) {
+    check_extent(first, size);
+    const Vec3i last = first + size - Vec3i(1);
+    const Vec3i cell_count = size + Vec3i(1);
+    bricks_count_ = (cell_count + Vec3i(cells - 1)) / cells;
+    bounds_ = Box3(Vec3(first - Vec3i(1)), Vec3(last + Vec3i(1)));
+    origin_ = bounds_.min;
+    extent_ = Vec3(cell_count);
+
+    // The table of bricks is dense: it alone must not exceed a fair part of the memory.
+    const std::size_t max_bricks =
+        std::min<std::size_t>(max_bytes / 8 / sizeof(std::int32_t), std::numeric_limits<std::int32_t>::max());
+    if (static_cast<double>(bricks_count_.x) * bricks_count_.y * bricks_count_.z > static_cast<double>(max_bricks)) {
+        throw_too_large(size, max_bytes);
+    }
+
+    struct Brick {
+        std::size_t number;
+        Vec3i first;
+    };
+    std::vector<Brick> bricks;
+    const std::size_t max_occupied = max_bytes / (sizeof(float) * brick_values);
+    Vec3i b;
+    for (b.z = 0; b.z < bricks_count_.z; ++b.z) {
+        for (b.y = 0; b.y < bricks_count_.y; ++b.y) {
+            for (b.x = 0; b.x < bricks_count_.x; ++b.x) {
+                const Vec3i low = first - Vec3i(1) + b * cells, high = low + Vec3i(cells);
+                const Vec3i from(std::max(low.x, first.x), std::max(low.y, first.y), std::max(low.z, first.z));
+                const Vec3i to(std::min(high.x, last.x), std::min(high.y, last.y), std::min(high.z, last.z));
+                if (from.x <= to.x && from.y <= to.y && from.z <= to.z && occupied(from, to)) {
+                    if (bricks.size() == max_occupied) {
+                        throw_too_large(size, max_bytes);
+                    }
+                    bricks.push_back({brick_number(b.x, b.y, b.z), low});
+                }
+            }
+        }
+    }
+
+    bricks_.assign(static_cast<std::size_t>(bricks_count_.x) * bricks_count_.y * bricks_count_.z, -1);
+    brick_ranges_.reserve(bricks.size());
+    values_.reserve(bricks.size() * brick_values);
+    for (const Brick& brick : bricks) {
+        add_brick(brick.number, brick.first, value);
+    }
+}
+
+void Grid::add_brick(std::size_t number, const Vec3i& first, const Value& value) {
+    const Vec3i end = first_ + size_;
+    const std::size_t offset = values_.size();
+    Range range{std::numeric_limits<float>::max(), 0};
+    for (int z = first.z; z < first.z + stride; ++z) {
+        for (int y = first.y; y < first.y + stride; ++y) {
+            for (int x = first.x; x < first.x + stride; ++x) {
+                const bool stored =
+                    x >= first_.x && y >= first_.y && z >= first_.z && x < end.x && y < end.y && z < end.z;
+                const float v = stored ? value(x, y, z) : 0.0f;
+                if (!(v >= 0) || !std::isfinite(v)) {
+                    throw InputError("voxel " + to_string(Vec3i(x, y, z)) + " holds " + std::to_string(v) +
+                                     ": values must be finite and not negative");
+                }
+                range.min = std::min(range.min, v);
+                range.max = std::max(range.max, v);
+                values_.push_back(v);
+            }
+        }
+    }
+    if (range.max == 0) {
+        values_.resize(offset);
+        return;
+    }
+    bricks_[number] = static_cast<std::int32_t>(brick_ranges_.size());
+    brick_ranges_.push_back(range);
+    max_ = std::max(max_, range.max);
+}
+
+std::size_t Grid::bytes() const {
+    return values_.size() * sizeof(float) + bricks_.size() * sizeof(std::int32_t) +
+           brick_ranges_.size() * sizeof(Range);
+}
+
+Grid::Cell Grid::cell_in_brick(const float* samples, const Vec3& local) {
+    const int x = std::min(static_cast<int>(local.x), cells - 1), y = std::min(static_cast<int>(local.y), cells - 1),
+              z = std::min(static_cast<int>(local.z), cells - 1);
+    return {samples + (z * stride + y) * stride + x, local.x - static_cast<float>(x), local.y - static_cast<float>(y),
+            local.z - static_cast<float>(z)};
+}
+
+Grid::Range Grid::range(const Box3& box) const {
+    // Outside the bounds, and on their faces, the field is 0: the part inside has it all.
+    Vec3 low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::max(box.min[axis], bounds_.min[axis]) - origin_[axis];
+        high[axis] = std::min(box.max[axis], bounds_.max[axis]) - origin_[axis];
+        if (!(low[axis] <= high[axis])) {
+            return {};
+        }
+    }
+    const auto brick_of = [](float x, int count) { return std::min(static_cast<int>(x) / cells, count - 1); };
+    const Vec3i from(brick_of(low.x, bricks_count_.x), brick_of(low.y, bricks_count_.y),
+                     brick_of(low.z, bricks_count_.z));
+    const Vec3i to(brick_of(high.x, bricks_count_.x), brick_of(high.y, bricks_count_.y),
+                   brick_of(high.z, bricks_count_.z));
+
+    Range range{std::numeric_limits<float>::max(), 0};
+    const auto include = [&range](float least, float most) {
+        range.min = std::min(range.min, least);
+        range.max = std::max(range.max, most);
+    };
+    const auto include_brick = [&](const Vec3i& b) {
+        const std::int32_t brick = bricks_[brick_number(b.x, b.y, b.z)];
+        if (brick < 0) {
+            include(0, 0);
+            return;
+        }
+        const Range& whole = brick_ranges_[brick];
+        if (whole.min >= range.min && whole.max <= range.max) {
+            return;
+        }
+        const Vec3 corner(b * cells);
+        Vec3 local_low, local_high;
+        bool covered = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            local_low[axis] = std::max(low[axis] - corner[axis], 0.0f);
+            local_high[axis] = std::min(high[axis] - corner[axis], static_cast<float>(cells));
+            covered = covered && local_low[axis] == 0 && local_high[axis] == cells;
+        }
+        if (covered) {
+            include(whole.min, whole.max);
+            return;
+        }
+        const Breakpoints xs(local_low.x, local_high.x), ys(local_low.y, local_high.y), zs(local_low.z, local_high.z);
+        for (int k = 0; k < zs.count; ++k) {
+            for (int j = 0; j < ys.count; ++j) {
+                for (int i = 0; i < xs.count; ++i) {
+                    const float v = cell_in_brick(brick_samples(brick), {xs.at[i], ys.at[j], zs.at[k]}).interpolate();
+                    include(v, v);
+                }
+            }
+        }
+    };
+    for (int z = from.z; z <= to.z; ++z) {
+        for (int y = from.y; y <= to.y; ++y) {
+            for (int x = from.x; x <= to.x; ++x) {
+                include_brick({x, y, z});
+            }
+        }
+    }
+    return range;
+}
+
+}  // namespace wend
