@@ -69,7 +69,7 @@ Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, cons
     }
 
     struct Brick {
-        std::size_t number;
+        int number;
         Vec3i first;
     };
     std::vector<Brick> bricks;
@@ -99,7 +99,7 @@ Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, cons
     }
 }
 
-void Grid::add_brick(std::size_t number, const Vec3i& first, const Value& value) {
+void Grid::add_brick(int number, const Vec3i& first, const Value& value) {
     const Vec3i end = first_ + size_;
     const std::size_t offset = values_.size();
     Range range{std::numeric_limits<float>::max(), 0};

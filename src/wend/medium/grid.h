@@ -54,8 +54,9 @@ public:
     static constexpr int max_coordinate = 1 << 20;
 
 private:
-    static constexpr int cells = 8;           // a brick spans 8 cells a side
-    static constexpr int stride = cells + 1;  // and holds 9 samples a side
+    static constexpr int cells_log2 = 3;
+    static constexpr int cells = 1 << cells_log2;  // a brick spans 8 cells a side
+    static constexpr int stride = cells + 1;       // and holds 9 samples a side
     static constexpr int brick_values = stride * stride * stride;
 
     // The lowest of the eight samples around a point, and where the point lies between them. No samples: the value is
@@ -69,13 +70,11 @@ private:
     Cell cell_at(const Vec3& p) const;
     static Cell cell_in_brick(const float* samples, const Vec3& local);
 
-    std::size_t brick_number(int bx, int by, int bz) const {
-        return (static_cast<std::size_t>(bz) * bricks_count_.y + by) * bricks_count_.x + bx;
-    }
+    int brick_number(int bx, int by, int bz) const { return (bz * bricks_count_.y + by) * bricks_count_.x + bx; }
     const float* brick_samples(std::int32_t brick) const {
         return values_.data() + static_cast<std::size_t>(brick) * brick_values;
     }
-    void add_brick(std::size_t number, const Vec3i& first, const Value& value);
+    void add_brick(int number, const Vec3i& first, const Value& value);
 
     Vec3i first_{0, 0, 0};
     Vec3i size_{0, 0, 0};
@@ -106,11 +105,12 @@ inline Grid::Cell Grid::cell_at(const Vec3& p) const {
         return {};
     }
     const int x = static_cast<int>(q.x), y = static_cast<int>(q.y), z = static_cast<int>(q.z);
-    const std::int32_t brick = bricks_[brick_number(x / cells, y / cells, z / cells)];
+    const std::int32_t brick = bricks_[brick_number(x >> cells_log2, y >> cells_log2, z >> cells_log2)];
     if (brick < 0) {
         return {};
     }
-    const float* samples = brick_samples(brick) + ((z % cells) * stride + y % cells) * stride + x % cells;
+    constexpr int within = cells - 1;
+    const float* samples = brick_samples(brick) + ((z & within) * stride + (y & within)) * stride + (x & within);
     return {samples, q.x - static_cast<float>(x), q.y - static_cast<float>(y), q.z - static_cast<float>(z)};
 }
 
