@@ -1,26 +1,31 @@
-// Picture files: OpenEXR through its library, PNG, JPEG, TGA and Radiance HDR through stb.
+// Picture files: OpenEXR through its library, PNG, JPEG, TGA, BMP and Radiance HDR through stb.
 #pragma once
 
 #include <wend/film/image.h>
 
 #include <filesystem>
-#include <optional>
 
 namespace wend {
 
-/// How the numbers of an 8-bit file map to linear colour; files of floating point are linear always.
+/// How the numbers of an 8-bit or 16-bit file map to linear colour; files of floating point are linear always.
 enum class ColourEncoding { srgb, linear };
 
-/// Reads the colour of a picture file as linear colour; a grey file fills all three channels. For EXR: channels R, G, B (or Y).
-/// Throws InputError naming the file when it is missing, broken, too large or of an unknown kind.
+/// Reads the colour of a picture file as linear colour; a grey file fills all three channels, and opacity is dropped.
+/// The kind is recognized by content. For EXR: channels R, G, B (or Y) of the data window. Throws InputError naming the
+/// file when it is missing, broken, truncated, larger than `max_pixels` or of an unknown kind.
 Image read_image(const std::filesystem::path& file, ColourEncoding encoding = ColourEncoding::srgb);
 
-/// The whole of an EXR file: beauty, layers and metadata, as write_picture left them.
+/// The whole of an EXR file: beauty, layers and metadata, as write_picture left them. Channels without a layer's name
+/// (other than the beauty's) are in a layer named "". Throws InputError as read_image does, and for files that are not
+/// EXR.
 Picture read_picture(const std::filesystem::path& file);
 
-/// Writes by extension: .exr (32-bit float, all layers as `layer.channel`, metadata as string attributes), .png and .jpg (beauty in sRGB,
-/// clamped to [0,1]). The file appears whole or not at all: it is written beside and renamed. Throws InputError for an unknown
-/// extension, std::runtime_error when the disk refuses.
+/// Writes by extension: .exr (32-bit float, all layers as `layer.channel`, metadata as string attributes), .png and
+/// .jpg (beauty in sRGB, clamped to [0,1]). The file appears whole or not at all: it is written beside and renamed.
+/// Throws InputError for an unknown extension, std::runtime_error when the disk refuses.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
+
+/// Pictures with more pixels are refused before any memory is taken.
+inline constexpr long long max_pixels = 1ll << 28;
 
 }  // namespace wend

@@ -1,0 +1,223 @@
+#include <wend/core/contracts.h>
+#include <wend/core/error.h>
+#include <wend/io/exr_file.h>
+#include <wend/io/image_file.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTestFile.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace wend {
+namespace {
+
+// More numbers than this in all channels together are refused.
+constexpr long long max_values = 1ll << 30;
+
+Imf::Slice float_slice(const float* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
+    const std::size_t pixel = values_per_pixel * sizeof(float);
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    // The library's one type of slice serves reading and writing, so it wants a mutable pointer.
+    return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(first), window, pixel, pixel * width);
+}
+
+/// Looks at the header alone: opening the file for reading already takes memory in proportion to its declared size.
+void check_size(Imf::IStream& stream, const Place& place) {
+    constexpr int bytes_before_header = 8;
+    char start[bytes_before_header];
+    stream.read(start, bytes_before_header);
+    int version = static_cast<unsigned char>(start[4]);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    stream.seekg(0);
+
+    const Imath::Box2i& window = header.dataWindow();
+    const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
+    const long long height = static_cast<long long>(window.max.y) - window.min.y + 1;
+    int channels = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        ++channels;
+    }
+    if (width <= 0 || height <= 0) {
+        throw InputError(place, "the picture has no pixels");
+    }
+    if (width > max_pixels || height > max_pixels || width * height > max_pixels ||
+        width * height * channels > max_values) {
+        throw InputError(place, "the picture is too large: " + std::to_string(width) + " x " + std::to_string(height) +
+                                    " pixels of " + std::to_string(channels) + " channels");
+    }
+}
+
+/// Opens the file and lets `body` read it; whatever the library throws becomes an InputError.
+void with_file(const std::filesystem::path& file, const std::function<void(Imf::InputFile&)>& body) {
+    const Place place{file.string()};
+    try {
+        Imf::StdIFStream stream(file.c_str());
+        check_size(stream, place);
+        Imf::InputFile input(stream);
+        if (!input.isComplete()) {
+            throw InputError(place, "the picture is truncated");
+        }
+        body(input);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError(place, std::string("not a readable OpenEXR picture: ") + error.what());
+    }
+}
+
+bool is_beauty(std::string_view channel) {
+    return channel == "R" || channel == "G" || channel == "B";
+}
+
+Image read_beauty(Imf::InputFile& input) {
+    const Imath::Box2i& window = input.header().dataWindow();
+    const Imf::ChannelList& channels = input.header().channels();
+    const bool colour = channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
+    if (!colour && !channels.findChannel("Y")) {
+        throw std::runtime_error("it has neither the channels R, G, B nor Y");
+    }
+    if (!colour && channels.findChannel("RY")) {
+        throw std::runtime_error("it is stored as luminance and chroma, which is not supported");
+    }
+    Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    Imf::FrameBuffer frame;
+    if (colour) {
+        frame.insert("R", float_slice(&image.pixels[0].r, window, 3));
+        frame.insert("G", float_slice(&image.pixels[0].g, window, 3));
+        frame.insert("B", float_slice(&image.pixels[0].b, window, 3));
+    } else {
+        frame.insert("Y", float_slice(&image.pixels[0].r, window, 3));
+    }
+    input.setFrameBuffer(frame);
+    input.readPixels(window.min.y, window.max.y);
+    if (!colour) {
+        for (Rgb& pixel : image.pixels) {
+            pixel = Rgb(pixel.r);
+        }
+    }
+    return image;
+}
+
+/// The file keeps channels in alphabetical order; colours are wanted in theirs.
+bool channel_before(const std::string& a, const std::string& b) {
+    constexpr std::string_view colours = "RGBA";
+    const auto rank = [&](const std::string& name) {
+        return std::pair(name.size() == 1 ? std::min(colours.find(name[0]), colours.size()) : colours.size(), name);
+    };
+    return rank(a) < rank(b);
+}
+
+/// The names of all layers and their channels, without values. A lone grey channel is the beauty, too.
+std::vector<Layer> layer_names(const Imf::ChannelList& channels) {
+    const bool colour = channels.findChannel("R") != nullptr;
+    std::vector<Layer> layers;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const std::string name = channel.name();
+        if (is_beauty(name) || (!colour && name == "Y")) {
+            continue;
+        }
+        const std::size_t dot = name.rfind('.');
+        const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
+        auto found = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == layer; });
+        if (found == layers.end()) {
+            found = layers.insert(layers.end(), {layer, {}, {}});
+        }
+        found->channels.push_back(dot == std::string::npos ? name : name.substr(dot + 1));
+    }
+    for (Layer& layer : layers) {
+        std::sort(layer.channels.begin(), layer.channels.end(), channel_before);
+    }
+    return layers;
+}
+
+std::string full_name(const Layer& layer, const std::string& channel) {
+    return layer.name.empty() ? channel : layer.name + '.' + channel;
+}
+
+void insert_layer(Imf::FrameBuffer& frame, const Layer& layer, const Imath::Box2i& window) {
+    for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+        frame.insert(full_name(layer, layer.channels[c]),
+                     float_slice(layer.values.data() + c, window, layer.channels.size()));
+    }
+}
+
+}  // namespace
+
+bool is_exr(const std::filesystem::path& file) {
+    return Imf::isOpenExrFile(file.c_str());
+}
+
+Image read_exr_image(const std::filesystem::path& file) {
+    Image image;
+    with_file(file, [&](Imf::InputFile& input) { image = read_beauty(input); });
+    return image;
+}
+
+Picture read_exr(const std::filesystem::path& file) {
+    Picture picture;
+    with_file(file, [&](Imf::InputFile& input) {
+        const Imf::Header& header = input.header();
+        const Imath::Box2i &window = header.dataWindow(), &display = header.displayWindow();
+        picture.image = read_beauty(input);
+        picture.offset = window.min - display.min;
+        picture.full_size = display.max - display.min + Vec2i(1);
+        picture.layers = layer_names(header.channels());
+        Imf::FrameBuffer frame;
+        for (Layer& layer : picture.layers) {
+            layer.values.resize(picture.image.pixels.size() * layer.channels.size());
+            insert_layer(frame, layer, window);
+        }
+        input.setFrameBuffer(frame);
+        input.readPixels(window.min.y, window.max.y);
+        for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {
+                picture.metadata[attribute.name()] = text->value();
+            }
+        }
+    });
+    return picture;
+}
+
+void write_exr(const std::filesystem::path& file, const Picture& picture) {
+    const Image& image = picture.image;
+    const Vec2i size(image.width, image.height);
+    const Vec2i full_size = picture.full_size == Vec2i(0, 0) ? picture.offset + size : picture.full_size;
+    const Imath::Box2i window(picture.offset, picture.offset + size - Vec2i(1));
+    const Imath::Box2i display(Vec2i(0, 0), full_size - Vec2i(1));
+    try {
+        Imf::Header header(display, window);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (const auto& [name, value] : picture.metadata) {
+            header.insert(name, Imf::StringAttribute(value));
+        }
+        Imf::FrameBuffer frame;
+        frame.insert("R", float_slice(&image.pixels[0].r, window, 3));
+        frame.insert("G", float_slice(&image.pixels[0].g, window, 3));
+        frame.insert("B", float_slice(&image.pixels[0].b, window, 3));
+        for (const Layer& layer : picture.layers) {
+            WEND_EXPECT(layer.values.size() == image.pixels.size() * layer.channels.size());
+            insert_layer(frame, layer, window);
+        }
+        for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
+            header.channels().insert(slice.name(), Imf::Channel(Imf::FLOAT));
+        }
+        Imf::OutputFile output(file.c_str(), header);
+        output.setFrameBuffer(frame);
+        output.writePixels(image.height);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(file.string() + ": cannot write: " + error.what());
+    }
+}
+
+}  // namespace wend

@@ -1,0 +1,20 @@
+// OpenEXR pictures. Other rooms use image_file.h.
+#pragma once
+
+#include <wend/film/image.h>
+
+#include <filesystem>
+
+namespace wend {
+
+/// Whether a file begins as every OpenEXR file does; false where it cannot be read.
+bool is_exr(const std::filesystem::path& file);
+
+/// See read_image and read_picture.
+Image read_exr_image(const std::filesystem::path& file);
+Picture read_exr(const std::filesystem::path& file);
+
+/// Writes to exactly this file. Throws std::runtime_error when that fails.
+void write_exr(const std::filesystem::path& file, const Picture& picture);
+
+}  // namespace wend

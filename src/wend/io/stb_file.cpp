@@ -1,0 +1,175 @@
+#include <wend/core/error.h>
+#include <wend/io/gzip.h>
+#include <wend/io/stb_file.h>
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_BMP
+#define STBI_ONLY_HDR
+#include <stb_image.h>
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+namespace wend {
+namespace {
+
+/// Feeds stb, which takes missing bytes for zeros, and notices when it asks for more than there is.
+class Source {
+public:
+    explicit Source(const std::string& bytes) : bytes_(bytes) {}
+
+    int read(char* data, int size) {
+        if (!buffer_) {
+            buffer_ = data;
+        }
+        const int count = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(size), bytes_.size() - at_));
+        std::memcpy(data, bytes_.data() + at_, static_cast<std::size_t>(count));
+        at_ += static_cast<std::size_t>(count);
+        // stb's first read fills its buffer. It refills that for the sake of one byte; other reads want all they ask
+        // for.
+        ran_out_ = ran_out_ || (data == buffer_ ? count == 0 : count < size);
+        return count;
+    }
+    void skip(int count) {
+        ran_out_ = ran_out_ || (count > 0 && static_cast<std::size_t>(count) > bytes_.size() - at_);
+        at_ = std::min(at_ + static_cast<std::size_t>(std::max(count, 0)), bytes_.size());
+    }
+    bool at_end() const { return at_ == bytes_.size(); }
+    bool ran_out() const { return ran_out_; }
+
+private:
+    const std::string& bytes_;
+    std::size_t at_ = 0;
+    const char* buffer_ = nullptr;
+    bool ran_out_ = false;
+};
+
+constexpr stbi_io_callbacks callbacks = {
+    [](void* self, char* data, int size) { return static_cast<Source*>(self)->read(data, size); },
+    [](void* self, int count) { static_cast<Source*>(self)->skip(count); },
+    [](void* self) { return static_cast<int>(static_cast<Source*>(self)->at_end()); }};
+
+float srgb_to_linear(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+float linear_to_srgb(float v) {
+    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+}
+
+/// Linear values of all numbers that an integer channel can hold.
+template <class Integer>
+std::vector<float> decoding_table(ColourEncoding encoding) {
+    constexpr std::size_t largest = std::numeric_limits<Integer>::max();
+    std::vector<float> table(largest + 1);
+    for (std::size_t i = 0; i <= largest; ++i) {
+        const float v = static_cast<float>(i) / static_cast<float>(largest);
+        table[i] = encoding == ColourEncoding::srgb ? srgb_to_linear(v) : v;
+    }
+    return table;
+}
+
+template <class Number, class Decode>
+Image to_image(int width, int height, const Number* values, const Decode& decode) {
+    Image image(width, height);
+    for (Rgb& pixel : image.pixels) {
+        pixel = {decode(values[0]), decode(values[1]), decode(values[2])};
+        values += 3;
+    }
+    return image;
+}
+
+/// Reads with one of stb's loaders and hands the values on.
+template <class Load, class Decode>
+Image load(const std::string& bytes, const Place& place, const Load& loader, const Decode& decode) {
+    Source source(bytes);
+    int width = 0, height = 0, channels = 0;
+    auto* values = loader(&callbacks, &source, &width, &height, &channels, 3);
+    const std::unique_ptr<std::remove_pointer_t<decltype(values)>, decltype(&stbi_image_free)> owner(values,
+                                                                                                     stbi_image_free);
+    if (source.ran_out()) {
+        throw InputError(place, "the picture is truncated");
+    }
+    if (!values) {
+        throw InputError(place, std::string("not a readable picture: ") + stbi_failure_reason());
+    }
+    return to_image(width, height, values, decode);
+}
+
+std::vector<unsigned char> to_bytes(const Image& image) {
+    std::vector<unsigned char> bytes;
+    bytes.reserve(image.pixels.size() * 3);
+    for (const Rgb& pixel : image.pixels) {
+        for (int c = 0; c < 3; ++c) {
+            const float clamped = pixel[c] > 0 ? std::min(pixel[c], 1.0f) : 0.0f;
+            bytes.push_back(static_cast<unsigned char>(linear_to_srgb(clamped) * 255 + 0.5f));
+        }
+    }
+    return bytes;
+}
+
+void append(void* text, void* data, int size) {
+    static_cast<std::string*>(text)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
+}  // namespace
+
+Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding) {
+    const Place place{file.string()};
+    const std::string bytes = read_file(file);
+    int width = 0, height = 0, channels = 0;
+    Source source(bytes);
+    if (!stbi_info_from_callbacks(&callbacks, &source, &width, &height, &channels)) {
+        throw InputError(place, source.ran_out() ? "the picture is truncated"
+                                                 : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP or HDR)");
+    }
+    if (width <= 0 || height <= 0 || static_cast<long long>(width) * height > max_pixels) {
+        throw InputError(place, "the picture has an impossible size: " + std::to_string(width) + " x " +
+                                    std::to_string(height) + " pixels");
+    }
+    if (Source probe(bytes); stbi_is_hdr_from_callbacks(&callbacks, &probe)) {
+        return load(bytes, place, stbi_loadf_from_callbacks, [](float v) { return v; });
+    }
+    if (Source probe(bytes); stbi_is_16_bit_from_callbacks(&callbacks, &probe)) {
+        return load(bytes, place, stbi_load_16_from_callbacks,
+                    [table = decoding_table<std::uint16_t>(encoding)](std::uint16_t v) { return table[v]; });
+    }
+    return load(bytes, place, stbi_load_from_callbacks,
+                [table = decoding_table<std::uint8_t>(encoding)](std::uint8_t v) { return table[v]; });
+}
+
+std::string encode_png(const Image& image) {
+    std::string file;
+    if (!stbi_write_png_to_func(append, &file, image.width, image.height, 3, to_bytes(image).data(), 0)) {
+        throw std::runtime_error("cannot encode the picture as PNG");
+    }
+    return file;
+}
+
+std::string encode_jpeg(const Image& image) {
+    constexpr int quality = 95;
+    std::string file;
+    if (!stbi_write_jpg_to_func(append, &file, image.width, image.height, 3, to_bytes(image).data(), quality)) {
+        throw std::runtime_error("cannot encode the picture as JPEG");
+    }
+    return file;
+}
+
+}  // namespace wend

@@ -1,0 +1,276 @@
+#include <tests/support/paths.h>
+#include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
+#include <wend/io/gzip.h>
+#include <wend/io/image_file.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace wend {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of the test's own that disappears with it.
+class ImageFile : public testing::Test {
+protected:
+    ImageFile() : folder(fs::temp_directory_path() / ("wend-image-" + std::to_string(std::random_device()()))) {
+        fs::create_directory(folder);
+    }
+    ~ImageFile() override { fs::remove_all(folder); }
+
+    void store(const fs::path& name, const std::string& bytes) const {
+        std::ofstream(folder / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    }
+    int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder), {})); }
+
+    fs::path folder;
+};
+
+Image gradient(int width, int height) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float u = (x + 0.5f) / width, v = (y + 0.5f) / height;
+            image.at(x, y) = {u, v, 0.5f * (u + v)};
+        }
+    }
+    return image;
+}
+
+void expect_near(const Image& a, const Image& b, float tolerance) {
+    ASSERT_EQ(a.width, b.width);
+    ASSERT_EQ(a.height, b.height);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(a.pixels[i][c], b.pixels[i][c], tolerance) << "pixel " << i;
+        }
+    }
+}
+
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no InputError";
+}
+
+TEST_F(ImageFile, ExrKeepsEverything) {
+    Picture picture;
+    picture.image = gradient(17, 9);
+    picture.image.at(3, 4) = {1e6f, 1e-30f, -2.5f};
+    picture.offset = {5, 7};
+    picture.full_size = {40, 30};
+    picture.metadata = {{"scene", "cloud.pbrt"}, {"seed", "17"}, {"note", "two\nlines"}};
+    Layer albedo{"albedo", {"R", "G", "B"}, std::vector<float>(17 * 9 * 3)};
+    Layer depth{"depth", {"Z"}, std::vector<float>(17 * 9)};
+    for (std::size_t i = 0; i < albedo.values.size(); ++i) {
+        albedo.values[i] = static_cast<float>(i) / 3;
+    }
+    for (std::size_t i = 0; i < depth.values.size(); ++i) {
+        depth.values[i] = static_cast<float>(i) * 7;
+    }
+    depth.values[3] = std::numeric_limits<float>::infinity();
+    picture.layers = {albedo, depth};
+    write_picture(folder / "a.exr", picture);
+
+    const Picture read = read_picture(folder / "a.exr");
+    EXPECT_EQ(read.image.pixels, picture.image.pixels);
+    EXPECT_EQ(read.offset, picture.offset);
+    EXPECT_EQ(read.full_size, picture.full_size);
+    EXPECT_EQ(read.metadata, picture.metadata);
+    ASSERT_EQ(read.layers.size(), 2u);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(read.layers[i].name, picture.layers[i].name);
+        EXPECT_EQ(read.layers[i].channels, picture.layers[i].channels);
+        EXPECT_EQ(read.layers[i].values, picture.layers[i].values);
+    }
+    EXPECT_EQ(read_image(folder / "a.exr").pixels, picture.image.pixels);
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(ImageFile, PngHoldsSrgbAndReadsBack) {
+    Picture picture;
+    picture.image = Image(4, 1);
+    picture.image.pixels = {Rgb(0.2140411f), {0.0f, 1.0f, 7.0f}, {-1.0f, std::nanf(""), 0.002f}, Rgb(0.5f)};
+    write_picture(folder / "a.png", picture);
+    const Image raw = read_image(folder / "a.png", ColourEncoding::linear);
+    EXPECT_NEAR(raw.at(0, 0).r, 0.5f, 0.5f / 255);
+    EXPECT_EQ(raw.at(1, 0), Rgb(0, 1, 1));
+    EXPECT_EQ(raw.at(2, 0).r, 0);
+    EXPECT_EQ(raw.at(2, 0).g, 0);
+    EXPECT_NEAR(raw.at(2, 0).b, 0.002f * 12.92f, 0.5f / 255);
+    EXPECT_NEAR(raw.at(3, 0).g, 0.7354f, 0.5f / 255);
+    const Image linear = read_image(folder / "a.png");
+    EXPECT_NEAR(linear.at(3, 0).g, 0.5f, 0.005f);
+}
+
+TEST_F(ImageFile, JpegIsCloseToThePicture) {
+    Picture picture;
+    picture.image = gradient(64, 48);
+    write_picture(folder / "a.JPG", picture);
+    expect_near(read_image(folder / "a.JPG"), picture.image, 0.03f);
+}
+
+// One row of two grey pixels of 16 bits, 0x8000 and 0xffff.
+const unsigned char png_16[] = {0x89, 'P',  'N',  'G', 0x0d, 0x0a, 0x1a, 0x0a, 0,    0,    0,    13,   'I',  'H',  'D',
+                                'R',  0,    0,    0,   2,    0,    0,    0,    1,    16,   0,    0,    0,    0,    0x06,
+                                0x9d, 0x19, 0xa2, 0,   0,    0,    16,   'I',  'D',  'A',  'T',  0x78, 0x01, 0x01, 5,
+                                0,    0xfa, 0xff, 0,   0x80, 0,    0xff, 0xff, 0x08, 0x7d, 0x02, 0x7f, 0,    0,    0,
+                                0,    0,    0,    0,   0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
+
+TEST_F(ImageFile, Png16KeepsItsDepthAndGreyFillsAllChannels) {
+    store("a.png", std::string(reinterpret_cast<const char*>(png_16), sizeof png_16));
+    const Image image = read_image(folder / "a.png", ColourEncoding::linear);
+    ASSERT_EQ(image.width, 2);
+    EXPECT_EQ(image.at(0, 0), Rgb(32768.0f / 65535));
+    EXPECT_EQ(image.at(1, 0), Rgb(1));
+}
+
+TEST_F(ImageFile, ReadsTgaAndHdr) {
+    store("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x18\x20", 18) + std::string("\0\x7f\xff\xff\0\0", 6));
+    const Image tga = read_image(folder / "a.tga", ColourEncoding::linear);
+    EXPECT_EQ(tga.at(0, 0), Rgb(1, 127 / 255.0f, 0));
+    EXPECT_EQ(tga.at(1, 0), Rgb(0, 0, 1));
+    store("a.hdr",
+          "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string("\x80\x40\x20\x82\x80\x80\x80\x81", 8));
+    const Image hdr = read_image(folder / "a.hdr");
+    EXPECT_EQ(hdr.at(0, 0), Rgb(2, 1, 0.5f));
+    EXPECT_EQ(hdr.at(1, 0), Rgb(1));
+}
+
+TEST_F(ImageFile, TruncatedFilesAreRefused) {
+    Picture picture;
+    picture.image = gradient(40, 30);
+    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+        write_picture(folder / name, picture);
+    }
+    std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\x28\0\x1e\0\x18\x20", 18);
+    store("a.tga", tga + std::string(40 * 30 * 3, 'x'));
+    store("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30 +X 4\n" + std::string(480, 'x'));
+    for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tga", "a.hdr"}) {
+        EXPECT_NO_THROW(read_image(folder / name)) << name;
+        const std::string whole = read_file(folder / name);
+        for (const double fraction : {0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 0.99}) {
+            store(name, whole.substr(0, static_cast<std::size_t>(fraction * static_cast<double>(whole.size()))));
+            const std::string message = message_of([&] { read_image(folder / name); });
+            EXPECT_NE(message.find(name), std::string::npos) << name << " " << fraction << ": " << message;
+        }
+    }
+}
+
+TEST_F(ImageFile, DamagedFilesDoNotCrash) {
+    Picture picture;
+    picture.image = gradient(40, 30);
+    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+        write_picture(folder / name, picture);
+        const std::string whole = read_file(folder / name);
+        std::uint64_t state = 1;
+        for (int i = 0; i < 100; ++i) {
+            std::string broken = whole;
+            for (int k = 0; k < 3; ++k) {
+                state = state * 6364136223846793005ull + 1442695040888963407ull;
+                broken[(state >> 33) % std::min<std::size_t>(broken.size(), i % 2 ? 400 : broken.size())] ^=
+                    static_cast<char>(state >> 24 | 1);
+            }
+            store(name, broken);
+            try {
+                read_image(folder / name);
+            } catch (const InputError&) {
+            }
+        }
+    }
+}
+
+TEST_F(ImageFile, AbsurdSizesAreRefusedBeforeTheyAreAllocated) {
+    Picture picture;
+    picture.image = gradient(4, 3);
+    write_picture(folder / "a.exr", picture);
+    std::string exr = read_file(folder / "a.exr");
+    const std::size_t window = exr.find("dataWindow") + std::string("dataWindow\0box2i\0", 17).size() + 4;
+    exr.replace(window, 16, std::string("\0\0\0\0\0\0\0\0\xff\xff\xff\x0f\xff\xff\xff\x0f", 16));
+    store("a.exr", exr);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.exr"); }).find("too large: 268435456 x 268435456"),
+              std::string::npos);
+    std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\xff\xff\xff\xff\x18\x20", 18);
+    store("a.tga", tga);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.tga"); }).find("impossible size"), std::string::npos);
+}
+
+TEST_F(ImageFile, MissingUnknownAndForeignFilesAreNamed) {
+    EXPECT_NE(message_of([&] { read_image(folder / "none.png"); }).find("none.png"), std::string::npos);
+    EXPECT_NE(message_of([&] { read_image(folder); }).find("folder"), std::string::npos);
+    store("text.png", "this is not a picture, whatever its name says");
+    EXPECT_NE(message_of([&] { read_image(folder / "text.png"); }).find("text.png"), std::string::npos);
+    EXPECT_NE(message_of([&] { read_picture(folder / "text.png"); }).find("OpenEXR"), std::string::npos);
+}
+
+TEST_F(ImageFile, FailedWritesLeaveNothingBehind) {
+    Picture picture;
+    picture.image = gradient(4, 3);
+    EXPECT_THROW(write_picture(folder / "a.gif", picture), InputError);
+    EXPECT_THROW(write_picture(folder / "absent" / "a.exr", picture), std::runtime_error);
+    EXPECT_THROW(write_picture(folder / "absent" / "a.png", picture), std::runtime_error);
+    // The rename fails at the very end: a folder with something in it has the name.
+    fs::create_directories(folder / "taken.exr" / "inside");
+    EXPECT_THROW(write_picture(folder / "taken.exr", picture), std::runtime_error);
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(ImageFile, FailingWriterKeepsTheOldFile) {
+    write_atomically(folder / "a.txt", "old");
+    EXPECT_THROW(write_atomically(folder / "a.txt",
+                                  [](const fs::path& temporary) {
+                                      std::ofstream(temporary) << "half";
+                                      throw std::runtime_error("disk");
+                                  }),
+                 std::runtime_error);
+    EXPECT_EQ(read_file(folder / "a.txt"), "old");
+    write_atomically(folder / "a.txt", "new");
+    EXPECT_EQ(read_file(folder / "a.txt"), "new");
+    EXPECT_EQ(files(), 1);
+}
+
+TEST_F(ImageFile, ReadsTheTextureOfARealScene) {
+    const fs::path file = test::shared_dir() / "scenes/veach-ajar/textures/cherry-wood-texture.tga";
+    if (!fs::exists(file)) {
+        GTEST_SKIP() << "the collection of real scenes is absent";
+    }
+    const Image image = read_image(file);
+    EXPECT_GT(image.width, 100);
+    Rgb sum;
+    for (const Rgb& pixel : image.pixels) {
+        sum += pixel;
+    }
+    EXPECT_GT(sum.r, sum.g);  // wood is brown
+    EXPECT_GT(sum.g, sum.b);
+}
+
+TEST_F(ImageFile, ReadsHalfFloatReferences) {
+    const fs::path file = test::shared_dir() / "references/pbrt-v4/fog-box-1.exr";
+    if (!fs::exists(file)) {
+        GTEST_SKIP() << "the reference pictures are absent";
+    }
+    const Image image = read_image(file);
+    EXPECT_EQ(image.width, 96);
+    EXPECT_EQ(image.height, 96);
+    double sum = 0;
+    for (const Rgb& pixel : image.pixels) {
+        ASSERT_TRUE(is_finite(pixel));
+        sum += luminance(pixel);
+    }
+    EXPECT_GT(sum / (96 * 96), 0.01);
+}
+
+}  // namespace
+}  // namespace wend
