@@ -1,1 +1,23 @@
 # The installed package: find_package(wend) gives the target wend::guide.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wend)
+
+install(TARGETS wend_guide EXPORT wend-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+foreach(room IN LISTS wend_guide_rooms)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wend/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wend-config.cmake.in ${PROJECT_BINARY_DIR}/wend-config.cmake
+  INSTALL_DESTINATION ${package_dir})
+# Before version 1.0 a new minor version may break what its users wrote.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/wend-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/wend-config.cmake ${PROJECT_BINARY_DIR}/wend-config-version.cmake
+  DESTINATION ${package_dir} COMPONENT library)
+
+if(WEND_BUILD_RENDERER)
+  install(TARGETS wend RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+endif()
