@@ -46,4 +46,32 @@ private:
     Imath::M44d inverse_;
 };
 
+/// An affine map in single precision, for the path loop.
+class AffineMap {
+public:
+    AffineMap() = default;
+    /// Drops the projective row, which must be (0, 0, 0, 1).
+    explicit AffineMap(const Transform& t) {
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                m_[row][column] = static_cast<float>(t.element(row, column));
+            }
+        }
+    }
+
+    Vec3 point(const Vec3& p) const { return vector(p) + Vec3(m_[0][3], m_[1][3], m_[2][3]); }
+    Vec3 vector(const Vec3& v) const {
+        return {m_[0][0] * v.x + m_[0][1] * v.y + m_[0][2] * v.z, m_[1][0] * v.x + m_[1][1] * v.y + m_[1][2] * v.z,
+                m_[2][0] * v.x + m_[2][1] * v.y + m_[2][2] * v.z};
+    }
+    /// The transposed linear part: maps normals when this is the inverse map.
+    Vec3 transposed_vector(const Vec3& v) const {
+        return {m_[0][0] * v.x + m_[1][0] * v.y + m_[2][0] * v.z, m_[0][1] * v.x + m_[1][1] * v.y + m_[2][1] * v.z,
+                m_[0][2] * v.x + m_[1][2] * v.y + m_[2][2] * v.z};
+    }
+
+private:
+    float m_[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+};
+
 }  // namespace wend

@@ -1,0 +1,131 @@
+// Decision 2: where to go after a collision or from a surface.
+#pragma once
+
+#include <wend/adjoint/adjoint.h>
+#include <wend/core/colour.h>
+#include <wend/sampling/vmf.h>
+
+#include <concepts>
+#include <optional>
+
+namespace wend {
+
+/// A direction drawn from a scattering function or a decision about it.
+struct DirectionSample {
+    Vec3 direction;            ///< of propagation, unit length
+    Rgb value;                 ///< the scattering function there, cosine included
+    float density = 0;         ///< per steradian; a probability if specular
+    bool specular = false;     ///< drawn from a discrete set of directions
+
+    Rgb weight() const { return value * (1 / density); }
+};
+
+/// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobe` is its shape as one von Mises-Fisher lobe
+/// that an estimate of incident radiance can be multiplied with, where that is a fair picture of it.
+template <class F>
+concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const Vec2& u2) {
+    { f.evaluate(w) } -> std::same_as<Rgb>;
+    { f.density(w) } -> std::same_as<float>;
+    { f.sample(u, u2) } -> std::same_as<std::optional<DirectionSample>>;
+    { f.lobe() } -> std::same_as<std::optional<Vmf>>;
+    { f.is_specular() } -> std::same_as<bool>;
+};
+
+/// Directions in proportion to the scattering function alone.
+class ClassicalDirection {
+public:
+    template <ScatteringFunction F>
+    class Distribution {
+    public:
+        explicit Distribution(const F& f) : f_(f) {}
+        std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
+        float density(const Vec3& w) const { return f_.density(w); }
+
+    private:
+        const F& f_;
+    };
+
+    /// The distribution at a vertex; `f` must outlive it.
+    template <ScatteringFunction F>
+    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f) const {
+        return Distribution<F>(f);
+    }
+};
+
+/// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance (herholz2019). `A` answers
+/// `incident(position)` with an optional IncidentRadiance; surfaces and volumes have an adjoint each.
+template <Adjoint A>
+class GuidedDirection {
+public:
+    using Incident = typename A::Incident;
+
+    /// The adjoints are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function alone: above 0 it
+    /// bounds the weight by 1/classical_share times the classical one.
+    GuidedDirection(const A* surface, const A* volume, float classical_share)
+        : surface_(surface), volume_(volume), classical_share_(classical_share) {}
+
+    template <ScatteringFunction F>
+    class Distribution {
+    public:
+        Distribution(const F& f, std::optional<Incident> incident, float classical_share)
+            : f_(f), incident_(std::move(incident)), classical_share_(classical_share) {}
+
+        std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
+            if (!incident_) {
+                return f_.sample(u, u2);
+            }
+            DirectionSample s;
+            if (u < classical_share_) {
+                const auto classical = f_.sample(u / classical_share_, u2);
+                if (!classical) {
+                    return std::nullopt;
+                }
+                s = *classical;
+                if (s.specular) {
+                    s.density *= classical_share_;
+                    return s;
+                }
+                s.density = density_given(s.density, s.direction);
+            } else {
+                s.direction = incident_->sample(u2);
+                s.value = f_.evaluate(s.direction);
+                s.density = density_given(f_.density(s.direction), s.direction);
+            }
+            if (is_black(s.value) || !(s.density > 0)) {
+                return std::nullopt;
+            }
+            return s;
+        }
+        float density(const Vec3& w) const { return density_given(f_.density(w), w); }
+
+    private:
+        float density_given(float classical, const Vec3& w) const {
+            return incident_ ? classical_share_ * classical + (1 - classical_share_) * incident_->density(w) : classical;
+        }
+
+        const F& f_;
+        std::optional<Incident> incident_;
+        float classical_share_;
+    };
+
+    template <ScatteringFunction F>
+    Distribution<F> at(const Vec3& position, bool in_volume, const F& f) const {
+        std::optional<Incident> incident;
+        if (!f.is_specular()) {
+            incident = (in_volume ? volume_ : surface_)->incident(position);
+            if (incident) {
+                if (const std::optional<Vmf> lobe = f.lobe()) {
+                    incident = incident->product(*lobe);
+                }
+            }
+        }
+        return Distribution<F>(f, std::move(incident), classical_share_);
+    }
+
+private:
+    const A* surface_;
+    const A* volume_;
+    float classical_share_;
+};
+
+}  // namespace wend

@@ -1,0 +1,114 @@
+#include <wend/decision/channels.h>
+#include <wend/decision/distance.h>
+#include <wend/medium/transmittance.h>
+
+namespace wend {
+namespace {
+
+Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput, float u) {
+    const Rgb extinction = medium.extinction();
+    const Rgb probability = channel_probabilities(throughput);
+    const int channel = choose_channel(probability, u);
+    Flight flight;
+    flight.distance = length;
+    if (extinction[channel] > 0) {
+        const float t = to_exponential(u, extinction[channel]);
+        if (t < length) {
+            flight.scatters = true;
+            flight.distance = t;
+        }
+    }
+    if (!is_black(medium.emission)) {
+        // The light of the whole segment, whether the walk goes on from its end or not: its expected value has no variance.
+        for (int c = 0; c < 3; ++c) {
+            const float sigma = extinction[c];
+            flight.emitted[c] = medium.emission[c] * (sigma * length > 1e-4f ? -std::expm1(-sigma * length) / sigma : length);
+        }
+    }
+    const Rgb transmitted = transmittance(medium, flight.distance);
+    if (flight.scatters) {
+        const float density = dot(probability, extinction * transmitted);
+        flight.weight = density > 0 ? medium.scattering * transmitted * (1 / density) : Rgb(0.0f);
+    } else {
+        const float density = dot(probability, transmitted);
+        flight.weight = density > 0 ? transmitted * (1 / density) : Rgb(0.0f);
+    }
+    return flight;
+}
+
+Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& throughput, Pcg32& random) {
+    Flight flight;
+    flight.distance = length;
+    flight.weight = Rgb(1.0f);
+    flight.emitted = Rgb(0.0f);
+    const Rgb& extinction = medium.extinction();
+    const float largest = max_value(extinction);
+    if (!(largest > 0)) {
+        return flight;
+    }
+    const auto index_ray = medium.to_index(ray);
+    const GridEmission* emission = medium.emission();
+    const Rgb relative = extinction / largest;
+    const bool grey = relative.r == relative.g && relative.g == relative.b;
+    Rgb probability = channel_probabilities(throughput);
+
+    // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the majorant is then the
+    // same in all channels and cancels. Which of them are real is decided for the mixture of channels.
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, length,
+                            [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        const float rate = largest * cell.maximum;
+        if (!(rate > 0)) {
+            return true;
+        }
+        for (float t = t_in;;) {
+            t += to_exponential(random.uniform(), rate);
+            if (t >= t_out) {
+                return true;
+            }
+            const float u = random.uniform() * cell.maximum;
+            const float acceptance = grey ? 1.0f : dot(probability, relative);
+            if (grey && !emission && u < cell.minimum) {
+                // Certainly real: no need to look.
+            } else {
+                const Vec3 p = index_ray.at(t);
+                const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+                const float density = medium.density().sample_nearest(p, corner);
+                if (emission) {
+                    flight.emitted += flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
+                }
+                if (!(u < acceptance * density)) {
+                    if (!grey) {
+                        const float none = 1 / (cell.maximum - acceptance * density);
+                        flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
+                        probability = channel_probabilities(throughput * flight.weight);
+                    }
+                    continue;
+                }
+            }
+            flight.scatters = true;
+            flight.distance = t;
+            flight.weight *= medium.scattering() * (1 / (largest * acceptance));
+            return false;
+        }
+    });
+    return flight;
+}
+
+}  // namespace
+
+Flight ClassicalDistance::sample(const Medium& medium, const Ray& ray, float length, const Rgb& throughput, float u,
+                                 Pcg32& random) const {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+        return fly(*homogeneous, length, throughput, u);
+    }
+    return fly(std::get<GridMedium>(medium), ray, length, throughput, random);
+}
+
+Rgb ClassicalDistance::pass_probability(const Medium& medium, const Ray&, float length) const {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+        return transmittance(*homogeneous, length);
+    }
+    return Rgb(1.0f);
+}
+
+}  // namespace wend

@@ -1,0 +1,93 @@
+// Participating media: what they are made of. How to walk through them is for medium/tracking.h and decision/.
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/core/ray.h>
+#include <wend/core/transform.h>
+#include <wend/medium/grid.h>
+#include <wend/medium/majorant_grid.h>
+#include <wend/medium/phase.h>
+
+#include <memory>
+#include <vector>
+#include <variant>
+
+namespace wend {
+
+/// A medium that is the same everywhere. Coefficients are per scene unit.
+struct HomogeneousMedium {
+    Rgb absorption;
+    Rgb scattering;
+    Rgb emission;  ///< radiance emitted per unit length: absorption coefficient times the emitter's radiance
+    PhaseFunction phase;
+
+    Rgb extinction() const { return absorption + scattering; }
+};
+
+/// Light that a heterogeneous medium emits: radiance per unit length is the absorption coefficient times at().
+struct GridEmission {
+    /// Emitted radiance where `field` is 1, or what multiplies the black body.
+    Rgb radiance;
+    std::shared_ptr<const Grid> field;  ///< scale or temperature; null: emits wherever it absorbs
+    AffineMap field_from_world;
+    /// Radiance of a black body at 0, step, 2 step, ... kelvin; empty if `field` is a plain scale.
+    std::vector<Rgb> black_body;
+    float black_body_step = 10;
+    float temperature_offset = 0;
+    float temperature_scale = 1;
+
+    /// Radiance of the emitter at a point in the world.
+    Rgb at(const Vec3& p) const;
+};
+
+/// A medium whose coefficients vary in proportion to a density grid.
+class GridMedium {
+public:
+    /// Coefficients are per scene unit at density 1. `box` (index space) is where the medium is; density outside is not looked at.
+    GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box, const Rgb& absorption,
+               const Rgb& scattering, const PhaseFunction& phase, std::shared_ptr<const GridEmission> emission = nullptr);
+
+    const Rgb& absorption() const { return absorption_; }
+    const Rgb& scattering() const { return scattering_; }
+    /// Extinction at density 1.
+    const Rgb& extinction() const { return extinction_; }
+    const PhaseFunction& phase() const { return phase_; }
+    const GridEmission* emission() const { return emission_.get(); }
+    const Grid& density() const { return *density_; }
+    const MajorantGrid& majorants() const { return majorants_; }
+
+    /// A world-space ray in index space: t stays a distance in the world.
+    struct IndexRay {
+        Vec3 origin;
+        Vec3 direction;
+        Vec3 at(float t) const { return origin + direction * t; }
+    };
+    IndexRay to_index(const Ray& ray) const {
+        return {index_from_world_.point(ray.origin), index_from_world_.vector(ray.direction)};
+    }
+
+private:
+    std::shared_ptr<const Grid> density_;
+    AffineMap index_from_world_;
+    MajorantGrid majorants_;
+    Rgb absorption_;
+    Rgb scattering_;
+    Rgb extinction_;
+    PhaseFunction phase_;
+    std::shared_ptr<const GridEmission> emission_;
+};
+
+/// The closed set of media.
+using Medium = std::variant<HomogeneousMedium, GridMedium>;
+
+inline const PhaseFunction& phase_function(const Medium& medium) {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+        return homogeneous->phase;
+    }
+    return std::get<GridMedium>(medium).phase();
+}
+
+/// Single-scattering albedo (the same at every density).
+Rgb albedo(const Medium& medium);
+
+}  // namespace wend

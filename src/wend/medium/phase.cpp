@@ -1,0 +1,41 @@
+#include <wend/core/contracts.h>
+#include <wend/medium/phase.h>
+
+namespace wend {
+
+void HenyeyGreensteinMixture::add(float weight, float g) {
+    WEND_EXPECT(count_ < max_lobes && weight > 0 && std::abs(g) < 1);
+    weight_[static_cast<std::size_t>(count_)] = weight;
+    lobe_[static_cast<std::size_t>(count_)] = {g};
+    total_ += weight;
+    ++count_;
+}
+
+float HenyeyGreensteinMixture::evaluate(float cosine) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+        sum += weight_[i] * lobe_[i].evaluate(cosine);
+    }
+    return sum / total_;
+}
+
+float HenyeyGreensteinMixture::sample_cosine(float u) const {
+    float rest = u * total_;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+        if (rest < weight_[i] || i + 1 == static_cast<std::size_t>(count_)) {
+            return lobe_[i].sample_cosine(std::min(rest / weight_[i], one_minus_epsilon));
+        }
+        rest -= weight_[i];
+    }
+    return 1;
+}
+
+float HenyeyGreensteinMixture::mean_cosine() const {
+    float sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+        sum += weight_[i] * lobe_[i].g;
+    }
+    return sum / total_;
+}
+
+}  // namespace wend

@@ -1,0 +1,80 @@
+// Phase functions. A cosine is that between the directions of propagation before and after the collision: 1 is straight on. All
+// densities are per steradian and normalized, so evaluate() is also the density of sample().
+#pragma once
+
+#include <wend/core/frame.h>
+#include <wend/sampling/warp.h>
+
+#include <array>
+#include <variant>
+
+namespace wend {
+
+/// Henyey and Greenstein's phase function with mean cosine g in (-1, 1).
+struct HenyeyGreenstein {
+    float g = 0;
+
+    float evaluate(float cosine) const {
+        const float d = 1 + g * (g - 2 * cosine);
+        return inv_4pi * (1 - g * g) / (d * std::sqrt(d));
+    }
+
+    /// Inverts the cumulative distribution, which grows with the cosine; u in [0,1). The first form has no
+    /// cancellation near g = 0, the second is accurate near |g| = 1; both are exact.
+    float sample_cosine(float u) const {
+        const float t = 2 * u - 1;
+        if (std::abs(g) < 0.5f) {
+            const float numerator = t + g * (0.5f * (3 + t * t) + g * (t + g * 0.5f * (t * t - 1)));
+            return std::clamp(numerator / sqr(1 + g * t), -1.0f, 1.0f);
+        }
+        const float s = (1 - g * g) / (1 + g * t);
+        return std::clamp((1 + g * g - s * s) / (2 * g), -1.0f, 1.0f);
+    }
+
+    float mean_cosine() const { return g; }
+};
+
+/// A convex combination of up to four Henyey-Greenstein functions.
+class HenyeyGreensteinMixture {
+public:
+    static constexpr int max_lobes = 4;
+
+    /// Adds a lobe; weights are relative and must be positive.
+    void add(float weight, float g);
+
+    float evaluate(float cosine) const;
+    float sample_cosine(float u) const;
+    float mean_cosine() const;
+
+private:
+    int count_ = 0;
+    float total_ = 0;
+    std::array<float, max_lobes> weight_{};
+    std::array<HenyeyGreenstein, max_lobes> lobe_{};
+};
+
+/// The closed set of phase functions.
+class PhaseFunction {
+public:
+    using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture>;
+
+    PhaseFunction() = default;
+    PhaseFunction(Variant kind) : kind_(std::move(kind)) {}
+
+    float evaluate(float cosine) const {
+        return std::visit([&](const auto& p) { return p.evaluate(cosine); }, kind_);
+    }
+    /// A direction of propagation after the collision, given the one before.
+    Vec3 sample(const Vec3& before, const Vec2& u) const {
+        const float cosine = std::visit([&](const auto& p) { return p.sample_cosine(u.x); }, kind_);
+        return Frame::from_z(before).to_world(direction_from_cosine(cosine, u.y));
+    }
+    float mean_cosine() const {
+        return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
+    }
+
+private:
+    Variant kind_;
+};
+
+}  // namespace wend

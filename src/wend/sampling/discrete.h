@@ -1,0 +1,53 @@
+#pragma once
+
+#include <wend/core/vector.h>
+
+#include <span>
+#include <vector>
+
+namespace wend {
+
+/// Draws indices with probability proportional to given weights, in constant time (Walker's alias method).
+class AliasTable {
+public:
+    AliasTable() = default;
+    /// Weights must be finite and not negative; all zero means uniform.
+    explicit AliasTable(std::span<const float> weights);
+
+    /// An index for u in [0,1).
+    int sample(float u) const;
+    /// The probability of an index.
+    float probability(int index) const { return entries_[static_cast<std::size_t>(index)].probability; }
+    int size() const { return static_cast<int>(entries_.size()); }
+
+private:
+    struct Entry {
+        float threshold = 1;
+        int alias = 0;
+        float probability = 0;
+    };
+    std::vector<Entry> entries_;
+};
+
+/// A density on [0,1)² that is constant over the cells of a regular grid.
+class PiecewiseConstant2D {
+public:
+    PiecewiseConstant2D() = default;
+    /// Row-major weights of width x height cells, finite and not negative; all zero means uniform.
+    PiecewiseConstant2D(std::span<const float> weights, int width, int height);
+
+    struct Sample {
+        Vec2 point;
+        float density;
+    };
+    Sample sample(const Vec2& u) const;
+    float density(const Vec2& point) const;
+
+private:
+    int width_ = 0;
+    int height_ = 0;
+    std::vector<float> rows_;        // cumulative over rows, height + 1 entries from 0 to 1
+    std::vector<float> columns_;     // cumulative within each row, width + 1 entries a row
+};
+
+}  // namespace wend

@@ -1,0 +1,31 @@
+#include <wend/medium/fresnel.h>
+#include <wend/scene/bsdf/bsdf.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+Rgb albedo(const LambertBsdf& b, const Vec3&) {
+    return b.reflectance;
+}
+Rgb albedo(const ConductorBsdf& b, const Vec3& wo) {
+    const float cosine = std::abs(wo.z);
+    return {fresnel_conductor(cosine, b.eta.r, b.k.r), fresnel_conductor(cosine, b.eta.g, b.k.g),
+            fresnel_conductor(cosine, b.eta.b, b.k.b)};
+}
+Rgb albedo(const DielectricBsdf&, const Vec3&) {
+    return Rgb(1.0f);
+}
+Rgb albedo(const CoatedDiffuseBsdf& b, const Vec3& wo) {
+    const float f = fresnel_dielectric(std::abs(wo.z), b.ior);
+    return Rgb(f) + b.reflectance * (1 - f);
+}
+
+}  // namespace
+
+Rgb directional_albedo(const Bsdf& bsdf, const Vec3& wo) {
+    return std::visit([&](const auto& b) { return albedo(b, wo); }, bsdf);
+}
+
+}  // namespace wend

@@ -1,0 +1,119 @@
+#include <wend/medium/fresnel.h>
+#include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/bsdf/microfacet.h>
+
+namespace wend {
+namespace {
+
+/// The microfacet that reflects or refracts wo into wi, and the ratio of indices beyond and before (1 for a reflection).
+struct Facet {
+    Vec3 normal;
+    float index_ratio;
+    bool reflects;
+};
+
+std::optional<Facet> facet_between(const DielectricBsdf& b, const Vec3& wo, const Vec3& wi) {
+    if (wo.z == 0 || wi.z == 0) {
+        return std::nullopt;
+    }
+    const bool reflects = wo.z * wi.z > 0;
+    const float ratio = reflects ? 1.0f : (wo.z > 0 ? b.ior : 1 / b.ior);
+    Vec3 m = wi * ratio + wo;
+    if (length_squared(m) == 0) {
+        return std::nullopt;
+    }
+    m = normalize(m);
+    m = m.z < 0 ? -m : m;
+    // Facets seen from behind do not exist.
+    if (dot(m, wi) * wi.z < 0 || dot(m, wo) * wo.z < 0) {
+        return std::nullopt;
+    }
+    return Facet{m, ratio, reflects};
+}
+
+}  // namespace
+
+bool DielectricBsdf::is_specular() const {
+    return ior == 1 || Microfacets::is_smooth(alpha_x, alpha_y);
+}
+
+Rgb DielectricBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
+    if (is_specular()) {
+        return Rgb(0.0f);
+    }
+    const auto facet = facet_between(*this, wo, wi);
+    if (!facet) {
+        return Rgb(0.0f);
+    }
+    const Microfacets facets(alpha_x, alpha_y);
+    const Vec3& m = facet->normal;
+    const float f = fresnel_dielectric(dot(wo, m), ior);
+    if (facet->reflects) {
+        return Rgb(facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
+    }
+    const float n = facet->index_ratio;
+    const float denominator = sqr(dot(wi, m) + dot(wo, m) / n);
+    // The factor 1/n² is that of radiance.
+    return Rgb((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) / (denominator * std::abs(wo.z) * n * n));
+}
+
+float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
+    if (is_specular()) {
+        return 0;
+    }
+    const auto facet = facet_between(*this, wo, wi);
+    if (!facet) {
+        return 0;
+    }
+    const Microfacets facets(alpha_x, alpha_y);
+    const Vec3& m = facet->normal;
+    const float f = fresnel_dielectric(dot(wo, m), ior);
+    if (facet->reflects) {
+        return f * facets.visible_density(wo, m) / (4 * abs_dot(wo, m));
+    }
+    const float denominator = sqr(dot(wi, m) + dot(wo, m) / facet->index_ratio);
+    return (1 - f) * facets.visible_density(wo, m) * abs_dot(wi, m) / denominator;
+}
+
+std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const Vec2& u2) const {
+    if (wo.z == 0) {
+        return std::nullopt;
+    }
+    const bool specular = is_specular();
+    const Vec3 m = specular ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
+    const float f = fresnel_dielectric(dot(wo, m), ior);
+    if (u < f) {
+        const Vec3 wi = m * (2 * dot(wo, m)) - wo;
+        if (specular) {
+            return BsdfSample{wi, Rgb(f), f, true};
+        }
+        const float p = density(wo, wi);
+        if (!(wo.z * wi.z > 0) || !(p > 0)) {
+            return std::nullopt;
+        }
+        return BsdfSample{wi, evaluate(wo, wi), p};
+    }
+    const auto refraction = refract(wo, m, ior);
+    if (!refraction || wo.z * refraction->direction.z > 0 || refraction->direction.z == 0) {
+        return std::nullopt;
+    }
+    const Vec3& wi = refraction->direction;
+    if (specular) {
+        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - f, true};
+    }
+    const float p = density(wo, wi);
+    if (!(p > 0)) {
+        return std::nullopt;
+    }
+    return BsdfSample{wi, evaluate(wo, wi), p};
+}
+
+float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
+    const auto* b = std::get_if<DielectricBsdf>(&bsdf);
+    if (!b || wo.z * wi.z >= 0) {
+        return 1;
+    }
+    return wo.z > 0 ? b->ior : 1 / b->ior;
+}
+
+}  // namespace wend

@@ -1,0 +1,60 @@
+#include <wend/sampling/warp.h>
+#include <wend/scene/camera.h>
+#include <wend/scene/light.h>
+
+namespace wend {
+namespace {
+
+Vec2 on_screen(const ScreenWindow& s, const Vec2& p) {
+    return {s.x_min + p.x * (s.x_max - s.x_min), s.y_max - p.y * (s.y_max - s.y_min)};
+}
+
+/// Through a lens of the given radius, focused on the plane z = focal distance.
+Ray through_lens(const Ray& pinhole, float lens_radius, float focal_distance, const Vec2& u) {
+    if (!(lens_radius > 0)) {
+        return pinhole;
+    }
+    const Vec2 lens = to_disk(u) * lens_radius;
+    const Vec3 focus = pinhole.at(focal_distance / pinhole.direction.z);
+    const Vec3 origin = pinhole.origin + Vec3(lens.x, lens.y, 0);
+    return {origin, normalize(focus - origin)};
+}
+
+Ray local_ray(const PerspectiveCamera& c, const Vec2& p, const Vec2& lens) {
+    const Vec2 s = on_screen(c.screen, p);
+    return through_lens({{0, 0, 0}, normalize(Vec3(s.x, s.y, 1))}, c.lens_radius, c.focal_distance, lens);
+}
+
+Ray local_ray(const OrthographicCamera& c, const Vec2& p, const Vec2& lens) {
+    const Vec2 s = on_screen(c.screen, p);
+    return through_lens({{s.x, s.y, 0}, {0, 0, 1}}, c.lens_radius, c.focal_distance, lens);
+}
+
+Ray local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
+    Vec3 d;
+    if (c.mapping == SphericalCamera::Mapping::equirectangular) {
+        const float theta = pi * p.y;
+        const float phi = 2 * pi * p.x;
+        d = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+    } else {
+        // Points that the pixel filter moves over the edge come back in by reflection, where the mapping is continuous.
+        const auto mirror = [](float x) { return x < 0 ? -x : (x > 1 ? 2 - x : x); };
+        const bool over_x = p.x < 0 || p.x > 1;
+        const bool over_y = p.y < 0 || p.y > 1;
+        const float x = mirror(p.x);
+        const float y = mirror(p.y);
+        d = equal_area_square_to_sphere({over_y ? 1 - x : x, over_x ? 1 - y : y});
+    }
+    // The mappings have z up, the camera y.
+    return {{0, 0, 0}, {d.x, d.z, d.y}};
+}
+
+}  // namespace
+
+Ray Camera::ray(const Vec2& film, const Vec2& lens) const {
+    const Vec2 p(film.x / static_cast<float>(width_), film.y / static_cast<float>(height_));
+    const Ray local = std::visit([&](const auto& c) { return local_ray(c, p, lens); }, kind_);
+    return {world_from_camera_.point(local.origin), normalize(world_from_camera_.vector(local.direction))};
+}
+
+}  // namespace wend

@@ -1,0 +1,273 @@
+#include <wend/core/frame.h>
+#include <wend/core/ray.h>
+#include <wend/sampling/warp.h>
+#include <wend/scene/light.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// Connection to a point on an area light, given the density of the point per world area.
+std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& normal, float area_density, const Light& light) {
+    const Vec3 d = q - p;
+    const float d2 = length_squared(d);
+    if (!(d2 > 0)) {
+        return std::nullopt;
+    }
+    const float distance = std::sqrt(d2);
+    const Vec3 w = d / distance;
+    const float cosine = abs_dot(normal, w);
+    const Rgb radiance = emitted_radiance(light, normal, -w);
+    if (is_black(radiance) || !(cosine > 1e-7f)) {
+        return std::nullopt;
+    }
+    return LightSample{w, distance, radiance, area_density * d2 / cosine, false};
+}
+
+/// The part of a full sphere that a point (object space) outside it can see: a cap around the direction to the point.
+struct Cap {
+    Vec3 axis;
+    float height_fraction;  ///< of the sphere's area
+};
+Cap visible_cap(const Sphere& sphere, const Vec3& from) {
+    const float distance = length(from);
+    if (!sphere.is_full() || distance <= sphere.radius) {
+        return {{0, 0, 1}, 1};
+    }
+    return {from / distance, 0.5f * (1 - sphere.radius / distance)};
+}
+
+struct ShapePoint {
+    Vec3 position;
+    Vec3 normal;
+    float density;  ///< per object-space area
+};
+
+ShapePoint sample_shape(const Sphere& s, const Vec3& from, float area, const Vec2& u) {
+    if (!s.is_full()) {
+        const float z_low = std::max(s.z_min, -s.radius);
+        const float z_high = std::min(s.z_max, s.radius);
+        const float z = z_low + u.x * (z_high - z_low);
+        const float r = safe_sqrt(s.radius * s.radius - z * z);
+        const float phi = u.y * s.phi_max;
+        const Vec3 p(r * std::cos(phi), r * std::sin(phi), z);
+        return {p, p, 1 / area};
+    }
+    const Cap cap = visible_cap(s, from);
+    const Vec3 n = Frame::from_z(cap.axis).to_world(to_cone(u, 2 * cap.height_fraction));
+    return {n * s.radius, n, 1 / (area * cap.height_fraction)};
+}
+
+ShapePoint sample_shape(const Disk& s, const Vec3&, float area, const Vec2& u) {
+    const float r = std::sqrt(sqr(s.inner_radius) + u.x * (sqr(s.radius) - sqr(s.inner_radius)));
+    const float phi = u.y * s.phi_max;
+    return {{r * std::cos(phi), r * std::sin(phi), s.height}, {0, 0, 1}, 1 / area};
+}
+
+/// Density per object-space area with which sample_shape yields the object-space point q.
+float shape_density(const Sphere& s, const Vec3& from, float area, const Vec3& q) {
+    const Cap cap = visible_cap(s, from);
+    if (cap.height_fraction < 1 && dot(q, cap.axis) < s.radius * (1 - 2 * cap.height_fraction)) {
+        return 0;
+    }
+    return 1 / (area * cap.height_fraction);
+}
+
+float shape_density(const Disk&, const Vec3&, float area, const Vec3&) {
+    return 1 / area;
+}
+
+/// World area of a small patch over its object area, where the object-space unit normal is n.
+float area_stretch(const QuadricLight& light, const Vec3& n) {
+    return light.determinant * length(light.quadric->object_from_world.transposed_vector(n));
+}
+
+std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2&, const Light&) {
+    const Vec3 d = l.position - p;
+    const float d2 = length_squared(d);
+    if (!(d2 > 0)) {
+        return std::nullopt;
+    }
+    const float distance = std::sqrt(d2);
+    return LightSample{d / distance, distance, l.intensity / d2, 1, true};
+}
+std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&) {
+    return LightSample{l.direction, infinity, l.radiance, 1, true};
+}
+std::optional<LightSample> sample(const UniformInfiniteLight& l, const Vec3&, const Vec2& u, const Light&) {
+    return LightSample{to_sphere(u), infinity, l.radiance, inv_4pi, false};
+}
+std::optional<LightSample> sample(const ImageInfiniteLight& l, const Vec3&, const Vec2& u, const Light&) {
+    const LightSample s = l.sample(u);
+    return s.density > 0 ? std::optional(s) : std::nullopt;
+}
+std::optional<LightSample> sample(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light) {
+    const Vec2 b = to_triangle(u);
+    return connect(p, l.p0 * (1 - b.x - b.y) + l.p1 * b.x + l.p2 * b.y, l.normal, 1 / l.area, light);
+}
+std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light) {
+    const Quadric& quadric = *l.quadric;
+    const Vec3 from = quadric.object_from_world.point(p);
+    const ShapePoint point =
+        std::visit([&](const auto& s) { return sample_shape(s, from, l.object_area, u); }, quadric.shape);
+    const Vec3 n = normalize(point.normal);
+    const Vec3 world_normal = normalize(quadric.object_from_world.transposed_vector(n)) * l.flip;
+    return connect(p, quadric.world_from_object.point(point.position), world_normal, point.density / area_stretch(l, n), light);
+}
+
+float solid_angle_density(float area_density, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& normal) {
+    const float cosine = abs_dot(normal, direction);
+    return cosine > 1e-7f ? area_density * length_squared(hit - p) / cosine : 0.0f;
+}
+
+}  // namespace
+
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u) {
+    return std::visit([&](const auto& l) { return sample(l, p, u, light); }, light);
+}
+
+float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal) {
+    if (const auto* triangle = std::get_if<TriangleLight>(&light)) {
+        return solid_angle_density(1 / triangle->area, p, direction, hit, hit_normal);
+    }
+    if (const auto* l = std::get_if<QuadricLight>(&light)) {
+        const Quadric& quadric = *l->quadric;
+        const Vec3 from = quadric.object_from_world.point(p);
+        const Vec3 q = quadric.object_from_world.point(hit);
+        const float density =
+            std::visit([&](const auto& s) { return shape_density(s, from, l->object_area, q); }, quadric.shape);
+        const Vec3 n = std::holds_alternative<Sphere>(quadric.shape) ? normalize(q) : Vec3(0, 0, 1);
+        return solid_angle_density(density / area_stretch(*l, n), p, direction, hit, hit_normal);
+    }
+    if (std::holds_alternative<UniformInfiniteLight>(light)) {
+        return inv_4pi;
+    }
+    if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
+        return image->density(direction);
+    }
+    return 0;
+}
+
+Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec3& w) {
+    const auto from_side = [&](const Rgb& radiance, bool two_sided) {
+        return two_sided || dot(normal, w) > 0 ? radiance : Rgb(0.0f);
+    };
+    if (const auto* triangle = std::get_if<TriangleLight>(&light)) {
+        return from_side(triangle->radiance, triangle->two_sided);
+    }
+    if (const auto* quadric = std::get_if<QuadricLight>(&light)) {
+        return from_side(quadric->radiance, quadric->two_sided);
+    }
+    return Rgb(0.0f);
+}
+
+Rgb environment_radiance(const Light& light, const Vec3& direction) {
+    if (const auto* uniform = std::get_if<UniformInfiniteLight>(&light)) {
+        return uniform->radiance;
+    }
+    if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
+        return image->radiance(direction);
+    }
+    return Rgb(0.0f);
+}
+
+bool is_at_infinity(const Light& light) {
+    return std::holds_alternative<UniformInfiniteLight>(light) || std::holds_alternative<ImageInfiniteLight>(light) ||
+           std::holds_alternative<DistantLight>(light);
+}
+
+float light_power(const Light& light, float scene_radius) {
+    struct Power {
+        float disk;
+        float operator()(const PointLight& l) const { return 4 * pi * mean(l.intensity); }
+        float operator()(const DistantLight& l) const { return disk * mean(l.radiance); }
+        float operator()(const UniformInfiniteLight& l) const { return 4 * pi * disk * mean(l.radiance); }
+        float operator()(const ImageInfiniteLight& l) const { return 4 * pi * disk * mean(l.mean_radiance()); }
+        float operator()(const TriangleLight& l) const { return (l.two_sided ? 2 : 1) * pi * l.area * mean(l.radiance); }
+        float operator()(const QuadricLight& l) const {
+            return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean(l.radiance);
+        }
+    };
+    return std::visit(Power{pi * scene_radius * scene_radius}, light);
+}
+
+TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance, bool two_sided) {
+    const Vec3 n = cross(p1 - p0, p2 - p0);
+    const float l = length(n);
+    return {p0, p1, p2, l > 0 ? n * ((flip ? -1 : 1) / l) : Vec3(0, 0, 1), 0.5f * l, radiance, two_sided};
+}
+
+QuadricLight make_quadric_light(std::shared_ptr<const Quadric> quadric, const Transform& world_from_object, bool flip,
+                                const Rgb& radiance, bool two_sided) {
+    struct Area {
+        float operator()(const Sphere& s) const {
+            return s.phi_max * s.radius * (std::min(s.z_max, s.radius) - std::max(s.z_min, -s.radius));
+        }
+        float operator()(const Disk& s) const { return 0.5f * s.phi_max * (sqr(s.radius) - sqr(s.inner_radius)); }
+    };
+    const float area = std::visit(Area{}, quadric->shape);
+    return {std::move(quadric), flip ? -1.0f : 1.0f, radiance, two_sided, area,
+            static_cast<float>(std::abs(world_from_object.determinant()))};
+}
+
+Vec3 equal_area_square_to_sphere(const Vec2& p) {
+    const float u = 2 * p.x - 1;
+    const float v = 2 * p.y - 1;
+    const float signed_distance = 1 - (std::abs(u) + std::abs(v));
+    const float r = 1 - std::abs(signed_distance);
+    const float phi = (r == 0 ? 1 : (std::abs(v) - std::abs(u)) / r + 1) * (pi / 4);
+    const float scale = r * safe_sqrt(2 - r * r);
+    return {std::copysign(std::cos(phi) * scale, u), std::copysign(std::sin(phi) * scale, v),
+            std::copysign(1 - r * r, signed_distance)};
+}
+
+Vec2 equal_area_sphere_to_square(const Vec3& d) {
+    const float x = std::abs(d.x);
+    const float y = std::abs(d.y);
+    const float r = safe_sqrt(1 - std::abs(d.z));
+    const float phi = (x == 0 && y == 0) ? 0.0f : std::atan2(y, x) * (2 / pi);
+    float v = phi * r;
+    float u = r - v;
+    if (d.z < 0) {
+        std::swap(u, v);
+        u = 1 - u;
+        v = 1 - v;
+    }
+    return {0.5f * (std::copysign(u, d.x) + 1), 0.5f * (std::copysign(v, d.y) + 1)};
+}
+
+ImageInfiniteLight::ImageInfiniteLight(Image image, float scale, const Transform& world_from_light)
+    : image_(std::move(image)), scale_(scale), world_from_light_(world_from_light), light_from_world_(world_from_light.inverse()) {
+    std::vector<float> weights;
+    weights.reserve(image_.pixels.size());
+    Rgb sum;
+    for (const Rgb& pixel : image_.pixels) {
+        weights.push_back(std::max(0.0f, mean(pixel)));
+        sum += pixel;
+    }
+    mean_ = sum * (scale / static_cast<float>(image_.pixels.size()));
+    distribution_ = PiecewiseConstant2D(weights, image_.width, image_.height);
+}
+
+Rgb ImageInfiniteLight::texel(int x, int y) const {
+    return image_.at(std::clamp(x, 0, image_.width - 1), std::clamp(y, 0, image_.height - 1)) * scale_;
+}
+
+Rgb ImageInfiniteLight::radiance(const Vec3& direction) const {
+    const Vec2 uv = equal_area_sphere_to_square(normalize(light_from_world_.vector(direction)));
+    return texel(static_cast<int>(uv.x * static_cast<float>(image_.width)), static_cast<int>(uv.y * static_cast<float>(image_.height)));
+}
+
+float ImageInfiniteLight::density(const Vec3& direction) const {
+    return distribution_.density(equal_area_sphere_to_square(normalize(light_from_world_.vector(direction)))) * inv_4pi;
+}
+
+LightSample ImageInfiniteLight::sample(const Vec2& u) const {
+    const auto s = distribution_.sample(u);
+    const Vec3 w = normalize(world_from_light_.vector(equal_area_square_to_sphere(s.point)));
+    return {w, infinity, radiance(w), density(w), false};
+}
+
+}  // namespace wend

@@ -1,0 +1,113 @@
+// Light sources. A light is sampled from a point that it may illuminate.
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/core/transform.h>
+#include <wend/film/image.h>
+#include <wend/sampling/discrete.h>
+#include <wend/scene/shape.h>
+
+#include <memory>
+#include <optional>
+#include <variant>
+
+namespace wend {
+
+/// A sampled connection to a light.
+struct LightSample {
+    Vec3 direction;           ///< towards the light, unit length
+    float distance = 0;       ///< infinity for lights at infinity
+    Rgb radiance;             ///< arriving without any loss; for point-like lights irradiance on a facing surface
+    float density = 0;        ///< per steradian; 1 for point-like lights
+    bool point_like = false;  ///< cannot be hit by a ray
+};
+
+/// An isotropic point source; intensity in power per steradian.
+struct PointLight {
+    Vec3 position;
+    Rgb intensity;
+};
+
+/// Parallel light, `direction` towards the source; `radiance` is the irradiance on a facing surface.
+struct DistantLight {
+    Vec3 direction;
+    Rgb radiance;
+};
+
+/// The same radiance from everywhere.
+struct UniformInfiniteLight {
+    Rgb radiance;
+};
+
+/// Radiance from infinity by direction: a square picture in the equal-area octahedral mapping (clarberg2008), as pbrt-v4 has it.
+class ImageInfiniteLight {
+public:
+    ImageInfiniteLight(Image image, float scale, const Transform& world_from_light);
+
+    Rgb radiance(const Vec3& direction) const;
+    float density(const Vec3& direction) const;
+    LightSample sample(const Vec2& u) const;
+    Rgb mean_radiance() const { return mean_; }
+
+private:
+    Rgb texel(int x, int y) const;
+
+    Image image_;
+    float scale_;
+    AffineMap world_from_light_;
+    AffineMap light_from_world_;
+    PiecewiseConstant2D distribution_;
+    Rgb mean_;
+};
+
+/// A triangle that emits from the side its normal points to, or from both.
+struct TriangleLight {
+    Vec3 p0, p1, p2;
+    Vec3 normal;  ///< unit length, the emitting side
+    float area = 0;
+    Rgb radiance;
+    bool two_sided = false;
+};
+
+/// An emitting sphere or disk, sampled uniformly by area in its own space, a sphere from outside only on the side that can be seen.
+struct QuadricLight {
+    std::shared_ptr<const Quadric> quadric;
+    float flip = 1;  ///< -1 where the normal is reversed
+    Rgb radiance;
+    bool two_sided = false;
+    float object_area = 0;
+    float determinant = 1;  ///< absolute volume factor of the map to the world
+};
+
+using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight>;
+
+/// A connection from `p` to the light; none where it cannot shine.
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u);
+
+/// Density per steradian with which sample_light(light, p) yields `direction`, whose ray meets an area light at `hit` with unit normal
+/// `hit_normal` (both ignored for lights at infinity).
+float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal);
+
+/// Radiance that leaves an area light at a point with the given unit geometric normal towards w.
+Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec3& w);
+
+/// Radiance that arrives from infinity along -direction; black for other lights.
+Rgb environment_radiance(const Light& light, const Vec3& direction);
+
+bool is_at_infinity(const Light& light);
+
+/// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at infinity reach.
+float light_power(const Light& light, float scene_radius);
+
+/// Area light of a triangle; `flip` reverses its normal.
+TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance, bool two_sided);
+
+/// Area light of a quadric.
+QuadricLight make_quadric_light(std::shared_ptr<const Quadric> quadric, const Transform& world_from_object, bool flip,
+                                const Rgb& radiance, bool two_sided);
+
+/// Unit square to unit sphere and back, preserving area (clarberg2008).
+Vec3 equal_area_square_to_sphere(const Vec2& p);
+Vec2 equal_area_sphere_to_square(const Vec3& d);
+
+}  // namespace wend

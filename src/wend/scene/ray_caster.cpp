@@ -1,0 +1,256 @@
+#include <wend/core/error.h>
+#include <wend/scene/ray_caster.h>
+
+#include <cstring>
+#include <new>
+
+namespace wend {
+namespace {
+
+void bound_quadric(const RTCBoundsFunctionArguments* arguments) {
+    const auto& surface = *static_cast<const Surface*>(arguments->geometryUserPtr);
+    const Box3 box = bounds(std::get<Quadric>(surface.shape));
+    // A flat disk's box must not be empty, nor rounding cut into a sphere.
+    const Vec3 margin = box.size() * 1e-5f + Vec3(1e-6f);
+    *arguments->bounds_o = {box.min.x - margin.x, box.min.y - margin.y, box.min.z - margin.z, 0,
+                            box.max.x + margin.x, box.max.y + margin.y, box.max.z + margin.z, 0};
+}
+
+std::optional<QuadricHit> intersect_quadric(const void* user, const RTCRay& ray) {
+    const auto& quadric = std::get<Quadric>(static_cast<const Surface*>(user)->shape);
+    const Vec3 origin = quadric.object_from_world.point({ray.org_x, ray.org_y, ray.org_z});
+    const Vec3 direction = quadric.object_from_world.vector({ray.dir_x, ray.dir_y, ray.dir_z});
+    QuadricHit hit{};
+    return intersect(quadric, origin, direction, ray.tnear, ray.tfar, hit) ? std::optional(hit) : std::nullopt;
+}
+
+void intersect_quadric_callback(const RTCIntersectFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) {
+        return;
+    }
+    auto* rayhit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    if (const auto hit = intersect_quadric(arguments->geometryUserPtr, rayhit->ray)) {
+        rayhit->ray.tfar = hit->t;
+        rayhit->hit.u = hit->uv.x;
+        rayhit->hit.v = hit->uv.y;
+        rayhit->hit.geomID = arguments->geomID;
+        rayhit->hit.primID = arguments->primID;
+        rayhit->hit.instID[0] = arguments->context->instID[0];
+    }
+}
+
+void occlude_quadric_callback(const RTCOccludedFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) {
+        return;
+    }
+    auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
+    if (intersect_quadric(arguments->geometryUserPtr, *ray)) {
+        ray->tfar = -infinity;
+    }
+}
+
+RTCRay to_embree(const Ray& ray, float distance, unsigned mask) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tnear = 0;
+    r.tfar = distance;
+    r.mask = mask;
+    return r;
+}
+
+template <class T>
+T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
+    void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count);
+    if (!data) {
+        throw std::bad_alloc();
+    }
+    return static_cast<T*>(data);
+}
+
+struct Tangents {
+    Vec3 dpdu;
+    bool valid;
+};
+
+/// dp/du of a triangle from its texture coordinates.
+Tangents tangents(const Vec3& e1, const Vec3& e2, const Vec2& d1, const Vec2& d2) {
+    const float determinant = d1.x * d2.y - d1.y * d2.x;
+    if (std::abs(determinant) < 1e-12f) {
+        return {{}, false};
+    }
+    return {(e1 * d2.y - e2 * d1.y) / determinant, true};
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const SceneDescription& description) : d_(description), device_(rtcNewDevice("isa=avx2")) {
+    if (!device_) {
+        device_.reset(rtcNewDevice("isa=sse4.2"));
+    }
+    if (!device_) {
+        throw std::runtime_error("Embree cannot start on this processor (it needs SSE 4.2)");
+    }
+    const auto new_scene = [&](const std::vector<int>& surfaces) {
+        SceneHandle scene(rtcNewScene(device_.get()));
+        rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+        for (const int surface : surfaces) {
+            attach(scene.get(), surface);
+        }
+        return scene;
+    };
+    for (const ObjectDefinition& object : d_.objects) {
+        objects_.push_back(new_scene(object.surfaces));
+        rtcCommitScene(objects_.back().get());
+    }
+    scene_ = new_scene(d_.world_surfaces);
+    for (const Instance& instance : d_.instances) {
+        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, objects_[static_cast<std::size_t>(instance.object)].get());
+        float matrix[12];
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                matrix[column * 3 + row] = static_cast<float>(instance.world_from_object.element(row, column));
+            }
+        }
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+        rtcSetGeometryMask(geometry, everything);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(d_.surfaces.size() + placements_.size()));
+        rtcReleaseGeometry(geometry);
+        placements_.push_back({AffineMap(instance.world_from_object), AffineMap(instance.world_from_object.inverse())});
+    }
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
+        throw std::runtime_error("Embree could not build the acceleration structure");
+    }
+}
+
+void RayCaster::attach(RTCScene scene, int index) {
+    const Surface& surface = d_.surfaces[static_cast<std::size_t>(index)];
+    RTCGeometry geometry = nullptr;
+    if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+        geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = new_buffer<Vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh->positions.size());
+        std::memcpy(vertices, mesh->positions.data(), mesh->positions.size() * sizeof(Vec3));
+        auto* indices = new_buffer<std::uint32_t[3]>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh->triangle_count());
+        std::memcpy(indices, mesh->indices.data(), mesh->indices.size() * sizeof(std::uint32_t));
+    } else {
+        geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, const_cast<Surface*>(&surface));
+        rtcSetGeometryBoundsFunction(geometry, bound_quadric, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_quadric_callback);
+        rtcSetGeometryOccludedFunction(geometry, occlude_quadric_callback);
+    }
+    const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
+    const bool can_pass = std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
+    rtcSetGeometryMask(geometry, can_pass ? interfaces : opaque);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(index));
+    rtcReleaseGeometry(geometry);
+}
+
+std::optional<RayCaster::RawHit> RayCaster::intersect(const Ray& ray, float distance, Visible visible) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query;
+    query.ray = to_embree(ray, distance, visible);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return std::nullopt;
+    }
+    const int instance = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID
+                             ? -1
+                             : static_cast<int>(query.hit.instID[0] - static_cast<unsigned>(d_.surfaces.size()));
+    return RawHit{query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, instance};
+}
+
+bool RayCaster::is_occluded(const Ray& ray, float distance) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = to_embree(ray, distance, opaque);
+    rtcOccluded1(scene_.get(), &context, &query);
+    return query.tfar < 0;
+}
+
+Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
+    Hit hit;
+    hit.distance = raw.distance;
+    hit.surface = &d_.surfaces[raw.surface];
+    hit.primitive = raw.primitive;
+    hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.primitive);
+    Vec3 normal;
+    Vec3 shading;
+    Tangents t{{}, false};
+    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+        const std::uint32_t* i = &mesh->indices[3 * std::size_t{raw.primitive}];
+        const Vec3& p0 = mesh->positions[i[0]];
+        const Vec3 e1 = mesh->positions[i[1]] - p0;
+        const Vec3 e2 = mesh->positions[i[2]] - p0;
+        const float w = 1 - raw.u - raw.v;
+        hit.position = p0 + e1 * raw.u + e2 * raw.v;
+        normal = cross(e1, e2);
+        if (mesh->uvs.empty()) {
+            hit.uv = {raw.u + raw.v, raw.v};  // pbrt's default: (0,0), (1,0), (1,1)
+        } else {
+            const Vec2 uv0 = mesh->uvs[i[0]], uv1 = mesh->uvs[i[1]], uv2 = mesh->uvs[i[2]];
+            hit.uv = uv0 * w + uv1 * raw.u + uv2 * raw.v;
+            t = tangents(e1, e2, uv1 - uv0, uv2 - uv0);
+        }
+        if (mesh->normals.empty()) {
+            normal = hit.surface->flip_normal ? -normal : normal;
+            shading = normal;
+        } else {
+            shading = mesh->normals[i[0]] * w + mesh->normals[i[1]] * raw.u + mesh->normals[i[2]] * raw.v;
+            normal = dot(normal, shading) < 0 ? -normal : normal;
+            shading = length_squared(shading) > 0 ? shading : normal;
+        }
+    } else {
+        const auto& quadric = std::get<Quadric>(hit.surface->shape);
+        Vec3 p = ray.at(raw.distance);
+        if (raw.instance >= 0) {
+            p = placements_[static_cast<std::size_t>(raw.instance)].object_from_world.point(p);
+        }
+        const QuadricPoint point = project(quadric, quadric.object_from_world.point(p));
+        hit.position = quadric.world_from_object.point(point.position);
+        normal = quadric.object_from_world.transposed_vector(point.normal);
+        normal = hit.surface->flip_normal ? -normal : normal;
+        shading = normal;
+        hit.uv = {raw.u, raw.v};
+        t = {quadric.world_from_object.vector(point.dpdu), length_squared(point.dpdu) > 0};
+    }
+    if (raw.instance >= 0) {
+        const Placement& placement = placements_[static_cast<std::size_t>(raw.instance)];
+        hit.position = placement.world_from_object.point(hit.position);
+        normal = placement.object_from_world.transposed_vector(normal);
+        shading = placement.object_from_world.transposed_vector(shading);
+        t.dpdu = placement.world_from_object.vector(t.dpdu);
+    }
+    hit.normal = normalize(normal);
+    const Vec3 n = normalize(shading);
+    const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
+    if (t.valid && length_squared(along) > 1e-14f * length_squared(t.dpdu)) {
+        hit.shading.s = normalize(along);
+        hit.shading.t = cross(n, hit.shading.s);
+        hit.shading.n = n;
+    } else {
+        hit.shading = Frame::from_z(n);
+    }
+    return hit;
+}
+
+Box3 RayCaster::bounds() const {
+    RTCBounds b;
+    rtcGetSceneBounds(scene_.get(), &b);
+    return {Vec3(b.lower_x, b.lower_y, b.lower_z), Vec3(b.upper_x, b.upper_y, b.upper_z)};
+}
+
+}  // namespace wend

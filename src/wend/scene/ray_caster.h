@@ -1,0 +1,60 @@
+#pragma once
+
+#include <wend/core/ray.h>
+#include <wend/scene/scene.h>
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace wend {
+
+/// Embree over the surfaces of a scene. Its instruction set is pinned, so that the same rays hit the same points on every machine.
+class RayCaster {
+public:
+    /// Which surfaces a ray sees.
+    enum Visible : unsigned { opaque = 1, interfaces = 2, everything = 3 };
+
+    /// What Embree reports, to be completed by the surface itself.
+    struct RawHit {
+        float distance;
+        float u, v;
+        unsigned surface;
+        unsigned primitive;
+        int instance;  ///< -1: not an instance
+    };
+
+    /// Refers to the description, which must not move nor change.
+    explicit RayCaster(const SceneDescription& description);
+
+    std::optional<RawHit> intersect(const Ray& ray, float distance, Visible visible) const;
+    bool is_occluded(const Ray& ray, float distance) const;
+
+    /// The hit's place, normals and parameters in the world.
+    Hit complete(const RawHit& raw, const Ray& ray) const;
+    Box3 bounds() const;
+
+private:
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+    using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
+    using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+
+    void attach(RTCScene scene, int surface);
+
+    const SceneDescription& d_;
+    Device device_;
+    std::vector<SceneHandle> objects_;
+    SceneHandle scene_;
+    struct Placement {
+        AffineMap world_from_object;
+        AffineMap object_from_world;
+    };
+    std::vector<Placement> placements_;
+};
+
+}  // namespace wend

@@ -1,0 +1,133 @@
+// The scene that integrators see: immutable once built.
+#pragma once
+
+#include <wend/core/frame.h>
+#include <wend/core/random.h>
+#include <wend/core/ray.h>
+#include <wend/medium/medium.h>
+#include <wend/scene/camera.h>
+#include <wend/scene/light.h>
+#include <wend/scene/light_sampler.h>
+#include <wend/scene/material.h>
+#include <wend/scene/shape.h>
+#include <wend/scene/texture.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace wend {
+
+/// Index of a medium in the scene's list; `vacuum` is none.
+using MediumId = int;
+inline constexpr MediumId vacuum = -1;
+
+/// A shape with what it is made of.
+struct Surface {
+    Shape shape;
+    int material = 0;
+    /// Media on the two sides; the same on both where the surface bounds no medium, and then the walk keeps the medium it is in.
+    MediumId interior = vacuum;
+    MediumId exterior = vacuum;
+    /// The geometric normal points against the shape's own orientation. A mesh with normals follows those instead.
+    bool flip_normal = false;
+    int first_light = -1;           ///< area light of the first primitive, those of the others following; -1: none
+    TextureId alpha = -1;           ///< probability of being there at all; -1: certain
+
+    bool bounds_medium() const { return interior != exterior; }
+};
+
+/// Shapes that are placed several times.
+struct ObjectDefinition {
+    std::vector<int> surfaces;
+};
+struct Instance {
+    int object = 0;
+    Transform world_from_object;
+};
+
+/// What a scene consists of. Indices refer to the vectors here.
+struct SceneDescription {
+    Camera camera;
+    MediumId camera_medium = vacuum;
+    Textures textures;
+    std::vector<Material> materials;
+    std::vector<Medium> media;
+    std::vector<Surface> surfaces;
+    std::vector<int> world_surfaces;  ///< those that are not part of an object definition
+    std::vector<ObjectDefinition> objects;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    bool light_tree = true;           ///< choose lights by the tree, not by power alone
+};
+
+/// Where a ray meets a surface.
+struct Hit {
+    float distance = 0;
+    Vec3 position;
+    Vec3 normal;           ///< geometric, unit length, towards the exterior
+    Frame shading;         ///< z: interpolated normal on the geometric normal's side; x along dp/du
+    Vec2 uv;
+    const Surface* surface = nullptr;
+    std::uint32_t primitive = 0;
+    int light = -1;        ///< area light, if any
+};
+
+/// Embree's structures over the scene's surfaces.
+class RayCaster;
+
+class Scene {
+public:
+    /// Builds the acceleration structures. Throws InputError if the scene holds nothing that can be rendered (no finite vertex ...).
+    explicit Scene(SceneDescription description);
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their probability, decided by
+    /// a hash of the ray, so that the answer is a function of the arguments.
+    std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const;
+    /// Whether anything opaque (no interface) lies within `distance`.
+    bool is_occluded(const Ray& ray, float distance) const;
+    /// The nearest interface or partly transparent surface within `distance`; opaque ones are not seen.
+    std::optional<Hit> intersect_interface(const Ray& ray, float distance) const;
+    /// Whether a surface found by intersect_interface() blocks this ray.
+    bool blocks(const Hit& hit, const Ray& ray) const;
+    /// Whether intersect_interface() can return anything.
+    bool has_interfaces() const { return has_interfaces_; }
+
+    const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(hit.surface->material)]; }
+    bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
+    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, {hit.uv, hit.position}); }
+    /// The medium on the side of the surface that `w` points to, given the one the walk is in.
+    MediumId medium_beyond(const Hit& hit, const Vec3& w, MediumId current) const {
+        if (!hit.surface->bounds_medium()) {
+            return current;
+        }
+        return dot(w, hit.normal) > 0 ? hit.surface->exterior : hit.surface->interior;
+    }
+
+    const Medium& medium(MediumId id) const { return d_.media[static_cast<std::size_t>(id)]; }
+    const std::vector<Medium>& media() const { return d_.media; }
+    const Camera& camera() const { return d_.camera; }
+    MediumId camera_medium() const { return d_.camera_medium; }
+    const std::vector<Light>& lights() const { return d_.lights; }
+    const std::vector<int>& infinite_lights() const { return infinite_lights_; }
+    const LightSampler& light_sampler() const { return *light_sampler_; }
+    /// Bounds of all surfaces.
+    const Box3& bounds() const { return bounds_; }
+
+private:
+    SceneDescription d_;
+    std::unique_ptr<RayCaster> caster_;
+    std::unique_ptr<LightSampler> light_sampler_;
+    std::vector<int> infinite_lights_;
+    Box3 bounds_;
+    bool has_interfaces_ = false;
+};
+
+/// A ray from a surface point into direction w, moved off the surface by no more than rounding requires (waechter2019).
+Ray spawn_ray(const Vec3& position, const Vec3& normal, const Vec3& w);
+
+}  // namespace wend

@@ -1,0 +1,75 @@
+// Shapes as data. World space, except that quadrics keep their own space and the map to the world.
+#pragma once
+
+#include <wend/core/transform.h>
+#include <wend/core/vector.h>
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace wend {
+
+/// Triangles in world space. `normals` and `uvs` are empty or have one entry a vertex.
+struct TriangleMesh {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Vec2> uvs;
+    std::vector<std::uint32_t> indices;  ///< three a triangle
+
+    std::size_t triangle_count() const { return indices.size() / 3; }
+    Vec3 vertex(std::size_t triangle, int corner) const { return positions[indices[3 * triangle + static_cast<std::size_t>(corner)]]; }
+};
+
+/// A sphere around the origin of its space, cut at z_min, z_max and the sweep angle phi_max (radians).
+struct Sphere {
+    float radius = 1;
+    float z_min = -1;
+    float z_max = 1;
+    float phi_max = 6.28318530717958648f;
+
+    bool is_full() const { return z_min <= -radius && z_max >= radius && phi_max >= 6.283185f; }
+};
+
+/// An annulus at z = height.
+struct Disk {
+    float height = 0;
+    float radius = 1;
+    float inner_radius = 0;
+    float phi_max = 6.28318530717958648f;
+};
+
+/// A sphere or disk with its place in the world.
+struct Quadric {
+    std::variant<Sphere, Disk> shape;
+    AffineMap world_from_object;
+    AffineMap object_from_world;
+
+    Quadric(std::variant<Sphere, Disk> s, const Transform& to_world)
+        : shape(std::move(s)), world_from_object(to_world), object_from_world(to_world.inverse()) {}
+};
+
+/// Distance and parameters of a hit on a quadric.
+struct QuadricHit {
+    float t;
+    Vec2 uv;
+};
+
+/// The nearest hit with t in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
+bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max, QuadricHit& hit);
+
+/// A point near the surface moved onto it, its normal (outward; disk: +z) and its tangent along u; object space, not normalized.
+struct QuadricPoint {
+    Vec3 position;
+    Vec3 normal;
+    Vec3 dpdu;
+};
+QuadricPoint project(const Quadric& quadric, const Vec3& p);
+
+/// Bounds in the world.
+Box3 bounds(const Quadric& quadric);
+
+using Shape = std::variant<TriangleMesh, Quadric>;
+
+}  // namespace wend
