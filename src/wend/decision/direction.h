@@ -7,6 +7,8 @@
 
 #include <concepts>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace wend {
 
@@ -52,16 +54,22 @@ public:
     }
 };
 
-/// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance (herholz2019). `A` answers
-/// `incident(position)` with an optional IncidentRadiance; surfaces and volumes have an adjoint each.
-template <Adjoint A>
+/// Adjoints by place: the one that answers around a position, or null where nothing is known.
+template <class F>
+concept AdjointField = requires(const F& field, const Vec3& position) {
+    { *field.find(position) } -> Adjoint;
+};
+
+/// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance (herholz2019). Surfaces and
+/// volumes have a field each.
+template <AdjointField Field>
 class GuidedDirection {
 public:
-    using Incident = typename A::Incident;
+    using Incident = std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()))>;
 
-    /// The adjoints are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function alone: above 0 it
-    /// bounds the weight by 1/classical_share times the classical one.
-    GuidedDirection(const A* surface, const A* volume, float classical_share)
+    /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function alone: it bounds the
+    /// weight by 1/classical_share times the classical one.
+    GuidedDirection(const Field* surface, const Field* volume, float classical_share)
         : surface_(surface), volume_(volume), classical_share_(classical_share) {}
 
     template <ScatteringFunction F>
@@ -85,21 +93,18 @@ public:
                     s.density *= classical_share_;
                     return s;
                 }
-                s.density = density_given(s.density, s.direction);
+                s.density = mixed(s.density, s.direction);
             } else {
                 s.direction = incident_->sample(u2);
                 s.value = f_.evaluate(s.direction);
-                s.density = density_given(f_.density(s.direction), s.direction);
+                s.density = density(s.direction);
             }
-            if (is_black(s.value) || !(s.density > 0)) {
-                return std::nullopt;
-            }
-            return s;
+            return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
-        float density(const Vec3& w) const { return density_given(f_.density(w), w); }
+        float density(const Vec3& w) const { return mixed(f_.density(w), w); }
 
     private:
-        float density_given(float classical, const Vec3& w) const {
+        float mixed(float classical, const Vec3& w) const {
             return incident_ ? classical_share_ * classical + (1 - classical_share_) * incident_->density(w) : classical;
         }
 
@@ -112,10 +117,10 @@ public:
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f) const {
         std::optional<Incident> incident;
         if (!f.is_specular()) {
-            incident = (in_volume ? volume_ : surface_)->incident(position);
-            if (incident) {
+            if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
+                incident = adjoint->incident(position);
                 if (const std::optional<Vmf> lobe = f.lobe()) {
-                    incident = incident->product(*lobe);
+                    incident = incident->product(*lobe).distribution;
                 }
             }
         }
@@ -123,8 +128,8 @@ public:
     }
 
 private:
-    const A* surface_;
-    const A* volume_;
+    const Field* surface_;
+    const Field* volume_;
     float classical_share_;
 };
 

@@ -1,6 +1,7 @@
 #include <wend/core/error.h>
 #include <wend/scene/ray_caster.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -72,6 +73,10 @@ T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
     return static_cast<T*>(data);
 }
 
+struct Triangle {
+    std::uint32_t corners[3];
+};
+
 struct Tangents {
     Vec3 dpdu;
     bool valid;
@@ -137,9 +142,9 @@ void RayCaster::attach(RTCScene scene, int index) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
         geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = new_buffer<Vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh->positions.size());
-        std::memcpy(vertices, mesh->positions.data(), mesh->positions.size() * sizeof(Vec3));
-        auto* indices = new_buffer<std::uint32_t[3]>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh->triangle_count());
-        std::memcpy(indices, mesh->indices.data(), mesh->indices.size() * sizeof(std::uint32_t));
+        std::copy(mesh->positions.begin(), mesh->positions.end(), vertices);
+        auto* indices = new_buffer<Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh->triangle_count());
+        std::memcpy(indices, mesh->indices.data(), mesh->triangle_count() * sizeof(Triangle));
     } else {
         geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, 1);

@@ -1,0 +1,88 @@
+// The random walk of a camera sample through surfaces and volumes. Every decision it takes is one of decision/; the
+// walk itself only follows rays, connects to lights, and multiplies weights.
+#pragma once
+
+#include <wend/decision/direction.h>
+#include <wend/decision/distance.h>
+#include <wend/decision/survival.h>
+#include <wend/film/film.h>
+#include <wend/sampling/sampler.h>
+#include <wend/scene/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace wend {
+
+/// A vertex of a walk as training sees it: where a direction was drawn, and what came back along it.
+struct WalkVertex {
+    Vec3 position;
+    Vec3 direction;
+    float density = 0;   ///< of the direction, per steradian
+    float distance = 0;  ///< to the next vertex; infinity if there is none
+    bool in_volume = false;
+    Rgb throughput;  ///< of the walk, the direction's weight included
+    Rgb gathered;    ///< by the walk up to here, this vertex's connection to a light included
+};
+
+/// Counted work of walks.
+struct WalkCounts {
+    std::uint64_t paths = 0;
+    std::uint64_t segments = 0;
+    std::uint64_t rejected = 0;
+
+    WalkCounts& operator+=(const WalkCounts& o) {
+        paths += o.paths;
+        segments += o.segments;
+        rejected += o.rejected;
+        return *this;
+    }
+};
+
+/// What a walk found. The radiance may be not finite: the caller counts and rejects.
+struct WalkResult {
+    FilmSample sample;
+    std::uint32_t segments = 0;
+};
+
+/// The decisions of a walk, as a bundle of values.
+template <class D>
+concept WalkDecisions = requires(const D& d) {
+    requires DistanceDecision<decltype(d.distance)>;
+    requires SurvivalDecision<decltype(d.survival)>;
+    d.direction;
+};
+
+struct ClassicalDecisions {
+    ClassicalDistance distance;
+    ClassicalDirection direction;
+    ClassicalSurvival survival;
+};
+
+template <class Field>
+struct GuidedDirectionDecisions {
+    ClassicalDistance distance;
+    GuidedDirection<Field> direction;
+    ClassicalSurvival survival;
+};
+
+/// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
+template <class Decisions>
+class PathTracer {
+public:
+    /// Both are referred to. `max_depth` is the largest number of vertices (pbrt's maxdepth).
+    PathTracer(const Scene& scene, const Decisions& decisions, int max_depth)
+        : scene_(scene), decisions_(decisions), max_depth_(max_depth) {}
+
+    /// Radiance arriving along the ray. Where `vertices` is given, the walk's vertices are appended to it.
+    WalkResult trace(const Ray& ray, Sampler& sampler, std::vector<WalkVertex>* vertices) const;
+
+private:
+    class Walk;
+
+    const Scene& scene_;
+    const Decisions& decisions_;
+    int max_depth_;
+};
+
+}  // namespace wend

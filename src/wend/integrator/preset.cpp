@@ -1,0 +1,68 @@
+#include <wend/core/error.h>
+#include <wend/integrator/preset.h>
+
+#include <array>
+#include <utility>
+
+namespace wend {
+namespace {
+
+using Entry = std::pair<std::string_view, bool Preset::*>;
+constexpr std::array entries = {Entry{"direction", &Preset::direction}};
+
+[[noreturn]] void reject(std::string_view text) {
+    std::string message =
+        "unknown sampling '" + std::string(text) + "': expected classical, or decisions joined by '+' from:";
+    for (const auto& [name, member] : entries) {
+        message += ' ' + std::string(name);
+    }
+    throw InputError(message);
+}
+
+}  // namespace
+
+Preset parse_preset(std::string_view text) {
+    Preset preset;
+    if (text == "classical") {
+        return preset;
+    }
+    std::string_view rest = text;
+    for (;;) {
+        const std::size_t plus = rest.find('+');
+        const std::string_view name = rest.substr(0, plus);
+        bool known = false;
+        for (const auto& [entry, member] : entries) {
+            if (entry == name) {
+                preset.*member = true;
+                known = true;
+            }
+        }
+        if (!known) {
+            reject(text);
+        }
+        if (plus == std::string_view::npos) {
+            return preset;
+        }
+        rest.remove_prefix(plus + 1);
+    }
+}
+
+std::string to_string(const Preset& preset) {
+    std::string text;
+    for (const auto& [name, member] : entries) {
+        if (preset.*member) {
+            text += (text.empty() ? "" : "+") + std::string(name);
+        }
+    }
+    return text.empty() ? "classical" : text;
+}
+
+std::vector<std::string> guidable_decisions() {
+    std::vector<std::string> names;
+    for (const auto& [name, member] : entries) {
+        names.emplace_back(name);
+    }
+    return names;
+}
+
+}  // namespace wend

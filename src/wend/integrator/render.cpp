@@ -1,0 +1,214 @@
+#include <wend/core/parallel.h>
+#include <wend/integrator/render.h>
+#include <wend/integrator/training.h>
+#include <wend/integrator/path_tracer.inl>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace wend {
+
+template class PathTracer<ClassicalDecisions>;
+template class PathTracer<GuidedDirectionDecisions<guide::Field>>;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using GuidedDecisions = GuidedDirectionDecisions<guide::Field>;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Half of the directions follow the scattering function alone, whatever the guide says.
+constexpr float classical_share = 0.5f;
+// Training ends after this many samples per pixel: from then on the field would change little.
+constexpr int training_samples = 63;
+constexpr int largest_pass = 32;
+
+/// A block of pixels, rendered by one thread at a time.
+struct Tile {
+    PixelRect pixels;
+    WalkCounts counts;
+    TrainingRecords records;
+};
+
+std::vector<Tile> tiles_of(const PixelRect& crop) {
+    constexpr int side = 16;
+    std::vector<Tile> tiles;
+    for (int y = crop.min.y; y < crop.max.y; y += side) {
+        for (int x = crop.min.x; x < crop.max.x; x += side) {
+            tiles.push_back({{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}});
+        }
+    }
+    return tiles;
+}
+
+/// One pass, with the same decisions for all walks.
+template <class Decisions>
+class Pass {
+public:
+    Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions, int first,
+         int count, bool record)
+        : tracer_(scene, decisions, settings.max_depth),
+          camera_(scene.camera()),
+          film_(film),
+          settings_(settings),
+          first_(first),
+          count_(count),
+          record_(record) {}
+
+    void run(Tile& tile) const {
+        std::vector<WalkVertex> vertices;
+        for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
+            for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
+                for (int i = 0; i < count_; ++i) {
+                    sample({x, y}, first_ + i, tile, vertices);
+                }
+            }
+        }
+    }
+
+private:
+    void sample(const Vec2i& pixel, int index, Tile& tile, std::vector<WalkVertex>& vertices) const {
+        const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
+                            static_cast<std::uint64_t>(pixel.x);
+        Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
+        const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
+        const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
+                              static_cast<float>(pixel.y) + 0.5f + place.offset.y);
+        const Ray ray = camera_.ray(film_point, sampler.uniform2());
+        vertices.clear();
+        WalkResult result = tracer_.trace(ray, sampler, record_ ? &vertices : nullptr);
+        ++tile.counts.paths;
+        tile.counts.segments += result.segments;
+        if (!is_finite(result.sample.radiance)) {
+            ++tile.counts.rejected;
+            film_.reject(pixel);
+            return;
+        }
+        if (record_) {
+            tile.records.add_walk(vertices, result.sample.radiance);
+        }
+        result.sample.radiance *= place.weight;
+        film_.add(pixel, result.sample);
+    }
+
+    PathTracer<Decisions> tracer_;
+    const Camera& camera_;
+    Film& film_;
+    const RenderSettings& settings_;
+    int first_;
+    int count_;
+    bool record_;
+};
+
+/// Plans the passes: doubling while the field learns, then as long as time or samples allow.
+class Schedule {
+public:
+    explicit Schedule(const RenderSettings& settings) : settings_(settings) {}
+
+    /// Samples per pixel of the next pass; 0 at the end.
+    int next(int pass, int done, double elapsed) const {
+        if (!settings_.passes.empty()) {
+            return pass < static_cast<int>(settings_.passes.size()) ? settings_.passes[static_cast<std::size_t>(pass)]
+                                                                    : 0;
+        }
+        const int wanted = std::min(largest_pass, 1 << std::min(pass, 5));
+        if (settings_.seconds <= 0) {
+            return std::min(wanted, settings_.samples - done);
+        }
+        if (done == 0) {
+            return 1;
+        }
+        // What fits into the time that is left, at the pace so far; a last pass may be up to a third short of one
+        // sample.
+        const double left = (settings_.seconds - elapsed) * done / elapsed;
+        return left < 0.67 ? 0 : std::min(wanted, std::max(1, static_cast<int>(left)));
+    }
+
+    double fraction(int done, double elapsed) const {
+        if (!settings_.passes.empty()) {
+            int total = 0;
+            for (const int pass : settings_.passes) {
+                total += pass;
+            }
+            return static_cast<double>(done) / std::max(1, total);
+        }
+        return std::min(1.0, settings_.seconds > 0 ? elapsed / settings_.seconds
+                                                   : static_cast<double>(done) / std::max(1, settings_.samples));
+    }
+
+private:
+    const RenderSettings& settings_;
+};
+
+/// The box that fields divide: what is visible of the scene, without far-away ground planes deciding the scale more
+/// than they must.
+Box3 field_bounds(const Scene& scene) {
+    return scene.bounds();
+}
+
+void check_rejected(const WalkCounts& counts) {
+    if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
+        throw std::runtime_error(std::to_string(counts.rejected) + " of " + std::to_string(counts.paths) +
+                                 " samples were not finite numbers, more than rounding can explain");
+    }
+}
+
+}  // namespace
+
+RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
+                        const std::function<bool(const RenderProgress&)>& keep_going) {
+    const Clock::time_point start = Clock::now();
+    RenderStatistics statistics;
+    std::vector<Tile> tiles = tiles_of(film.crop());
+    const Schedule schedule(settings);
+    GuidingFields fields{guide::Field::empty(field_bounds(scene)), guide::Field::empty(field_bounds(scene))};
+
+    for (int pass = 0;; ++pass) {
+        const int count = schedule.next(pass, statistics.samples, seconds_since(start));
+        if (count <= 0) {
+            break;
+        }
+        const bool record = !settings.preset.is_classical() && statistics.samples < training_samples;
+        const auto run_with = [&](const auto& decisions) {
+            const Pass one(scene, film, settings, decisions, statistics.samples, count, record);
+            parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
+        };
+        if (settings.preset.direction) {
+            run_with(GuidedDecisions{{}, {&fields.surface, &fields.volume, classical_share}, {}});
+        } else {
+            run_with(ClassicalDecisions{});
+        }
+        statistics.samples += count;
+        statistics.passes.push_back(count);
+        if (record) {
+            const Clock::time_point training_start = Clock::now();
+            std::vector<TrainingRecords> records(tiles.size());
+            for (std::size_t i = 0; i < tiles.size(); ++i) {
+                records[i] = std::exchange(tiles[i].records, {});
+            }
+            fields = learn(fields, records, settings.threads);
+            statistics.training_seconds += seconds_since(training_start);
+        }
+        const double elapsed = seconds_since(start);
+        if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,
+                                       film.relative_noise()})) {
+            statistics.interrupted = true;
+            break;
+        }
+    }
+    for (const Tile& tile : tiles) {
+        statistics.counts += tile.counts;
+    }
+    statistics.field_bytes = settings.preset.is_classical() ? 0 : fields.bytes();
+    statistics.seconds = seconds_since(start);
+    check_rejected(statistics.counts);
+    return statistics;
+}
+
+}  // namespace wend

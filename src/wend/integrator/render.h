@@ -1,0 +1,56 @@
+// Rendering: passes over the picture, and training between them.
+#pragma once
+
+#include <wend/film/film.h>
+#include <wend/film/filter.h>
+#include <wend/integrator/path_tracer.h>
+#include <wend/integrator/preset.h>
+#include <wend/sampling/sampler.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace wend {
+
+struct RenderSettings {
+    /// Samples per pixel; ignored where `seconds` is positive.
+    int samples = 16;
+    /// Time to spend, training included.
+    double seconds = 0;
+    /// The passes of an earlier run, to repeat exactly; overrides both.
+    std::vector<int> passes;
+
+    Preset preset;
+    SamplerKind sampler = SamplerKind::sobol;
+    std::uint64_t seed = 0;
+    int threads = 0;  ///< 0: all
+    int max_depth = 5;
+    Filter filter = Filter::box();
+};
+
+/// How far a render is.
+struct RenderProgress {
+    double fraction = 0;
+    double seconds = 0;
+    int samples = 0;            ///< per pixel, so far
+    double relative_noise = 0;  ///< Film::relative_noise(), by the samples so far
+};
+
+struct RenderStatistics {
+    int samples = 0;     ///< per pixel
+    double seconds = 0;  ///< wall time, training included
+    double training_seconds = 0;
+    WalkCounts counts;
+    std::size_t field_bytes = 0;
+    std::vector<int> passes;  ///< samples per pixel of each pass
+    bool interrupted = false;
+};
+
+/// Renders into the film. `keep_going` is called between passes, with the film complete up to there; false ends the
+/// render. Throws std::runtime_error if more than one sample in 10^4 (and more than ten) was not a finite number: that
+/// is a mistake, not chance.
+RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
+                        const std::function<bool(const RenderProgress&)>& keep_going = {});
+
+}  // namespace wend
