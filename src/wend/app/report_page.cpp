@@ -39,12 +39,14 @@ std::string table_rows(const Report& report) {
     }
     std::string html;
     for (const ReportRow& row : report.rows) {
-        html += fmt::format("<tr{}><th scope=\"row\">{}</th>", row.ratio == best ? " class=\"best\"" : "",
-                            escape_markup(row.sampling));
-        for (const double value : {row.spp, row.seconds, row.relmse, row.relmse_trimmed, row.mse, row.flip}) {
+        const std::string ratio = row.ratio ? number(*row.ratio) + "×" : "–";
+        html += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td><td class=\"ratio\">{}</td>",
+                            row.ratio == best ? " class=\"best\"" : "", escape_markup(row.sampling), number(row.relmse),
+                            ratio);
+        for (const double value : {row.seconds, row.spp, row.relmse_trimmed, row.mse, row.flip}) {
             html += fmt::format("<td>{}</td>", number(value));
         }
-        html += fmt::format("<td>{}</td></tr>\n", row.ratio ? number(*row.ratio) + "×" : "–");
+        html += "</tr>\n";
     }
     return html;
 }

@@ -47,7 +47,7 @@ const std::string_view report_template = R"html(<!doctype html>
 <h2>Results</h2>
 <div class="scroll" tabindex="0" role="region" aria-label="Table of results">
 <table>
-<thead><tr><th scope="col">sampling</th><th scope="col">spp</th><th scope="col">seconds</th><th scope="col">relMSE</th><th scope="col">relMSE, trimmed</th><th scope="col">MSE</th><th scope="col">FLIP</th><th scope="col">ratio</th></tr></thead>
+<thead><tr><th scope="col">sampling</th><th scope="col">relMSE</th><th scope="col">ratio</th><th scope="col">seconds</th><th scope="col">spp</th><th scope="col">relMSE, trimmed</th><th scope="col">MSE</th><th scope="col">FLIP</th></tr></thead>
 <tbody>
 {{rows}}</tbody>
 </table>
@@ -140,14 +140,14 @@ fieldset input:focus-visible + span { outline: 2px solid var(--accent); outline-
 .bar i { flex: 1; min-width: 6rem; height: .7rem; border-radius: .2rem; }
 
 .scroll { overflow-x: auto; }
-table { width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; }
+table { width: 100%; border-collapse: separate; border-spacing: 0; font-variant-numeric: tabular-nums; }
 th, td { padding: .5rem .75rem; border-bottom: 1px solid var(--rule); text-align: right; white-space: nowrap; }
 th:first-child { position: sticky; left: 0; padding-left: 0; background: var(--ground); text-align: left; }
 td:last-child, th:last-child { padding-right: 0; }
 thead th { color: var(--quiet); font-size: .8rem; font-weight: 500; }
 tbody th { font-weight: 500; }
 .best th, .best td { font-weight: 700; }
-.best td:last-child { color: var(--accent); }
+.best .ratio { color: var(--accent); }
 
 .convergence { display: block; width: 100%; max-width: 46rem; margin: 0 auto; }
 
