@@ -138,7 +138,7 @@ void take_larger_error(std::vector<float>& map, const Percept& a, const Percept&
 }
 
 /// The exposures to look at, as factors: from the reference's brightest pixel just below white to its median there, a
-/// stop or less apart (andersson2021, section 3).
+/// stop or less apart (andersson2021).
 std::vector<float> exposure_factors(const Image& reference) {
     constexpr double nearly_white = 0.85;
     // Below this a luminance counts as black, which bounds the number of exposures.

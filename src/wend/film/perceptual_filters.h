@@ -20,7 +20,7 @@ struct Plane {
 using Kernel = std::vector<float>;
 
 /// What an observer at a distance resolves of luminance, red-green and blue-yellow contrast: low-pass filters of unit
-/// sum (andersson2020, section 4.1.1). The distance is given as pixels per degree of visual angle.
+/// sum (andersson2020). The distance is given as pixels per degree of visual angle.
 class ContrastSensitivity {
 public:
     explicit ContrastSensitivity(double pixels_per_degree);
@@ -44,7 +44,7 @@ private:
 };
 
 /// How strong edges and points are: lengths of first and second derivatives of a Gaussian applied to luminance in [0,1]
-/// (andersson2020, section 4.2).
+/// (andersson2020).
 class FeatureDetector {
 public:
     explicit FeatureDetector(double pixels_per_degree);
