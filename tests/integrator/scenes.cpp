@@ -13,7 +13,8 @@ SceneDescription scene_with_camera(const Vec3& eye, const Vec3& target, float fo
     const Imath::V3d up = std::abs(forward.y) < 0.9f ? Imath::V3d(0, 1, 0) : Imath::V3d(1, 0, 0);
     const Transform camera_from_world = Transform::look_at(Imath::V3d(eye), Imath::V3d(target), up);
     const float half = std::tan(fov_degrees * pi / 360);
-    scene.camera = Camera(PerspectiveCamera{{-half, half, -half, half}, 0, 1}, camera_from_world.inverse(), resolution, resolution);
+    scene.camera = Camera(PerspectiveCamera{{-half, half, -half, half}, 0, 1}, camera_from_world.inverse(), resolution,
+                          resolution);
     return scene;
 }
 
@@ -42,13 +43,14 @@ void add_surface(SceneDescription& scene, Shape shape, int material, MediumId in
 
 }  // namespace
 
-void add_sphere(SceneDescription& scene, const Vec3& centre, float radius, int material, MediumId interior, MediumId exterior) {
-    add_surface(scene, Quadric(Sphere{radius, -radius, radius}, Transform::translate(centre.x, centre.y, centre.z)), material, interior,
-                exterior);
+void add_sphere(SceneDescription& scene, const Vec3& centre, float radius, int material, MediumId interior,
+                MediumId exterior) {
+    add_surface(scene, Quadric(Sphere{radius, -radius, radius}, Transform::translate(centre.x, centre.y, centre.z)),
+                material, interior, exterior);
 }
 
-void add_parallelogram(SceneDescription& scene, const Vec3& corner, const Vec3& a, const Vec3& b, int material, MediumId interior,
-                       MediumId exterior) {
+void add_parallelogram(SceneDescription& scene, const Vec3& corner, const Vec3& a, const Vec3& b, int material,
+                       MediumId interior, MediumId exterior) {
     TriangleMesh mesh;
     mesh.positions = {corner, corner + a, corner + a + b, corner + b};
     mesh.indices = {0, 1, 2, 0, 2, 3};
@@ -71,17 +73,20 @@ MediumId add_homogeneous(SceneDescription& scene, const Rgb& absorption, const R
     return static_cast<MediumId>(scene.media.size()) - 1;
 }
 
-MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& absorption, const Rgb& scattering, float g) {
+MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& absorption, const Rgb& scattering,
+                          float g) {
     constexpr int n = 12;
     auto grid = std::make_shared<Grid>(
-        Vec3i(0, 0, 0), Vec3i(n, n, n), [](const Vec3i&, const Vec3i&) { return true; }, [](int, int, int) { return 1.0f; });
+        Vec3i(0, 0, 0), Vec3i(n, n, n), [](const Vec3i&, const Vec3i&) { return true; },
+        [](int, int, int) { return 1.0f; });
     const Vec3 size = box.max - box.min;
     // Well inside the voxels, where the density is 1 everywhere.
     const Transform index_from_world = Transform::translate(1, 1, 1) *
                                        Transform::scale((n - 3) / size.x, (n - 3) / size.y, (n - 3) / size.z) *
                                        Transform::translate(-box.min.x, -box.min.y, -box.min.z);
     const Box3 index_box(Vec3(1), Vec3(n - 2));
-    scene.media.push_back(GridMedium(grid, index_from_world, index_box, absorption, scattering, PhaseFunction(HenyeyGreenstein{g})));
+    scene.media.push_back(
+        GridMedium(grid, index_from_world, index_box, absorption, scattering, PhaseFunction(HenyeyGreenstein{g})));
     return static_cast<MediumId>(scene.media.size()) - 1;
 }
 

@@ -17,7 +17,8 @@ using test::Measured;
 
 /// |mean - expected| within z standard errors, and the standard error small enough that a bias of 1 % would be seen.
 void expect_agrees(const Measured& m, double expected, double z = 4) {
-    EXPECT_TRUE(agrees(m.mean, m.standard_error, expected, z, 2e-6)) << m.mean << " +- " << m.standard_error << " expected " << expected;
+    EXPECT_TRUE(agrees(m.mean, m.standard_error, expected, z, 2e-6))
+        << m.mean << " +- " << m.standard_error << " expected " << expected;
     EXPECT_LT(z * m.standard_error, 0.01 * expected) << "too few walks to see a bias of 1 %";
 }
 
@@ -40,26 +41,16 @@ TEST(WhiteFurnace, MediaAndSurfacesReturnTheEnvironment) {
     for (int i = 0; i < rays; ++i) {
         const Vec3 origin = Vec3(0, 0, -6) + Vec3(random.uniform() - 0.5f, random.uniform() - 0.5f, 0);
         const Vec3 target(4 * random.uniform() - 2, 4 * random.uniform() - 2, 0);
-        const Measured m = test::measure_radiance(scene, {origin, normalize(target - origin)}, 10000, 1 << 30, 100 + static_cast<std::uint64_t>(i));
+        const Measured m = test::measure_radiance(scene, {origin, normalize(target - origin)}, 10000, 1 << 30,
+                                                  100 + static_cast<std::uint64_t>(i));
         sum += m.mean;
         error2 += m.standard_error * m.standard_error;
-        EXPECT_TRUE(agrees(m.mean, m.standard_error, 1, 4.5, 1e-5)) << "ray " << i << ": " << m.mean << " +- " << m.standard_error;
+        EXPECT_TRUE(agrees(m.mean, m.standard_error, 1, 4.5, 1e-5))
+            << "ray " << i << ": " << m.mean << " +- " << m.standard_error;
     }
-    EXPECT_TRUE(agrees(sum / rays, std::sqrt(error2) / rays, 1, 4, 1e-5)) << sum / rays << " +- " << std::sqrt(error2) / rays;
+    EXPECT_TRUE(agrees(sum / rays, std::sqrt(error2) / rays, 1, 4, 1e-5))
+        << sum / rays << " +- " << std::sqrt(error2) / rays;
 }
-
-/// A slab of thickness 1 in z, wide enough to have no edges.
-struct Slab {
-    SceneDescription description;
-    static constexpr float half_width = 1e4f;
-
-    Slab(float albedo, float thickness, float g, float ior) {
-        const MediumId m = test::add_homogeneous(description, Rgb((1 - albedo) * thickness), Rgb(albedo * thickness), g);
-        const int material = ior == 1 ? test::add_interface(description) : test::add_dielectric(description, ior);
-        test::add_box(description, Box3(Vec3(-half_width, -half_width, 0), Vec3(half_width, half_width, 1)), material, m);
-        test::add_environment(description, Rgb(1.0f));
-    }
-};
 
 TEST(Transmittance, HomogeneousSlabFollowsBeer) {
     SceneDescription s;
@@ -70,12 +61,13 @@ TEST(Transmittance, HomogeneousSlabFollowsBeer) {
     for (const float cosine : {1.0f, 0.5f}) {
         const Ray ray{{0, 0, -1}, {std::sqrt(1 - cosine * cosine), 0, cosine}};
         const double expected = (std::exp(-0.5 / cosine) + std::exp(-1.0 / cosine) + std::exp(-2.0 / cosine)) / 3;
-        expect_agrees(test::measure_radiance(scene, ray, 200000), expected);
+        expect_agrees(test::measure_radiance(scene, ray, 1000000), expected);
     }
 }
 
 TEST(SingleScattering, OfASlabUnderParallelLight) {
-    // Light from behind the camera at normal incidence, one scattering event: albedo * phase(-1) * E * (1 - exp(-2 tau)) / 2.
+    // Light from behind the camera at normal incidence, one scattering event: albedo * phase(-1) * E * (1 - exp(-2
+    // tau)) / 2.
     SceneDescription s;
     const float tau = 1.3f;
     const float g = 0.4f;
@@ -95,44 +87,47 @@ struct Known {
 };
 
 /// Radiance of the upper side of a slab under a white sky that shines on it from above only.
-double reflected(const Known& k, Measured& m) {
+Measured reflected(const Known& k, int walks) {
     SceneDescription s;
-    const MediumId medium = test::add_homogeneous(s, Rgb((1 - k.albedo) * k.thickness), Rgb(k.albedo * k.thickness), k.g);
+    const MediumId medium =
+        test::add_homogeneous(s, Rgb((1 - k.albedo) * k.thickness), Rgb(k.albedo * k.thickness), k.g);
     const int boundary = k.ior == 1 ? test::add_interface(s) : test::add_dielectric(s, k.ior);
     test::add_box(s, Box3(Vec3(-1e4f, -1e4f, 0), Vec3(1e4f, 1e4f, 1)), boundary, medium);
     // A black floor under it: what goes through is lost.
-    test::add_parallelogram(s, Vec3(-1e6f, -1e6f, 1.5f), Vec3(2e6f, 0, 0), Vec3(0, 2e6f, 0), test::add_diffuse(s, Rgb(0.0f)));
+    test::add_parallelogram(s, Vec3(-1e6f, -1e6f, 1.5f), Vec3(2e6f, 0, 0), Vec3(0, 2e6f, 0),
+                            test::add_diffuse(s, Rgb(0.0f)));
     test::add_environment(s, Rgb(1.0f));
     const Scene scene(std::move(s));
-    m = test::measure_radiance(scene, {{0.3f, 0.1f, -2}, {0, 0, 1}}, 400000);
-    return m.mean;
+    return test::measure_radiance(scene, {{0.3f, 0.1f, -2}, {0, 0, 1}}, walks);
 }
 
-TEST(DiffuseReflectance, MatchesPublishedAndDeterministicValues) {
-    // Half-spaces (as slabs of 60 mean free paths or more) and slabs, normal incidence: papers and adding-doubling.
-    const Known known[] = {
-        {"half-space .8", 0.8f, 60, 0, 1, 0.28525450},
-        {"half-space .95", 0.95f, 80, 0, 1, 0.53554099},
-        {"half-space .99", 0.99f, 150, 0, 1, 0.75272072},
-        {"half-space .8 g .5", 0.8f, 80, 0.5f, 1, 0.161535},
-        {"half-space .95 g .75", 0.95f, 150, 0.75f, 1, 0.276766},
-        {"half-space .99 g .9", 0.99f, 400, 0.9f, 1, 0.399541},
-        {"half-space .95 g -.3", 0.95f, 80, -0.3f, 1, 0.584095},
-        {"half-space .9 n 1.5", 0.9f, 60, 0, 1.5f, 0.2599186},
-        {"half-space .8 n 1.4", 0.8f, 60, 0, 1.4f, 0.1808231},
-        {"slab b 2 .95", 0.95f, 2, 0, 1, 0.428724},
-        {"slab b 1 .8", 0.8f, 1, 0, 1, 0.210847},
-        {"slab b 4 .95 g .75", 0.95f, 4, 0.75f, 1, 0.203461},
-    };
-    for (const Known& k : known) {
-        Measured m;
-        reflected(k, m);
-        EXPECT_NEAR(m.mean, k.value, std::max(0.003 * k.value, 0.0)) << k.name;
-        EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5)) << k.name << ": " << m.mean << " +- " << m.standard_error;
-    }
+class DiffuseReflectance : public testing::TestWithParam<Known> {};
+
+TEST_P(DiffuseReflectance, MatchesPublishedAndDeterministicValues) {
+    const Known& k = GetParam();
+    const Measured m = reflected(k, 1000000);
+    EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5)) << m.mean << " +- " << m.standard_error;
+    EXPECT_NEAR(m.mean, k.value, 0.003 * k.value);
 }
 
-TEST(DiffuseReflectance, MatchesTheSlabReferences) {
+// Half-spaces (as slabs of 60 mean free paths or more) and slabs at normal incidence, by H functions and
+// adding-doubling.
+INSTANTIATE_TEST_SUITE_P(Media, DiffuseReflectance,
+                         testing::Values(Known{"HalfSpace_8", 0.8f, 60, 0, 1, 0.28525450},
+                                         Known{"HalfSpace_95", 0.95f, 80, 0, 1, 0.53554099},
+                                         Known{"HalfSpace_99", 0.99f, 150, 0, 1, 0.75272072},
+                                         Known{"HalfSpace_8g_5", 0.8f, 80, 0.5f, 1, 0.161535},
+                                         Known{"HalfSpace_95g_75", 0.95f, 150, 0.75f, 1, 0.276766},
+                                         Known{"HalfSpace_99g_9", 0.99f, 400, 0.9f, 1, 0.399541},
+                                         Known{"HalfSpace_95gMinus3", 0.95f, 80, -0.3f, 1, 0.584095},
+                                         Known{"HalfSpace_9n1_5", 0.9f, 60, 0, 1.5f, 0.2599186},
+                                         Known{"HalfSpace_8n1_4", 0.8f, 60, 0, 1.4f, 0.1808231},
+                                         Known{"Slabb2_95", 0.95f, 2, 0, 1, 0.428724},
+                                         Known{"Slabb1_8", 0.8f, 1, 0, 1, 0.210847},
+                                         Known{"Slabb4_95g_75", 0.95f, 4, 0.75f, 1, 0.203461}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(SlabReflectance, MatchesTheReferenceTable) {
     std::ifstream file(test::shared_dir() / "references" / "slab_reference.csv");
     if (!file) {
         GTEST_SKIP() << "the reference values are not beside the checkout";
@@ -150,9 +145,9 @@ TEST(DiffuseReflectance, MatchesTheSlabReferences) {
             continue;
         }
         const Known k{"csv", std::stof(cell[0]), std::stof(cell[1]), 0, 1, std::stod(cell[4])};
-        Measured m;
-        reflected(k, m);
-        EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5)) << line << ": " << m.mean << " +- " << m.standard_error;
+        const Measured m = reflected(k, 400000);
+        EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
+            << line << ": " << m.mean << " +- " << m.standard_error;
         EXPECT_NEAR(m.mean, k.value, 0.005 * k.value) << line;
         ++rows;
     }
@@ -173,7 +168,8 @@ TEST(GridMedium, IsTheSameAsTheHomogeneousOne) {
             s.lights.push_back(PointLight{{0.5f, 2, -1}, Rgb(10.0f)});
             test::add_environment(s, {0.3f, 0.2f, 0.1f});
             const Scene scene(std::move(s));
-            m[kind] = test::measure_radiance(scene, {{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.1f, 1))}, 400000, 1000, 5 + static_cast<std::uint64_t>(kind));
+            m[kind] = test::measure_radiance(scene, {{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.1f, 1))}, 2000000, 1000,
+                                             5 + static_cast<std::uint64_t>(kind));
         }
         const double error = std::hypot(m[0].standard_error, m[1].standard_error);
         EXPECT_TRUE(agrees(m[1].mean - m[0].mean, error, 0, 4)) << m[0].mean << " and " << m[1].mean << " +- " << error;

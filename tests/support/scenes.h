@@ -25,12 +25,14 @@ void add_parallelogram(SceneDescription& scene, const Vec3& corner, const Vec3& 
                        MediumId interior = vacuum, MediumId exterior = vacuum);
 
 /// An axis-aligned box, normals outward.
-void add_box(SceneDescription& scene, const Box3& box, int material, MediumId interior = vacuum, MediumId exterior = vacuum);
+void add_box(SceneDescription& scene, const Box3& box, int material, MediumId interior = vacuum,
+             MediumId exterior = vacuum);
 
 MediumId add_homogeneous(SceneDescription& scene, const Rgb& absorption, const Rgb& scattering, float g = 0);
 
 /// The same medium as a grid of constant density 1 that fills `box`.
-MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& absorption, const Rgb& scattering, float g = 0);
+MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& absorption, const Rgb& scattering,
+                          float g = 0);
 
 void add_environment(SceneDescription& scene, const Rgb& radiance);
 
@@ -41,6 +43,7 @@ struct Measured {
 };
 
 /// Mean radiance (average of the channels) along the same ray, by independent walks.
-Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth = 100000, std::uint64_t seed = 1);
+Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth = 100000,
+                          std::uint64_t seed = 1);
 
 }  // namespace wend::test
