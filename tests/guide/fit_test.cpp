@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -375,14 +375,6 @@ TEST(Fit, RefusesSettingsOutOfRange) {
     refused([](FitSettings& s) { s.tolerance = std::numeric_limits<double>::quiet_NaN(); });
     refused([](FitSettings& s) { s.priors.weight = 0; });
     refused([](FitSettings& s) { s.priors.max_kappa = 1e9f; });
-}
-
-TEST(Records, ConcatenateKeepsTheOrderGiven) {
-    const std::array<Records, 3> parts = {records_of(target(), 2, 1, true), {}, records_of(target(), 1, 2, true)};
-    const Records all = concatenate(parts);
-    ASSERT_EQ(all.size(), 3u);
-    EXPECT_EQ(all[1].position, parts[0][1].position);
-    EXPECT_EQ(all[2].position, parts[2][0].position);
 }
 
 }  // namespace
