@@ -181,7 +181,6 @@ TEST(Fit, RandomDistancesDoNoHarm) {
 TEST(Fit, CellsFollowTheRecords) {
     FitSettings settings;
     settings.leaf_samples = 500;
-    Pcg32 random(8);
     Records records = records_of(target(), 8000, 8, true);
     for (std::size_t i = 0; i < records.size(); ++i) {  // most of them in one corner, many without radiance
         records[i].position *= i % 4 == 0 ? 1.0f : 0.1f;
