@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -181,7 +181,6 @@ TEST(Fit, RandomDistancesDoNoHarm) {
 TEST(Fit, CellsFollowTheRecords) {
     FitSettings settings;
     settings.leaf_samples = 500;
-    Pcg32 random(8);
     Records records = records_of(target(), 8000, 8, true);
     for (std::size_t i = 0; i < records.size(); ++i) {  // most of them in one corner, many without radiance
         records[i].position *= i % 4 == 0 ? 1.0f : 0.1f;
@@ -375,14 +374,6 @@ TEST(Fit, RefusesSettingsOutOfRange) {
     refused([](FitSettings& s) { s.tolerance = std::numeric_limits<double>::quiet_NaN(); });
     refused([](FitSettings& s) { s.priors.weight = 0; });
     refused([](FitSettings& s) { s.priors.max_kappa = 1e9f; });
-}
-
-TEST(Records, ConcatenateKeepsTheOrderGiven) {
-    const std::array<Records, 3> parts = {records_of(target(), 2, 1, true), {}, records_of(target(), 1, 2, true)};
-    const Records all = concatenate(parts);
-    ASSERT_EQ(all.size(), 3u);
-    EXPECT_EQ(all[1].position, parts[0][1].position);
-    EXPECT_EQ(all[2].position, parts[2][0].position);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct FitSettings {
     /// Most rounds of expectation maximization, at least 1.
     int max_iterations = 12;
     /// Rounds end when the resultant vectors of the lobes move less than this share of the total weight.
-    double tolerance = 2e-3;
+    double tolerance = 5e-3;
     LobePriors priors;
 };
 

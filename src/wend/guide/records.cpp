@@ -20,17 +20,4 @@ double weight_of(const Record& record) {
     return static_cast<double>(record.radiance) / record.density;
 }
 
-Records concatenate(std::span<const Records> parts) {
-    std::size_t size = 0;
-    for (const Records& part : parts) {
-        size += part.size();
-    }
-    Records all;
-    all.reserve(size);
-    for (const Records& part : parts) {
-        all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
-}
-
 }  // namespace wend::guide

@@ -3,7 +3,6 @@
 
 #include <wend/core/vector.h>
 
-#include <span>
 #include <vector>
 
 namespace wend::guide {
@@ -32,8 +31,5 @@ bool is_usable(const Record& record);
 
 /// The record's share in ∫ L dω: radiance / density, in radiance times sr.
 double weight_of(const Record& record);
-
-/// The records of several producers, one after the other in the order given.
-Records concatenate(std::span<const Records> parts);
 
 }  // namespace wend::guide
