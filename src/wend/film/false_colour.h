@@ -1,7 +1,7 @@
 // Colours for numbers: error maps.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // How far a picture is from its reference, number by number; film/flip.h says how far for a viewer.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // From linear colour to what a display takes.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 
 #include <cstdint>
 #include <vector>

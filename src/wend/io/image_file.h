@@ -1,7 +1,7 @@
 // Picture files: OpenEXR through its library, PNG, JPEG, TGA, BMP and Radiance HDR through stb.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/film/picture.h>
 
 #include <filesystem>
 #include <string>
