@@ -149,9 +149,16 @@ private:
         if (is_black(value)) {
             return Rgb(0.0f);
         }
-        const Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);
+        Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);
+        float distance = light->distance;
+        if (!in_volume && distance < infinity) {
+            // Moving the origin off the surface must not move the far end through the light.
+            const Vec3 rest = position + light->direction * distance - shadow.origin;
+            distance = length(rest);
+            shadow.direction = rest / distance;
+        }
         const MediumId medium = in_volume ? medium_ : scene_.medium_beyond(*hit_, light->direction, medium_);
-        const Passage passage = pass(shadow, light->distance, medium);
+        const Passage passage = pass(shadow, distance, medium);
         if (is_black(passage.transmittance)) {
             return Rgb(0.0f);
         }
