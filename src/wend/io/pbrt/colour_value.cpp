@@ -1,0 +1,29 @@
+#include <wend/io/pbrt/colour_value.h>
+
+#include <array>
+#include <utility>
+
+namespace wend::pbrt {
+namespace {
+
+constexpr std::array<std::pair<ColourSpace, std::string_view>, 4> names = {{{ColourSpace::srgb, "srgb"},
+                                                                            {ColourSpace::dci_p3, "dci-p3"},
+                                                                            {ColourSpace::rec2020, "rec2020"},
+                                                                            {ColourSpace::aces2065_1, "aces2065-1"}}};
+
+}  // namespace
+
+std::string_view to_string(ColourSpace space) {
+    return names[static_cast<std::size_t>(space)].second;
+}
+
+std::optional<ColourSpace> colour_space_named(std::string_view name) {
+    for (const auto& [space, known] : names) {
+        if (known == name) {
+            return space;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace wend::pbrt

@@ -1,0 +1,97 @@
+// The meaning of each directive: one function a directive, called in the order of the file.
+#pragma once
+
+#include <wend/io/pbrt/description.h>
+#include <wend/io/pbrt/graphics_state.h>
+#include <wend/io/pbrt/name_table.h>
+
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_set>
+
+namespace wend::pbrt {
+
+/// Collects a Description. Every `place` is that of the directive; all functions throw InputError for what pbrt
+/// forbids.
+class DescriptionBuilder {
+public:
+    explicit DescriptionBuilder(std::filesystem::path base_directory);
+
+    bool in_world() const { return in_world_; }
+    ColourSpace colour_space() const { return states_.current().colour_space; }
+
+    // Options, before WorldBegin.
+    void accelerator(std::string type, ParameterSet parameters, const Location& place);
+    void camera(std::string type, ParameterSet parameters, const Location& place);
+    void film(std::string type, ParameterSet parameters, const Location& place);
+    void integrator(std::string type, ParameterSet parameters, const Location& place);
+    void option(Parameter parameter);
+    void pixel_filter(std::string type, ParameterSet parameters, const Location& place);
+    void sampler(std::string type, ParameterSet parameters, const Location& place);
+    void world_begin(const Location& place);
+
+    // Transforms.
+    void active_transform(ActiveTransform which);
+    void concat_transform(std::span<const double> column_major, const Location& place);
+    void coordinate_system(const std::string& name, const Location& place);
+    void coord_sys_transform(const std::string& name, const Location& place);
+    void identity(const Location& place);
+    void look_at(std::span<const double> eye_look_up, const Location& place);
+    void rotate(std::span<const double> degrees_and_axis, const Location& place);
+    void scale(std::span<const double> factors, const Location& place);
+    void transform(std::span<const double> column_major, const Location& place);
+    /// Checked and otherwise ignored: scenes are rendered as they are at the start.
+    void transform_times(std::span<const double> start_and_end, const Location& place);
+    void translate(std::span<const double> offset, const Location& place);
+
+    // Attributes and blocks.
+    void attribute(const std::string& target, ParameterSet parameters, const Location& place);
+    void attribute_begin(const Location& place);
+    void attribute_end(const Location& place);
+    void begin_import(const Location& place);
+    void colour_space(const std::string& name, const Location& place);
+    void end_import(const Location& place);
+    void material(std::string type, ParameterSet parameters, const Location& place);
+    void medium_interface(const std::string& interior, const std::string& exterior, const Location& place);
+    void named_material(const std::string& name, const Location& place);
+    void object_begin(const std::string& name, const Location& place);
+    void object_end(const Location& place);
+    void reverse_orientation(const Location& place);
+    void transform_begin(const Location& place);
+    void transform_end(const Location& place);
+
+    // Contents.
+    void area_light_source(std::string type, ParameterSet parameters, const Location& place);
+    void light_source(std::string type, ParameterSet parameters, const Location& place);
+    void make_named_material(std::string name, ParameterSet parameters, const Location& place);
+    void make_named_medium(std::string name, ParameterSet parameters, const Location& place);
+    void object_instance(const std::string& name, const Location& place);
+    void shape(std::string type, ParameterSet parameters, const Location& place);
+    void texture(std::string name, const std::string& kind, std::string type, ParameterSet parameters,
+                 const Location& place);
+
+    /// Closes the scene at the end of the main file: everything opened must be closed, and every name used defined.
+    Description finish(const Location& end);
+
+private:
+    GraphicsState& state() { return states_.current(); }
+    /// The start transform, with a warning where it differs from the end transform.
+    const Transform& still_transform(const Location& place);
+    std::optional<std::size_t> medium_named(const std::string& name, const Location& place);
+    void require_textures(const ParameterSet& parameters) const;
+    void warn(const Location& place, const std::string& message);
+
+    Description description_;
+    StateStack states_;
+    NameTable materials_{"material"};
+    NameTable media_{"medium"};
+    NameTable objects_{"object"};
+    NameTable textures_{"texture"};
+    std::unordered_set<std::string> texture_names_;
+    std::set<std::string> warned_;
+    std::optional<std::size_t> open_object_;
+    bool in_world_ = false;
+};
+
+}  // namespace wend::pbrt
