@@ -21,7 +21,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
         }
         return;
     }
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(concurrency));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(concurrency));
     tbb::task_arena arena(concurrency);
     arena.execute([&] {
         tbb::parallel_for(

@@ -6,8 +6,8 @@
 
 namespace wend {
 
-/// An affine (or, for cameras, projective) map with its inverse, in the column-vector convention: `(a * b)(p) == a(b(p))`.
-/// Held in double precision: scene files chain many transforms, and the world is then float.
+/// An affine (or, for cameras, projective) map with its inverse, in the column-vector convention: `(a * b)(p) ==
+/// a(b(p))`. Held in double precision: scene files chain many transforms, and the world is then float.
 class Transform {
 public:
     /// Row-major matrix m[row][column] acting on column vectors.
@@ -20,8 +20,8 @@ public:
     static Transform translate(double x, double y, double z);
     static Transform scale(double x, double y, double z);
     static Transform rotate(double degrees, double x, double y, double z);
-    /// World-to-camera transform with the camera at `eye`, looking along +z, left-handed as in pbrt. Throws std::domain_error
-    /// if the vectors are degenerate.
+    /// World-to-camera transform with the camera at `eye`, looking along +z, left-handed as in pbrt. Throws
+    /// std::domain_error if the vectors are degenerate.
     static Transform look_at(const Imath::V3d& eye, const Imath::V3d& look, const Imath::V3d& up);
 
     Transform operator*(const Transform& first) const;
@@ -42,7 +42,7 @@ public:
 private:
     Transform(const Imath::M44d& m, const Imath::M44d& inverse) : m_(m), inverse_(inverse) {}
 
-    Imath::M44d m_;        // Imath multiplies row vectors from the left, so these hold the transposes
+    Imath::M44d m_;  // Imath multiplies row vectors from the left, so these hold the transposes
     Imath::M44d inverse_;
 };
 

@@ -1,4 +1,5 @@
-// Points, directions and boxes: Imath's types under the project's names, and the few operations Imath spells differently.
+// Points, directions and boxes: Imath's types under the project's names, and the few operations Imath spells
+// differently.
 #pragma once
 
 #include <Imath/ImathBox.h>

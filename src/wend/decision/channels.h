@@ -1,6 +1,7 @@
-// One-sample multiple importance sampling over colour channels. A walk draws each decision for one channel, chosen with probability in
-// proportion to the throughput it has gathered there; its density is then the mixture over channels. Step by step this equals the balance heuristic
-// over whole walks, so no channel can receive an unbounded weight (docs/theory/conventions.md).
+// One-sample multiple importance sampling over colour channels. A walk draws each decision for one channel, chosen with
+// probability in proportion to the throughput it has gathered there; its density is then the mixture over channels.
+// Step by step this equals the balance heuristic over whole walks, so no channel can receive an unbounded weight
+// (docs/theory/conventions.md).
 #pragma once
 
 #include <wend/core/colour.h>

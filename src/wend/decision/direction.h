@@ -14,16 +14,17 @@ namespace wend {
 
 /// A direction drawn from a scattering function or a decision about it.
 struct DirectionSample {
-    Vec3 direction;            ///< of propagation, unit length
-    Rgb value;                 ///< the scattering function there, cosine included
-    float density = 0;         ///< per steradian; a probability if specular
-    bool specular = false;     ///< drawn from a discrete set of directions
+    Vec3 direction;         ///< of propagation, unit length
+    Rgb value;              ///< the scattering function there, cosine included
+    float density = 0;      ///< per steradian; a probability if specular
+    bool specular = false;  ///< drawn from a discrete set of directions
 
     Rgb weight() const { return value * (1 / density); }
 };
 
-/// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobe` is its shape as one von Mises-Fisher lobe
-/// that an estimate of incident radiance can be multiplied with, where that is a fair picture of it.
+/// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobe` is its
+/// shape as one von Mises-Fisher lobe that an estimate of incident radiance can be multiplied with, where that is a
+/// fair picture of it.
 template <class F>
 concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const Vec2& u2) {
     { f.evaluate(w) } -> std::same_as<Rgb>;
@@ -60,15 +61,15 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
     { *field.find(position) } -> Adjoint;
 };
 
-/// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance (herholz2019). Surfaces and
-/// volumes have a field each.
+/// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance
+/// (herholz2019). Surfaces and volumes have a field each.
 template <AdjointField Field>
 class GuidedDirection {
 public:
     using Incident = std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()))>;
 
-    /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function alone: it bounds the
-    /// weight by 1/classical_share times the classical one.
+    /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
+    /// alone: it bounds the weight by 1/classical_share times the classical one.
     GuidedDirection(const Field* surface, const Field* volume, float classical_share)
         : surface_(surface), volume_(volume), classical_share_(classical_share) {}
 
@@ -105,7 +106,8 @@ public:
 
     private:
         float mixed(float classical, const Vec3& w) const {
-            return incident_ ? classical_share_ * classical + (1 - classical_share_) * incident_->density(w) : classical;
+            return incident_ ? classical_share_ * classical + (1 - classical_share_) * incident_->density(w)
+                             : classical;
         }
 
         const F& f_;

@@ -19,10 +19,12 @@ Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput,
         }
     }
     if (!is_black(medium.emission)) {
-        // The light of the whole segment, whether the walk goes on from its end or not: its expected value has no variance.
+        // The light of the whole segment, whether the walk goes on from its end or not: its expected value has no
+        // variance.
         for (int c = 0; c < 3; ++c) {
             const float sigma = extinction[c];
-            flight.emitted[c] = medium.emission[c] * (sigma * length > 1e-4f ? -std::expm1(-sigma * length) / sigma : length);
+            flight.emitted[c] =
+                medium.emission[c] * (sigma * length > 1e-4f ? -std::expm1(-sigma * length) / sigma : length);
         }
     }
     const Rgb transmitted = transmittance(medium, flight.distance);
@@ -52,45 +54,47 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
     const bool grey = relative.r == relative.g && relative.g == relative.b;
     Rgb probability = channel_probabilities(throughput);
 
-    // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the majorant is then the
-    // same in all channels and cancels. Which of them are real is decided for the mixture of channels.
-    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, length,
-                            [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-        const float rate = largest * cell.maximum;
-        if (!(rate > 0)) {
-            return true;
-        }
-        for (float t = t_in;;) {
-            t += to_exponential(random.uniform(), rate);
-            if (t >= t_out) {
+    // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the
+    // majorant is then the same in all channels and cancels. Which of them are real is decided for the mixture of
+    // channels.
+    medium.majorants().walk(
+        index_ray.origin, index_ray.direction, 0, length, [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+            const float rate = largest * cell.maximum;
+            if (!(rate > 0)) {
                 return true;
             }
-            const float u = random.uniform() * cell.maximum;
-            const float acceptance = grey ? 1.0f : dot(probability, relative);
-            if (grey && !emission && u < cell.minimum) {
-                // Certainly real: no need to look.
-            } else {
-                const Vec3 p = index_ray.at(t);
-                const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
-                const float density = medium.density().sample_nearest(p, corner);
-                if (emission) {
-                    flight.emitted += flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
+            for (float t = t_in;;) {
+                t += to_exponential(random.uniform(), rate);
+                if (t >= t_out) {
+                    return true;
                 }
-                if (!(u < acceptance * density)) {
-                    if (!grey) {
-                        const float none = 1 / (cell.maximum - acceptance * density);
-                        flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
-                        probability = channel_probabilities(throughput * flight.weight);
+                const float u = random.uniform() * cell.maximum;
+                const float acceptance = grey ? 1.0f : dot(probability, relative);
+                if (grey && !emission && u < cell.minimum) {
+                    // Certainly real: no need to look.
+                } else {
+                    const Vec3 p = index_ray.at(t);
+                    const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+                    const float density = medium.density().sample_nearest(p, corner);
+                    if (emission) {
+                        flight.emitted +=
+                            flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
                     }
-                    continue;
+                    if (!(u < acceptance * density)) {
+                        if (!grey) {
+                            const float none = 1 / (cell.maximum - acceptance * density);
+                            flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
+                            probability = channel_probabilities(throughput * flight.weight);
+                        }
+                        continue;
+                    }
                 }
+                flight.scatters = true;
+                flight.distance = t;
+                flight.weight *= medium.scattering() * (1 / (largest * acceptance));
+                return false;
             }
-            flight.scatters = true;
-            flight.distance = t;
-            flight.weight *= medium.scattering() * (1 / (largest * acceptance));
-            return false;
-        }
-    });
+        });
     return flight;
 }
 

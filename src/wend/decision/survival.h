@@ -11,7 +11,8 @@ namespace wend {
 /// What a walk knows of itself when it decides whether to go on.
 struct WalkState {
     Rgb throughput;
-    /// Product of the squared ratios of refractive indices passed: radiance is scaled by them on the way, its importance is not.
+    /// Product of the squared ratios of refractive indices passed: radiance is scaled by them on the way, its
+    /// importance is not.
     float index_scale = 1;
     int depth = 0;  ///< vertices so far
 };

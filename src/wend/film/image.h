@@ -31,8 +31,8 @@ struct Layer {
     std::vector<float> values;  ///< channel-interleaved: values[(y * width + x) * channels.size() + channel]
 };
 
-/// What a render leaves: the beauty, its layers, and where it comes from. `image` is the crop window, `offset` its corner in
-/// the full picture of size `full_size`.
+/// What a render leaves: the beauty, its layers, and where it comes from. `image` is the crop window, `offset` its
+/// corner in the full picture of size `full_size`.
 struct Picture {
     Image image;
     std::vector<Layer> layers;

@@ -33,7 +33,8 @@ private:
         const float length = hit ? hit->distance : farthest;
         if (medium_ != vacuum) {
             const Medium& medium = scene_.medium(medium_);
-            const Flight flight = d_.distance.sample(medium, ray_, length, throughput_, sampler_.uniform(), sampler_.random());
+            const Flight flight =
+                d_.distance.sample(medium, ray_, length, throughput_, sampler_.uniform(), sampler_.random());
             radiance_ += throughput_ * flight.emitted;
             throughput_ *= flight.weight;
             if (is_black(throughput_)) {
@@ -135,7 +136,8 @@ private:
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
         const LightReceiver receiver{position, normal};
-        const ChosenLight chosen = std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
+        const ChosenLight chosen =
+            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
         if (chosen.index < 0) {
             return Rgb(0.0f);
         }
@@ -163,8 +165,8 @@ private:
         return value * light->radiance * passage.transmittance * (weight / light_density);
     }
 
-    /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the probability, by channel, that a walk would
-    /// have flown through.
+    /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the
+    /// probability, by channel, that a walk would have flown through.
     struct Passage {
         Rgb transmittance{1.0f};
         Rgb probability{1.0f};
@@ -176,7 +178,8 @@ private:
             return {Rgb(0.0f), Rgb(0.0f)};
         }
         for (int crossed = 0; crossed < max_interfaces; ++crossed) {
-            const std::optional<Hit> hit = scene_.has_interfaces() ? scene_.intersect_interface(ray, rest) : std::nullopt;
+            const std::optional<Hit> hit =
+                scene_.has_interfaces() ? scene_.intersect_interface(ray, rest) : std::nullopt;
             if (hit && scene_.blocks(*hit, ray)) {
                 return {Rgb(0.0f), Rgb(0.0f)};
             }
@@ -212,7 +215,8 @@ private:
     }
 
     void add_emission(const Hit& hit) {
-        const Rgb emitted = emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -ray_.direction);
+        const Rgb emitted =
+            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -ray_.direction);
         if (!is_black(emitted)) {
             radiance_ += throughput_ * emitted * emission_weight(hit.light, hit.position, hit.normal);
         }
@@ -257,8 +261,8 @@ private:
     float index_scale_ = 1;
     int depth_ = 0;
     int interfaces_ = 0;
-    float travelled_ = 0;            ///< since the last vertex
-    const Hit* hit_ = nullptr;       ///< of the surface vertex at hand
+    float travelled_ = 0;       ///< since the last vertex
+    const Hit* hit_ = nullptr;  ///< of the surface vertex at hand
     bool open_vertex_ = false;
 
     // The last vertex, as multiple importance sampling wants it.

@@ -3,7 +3,8 @@
 namespace wend {
 
 float fresnel_diffuse_reflectance(float ior) {
-    // Midpoint rule in sin², where the cosine-weighted measure is uniform: smooth but for the critical angle, ample at load time.
+    // Midpoint rule in sin², where the cosine-weighted measure is uniform: smooth but for the critical angle, ample at
+    // load time.
     constexpr int cells = 4096;
     double sum = 0;
     for (int i = 0; i < cells; ++i) {

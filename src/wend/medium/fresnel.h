@@ -44,8 +44,8 @@ struct Refraction {
     float ior;
 };
 
-/// Refracts w (pointing away from the surface) about the unit normal n; none where it is totally reflected. `ior` = the index on the
-/// side that -n points to over that on n's side.
+/// Refracts w (pointing away from the surface) about the unit normal n; none where it is totally reflected. `ior` = the
+/// index on the side that -n points to over that on n's side.
 inline std::optional<Refraction> refract(const Vec3& w, Vec3 n, float ior) {
     float cosine = dot(n, w);
     if (cosine < 0) {

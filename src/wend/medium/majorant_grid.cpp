@@ -29,7 +29,8 @@ MajorantGrid::MajorantGrid(const Grid& grid, const Box3& box, float cell_size) :
     for (int z = 0; z < resolution_.z; ++z) {
         for (int y = 0; y < resolution_.y; ++y) {
             for (int x = 0; x < resolution_.x; ++x) {
-                const Vec3 low = box.min + Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) * cell_size_;
+                const Vec3 low =
+                    box.min + Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) * cell_size_;
                 const Vec3 high = low + cell_size_;
                 // Whole voxels, since stochastic interpolation returns the value of any voxel around a point.
                 const Grid::Range range = grid.range(Box3(floor(low - Vec3(margin)), ceil(high + Vec3(margin))));

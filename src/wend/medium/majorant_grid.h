@@ -9,7 +9,8 @@
 
 namespace wend {
 
-/// Bounds of a density over the cells of a coarse regular grid: what tracking needs to know of a heterogeneous medium ahead of time.
+/// Bounds of a density over the cells of a coarse regular grid: what tracking needs to know of a heterogeneous medium
+/// ahead of time.
 class MajorantGrid {
 public:
     struct Cell {
@@ -28,8 +29,9 @@ public:
     }
     std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
 
-    /// Walks the cells that a ray crosses between t0 and t1, nearest first (a 3-D digital differential analyser). The ray is in index space;
-    /// its direction need not have unit length, so t can be a distance in the world. `visit(cell, t_in, t_out)` returns false to stop.
+    /// Walks the cells that a ray crosses between t0 and t1, nearest first (a 3-D digital differential analyser). The
+    /// ray is in index space; its direction need not have unit length, so t can be a distance in the world.
+    /// `visit(cell, t_in, t_out)` returns false to stop.
     template <class Visit>
     void walk(const Vec3& origin, const Vec3& direction, float t0, float t1, Visit&& visit) const;
 
@@ -41,7 +43,8 @@ private:
     std::vector<Cell> cells_;
 };
 
-/// Where a ray (direction of any length) is inside a box: false if nowhere in [t0, t1], else t0 and t1 are narrowed to it.
+/// Where a ray (direction of any length) is inside a box: false if nowhere in [t0, t1], else t0 and t1 are narrowed to
+/// it.
 inline bool clip_to_box(const Box3& box, const Vec3& origin, const Vec3& direction, float& t0, float& t1) {
     for (int axis = 0; axis < 3; ++axis) {
         const float inverse = 1 / direction[axis];

@@ -7,7 +7,8 @@
 namespace wend {
 namespace {
 
-// A coarse cell of four voxels: finer costs more steps of the walk, coarser more null collisions (measured by bench_render).
+// A coarse cell of four voxels: finer costs more steps of the walk, coarser more null collisions (measured by
+// bench_render).
 constexpr float majorant_cell_voxels = 4;
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <wend/medium/phase.h>
 
 #include <memory>
-#include <vector>
 #include <variant>
+#include <vector>
 
 namespace wend {
 
@@ -43,9 +43,11 @@ struct GridEmission {
 /// A medium whose coefficients vary in proportion to a density grid.
 class GridMedium {
 public:
-    /// Coefficients are per scene unit at density 1. `box` (index space) is where the medium is; density outside is not looked at.
-    GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box, const Rgb& absorption,
-               const Rgb& scattering, const PhaseFunction& phase, std::shared_ptr<const GridEmission> emission = nullptr);
+    /// Coefficients are per scene unit at density 1. `box` (index space) is where the medium is; density outside is not
+    /// looked at.
+    GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box,
+               const Rgb& absorption, const Rgb& scattering, const PhaseFunction& phase,
+               std::shared_ptr<const GridEmission> emission = nullptr);
 
     const Rgb& absorption() const { return absorption_; }
     const Rgb& scattering() const { return scattering_; }

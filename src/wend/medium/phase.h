@@ -1,5 +1,5 @@
-// Phase functions. A cosine is that between the directions of propagation before and after the collision: 1 is straight on. All
-// densities are per steradian and normalized, so evaluate() is also the density of sample().
+// Phase functions. A cosine is that between the directions of propagation before and after the collision: 1 is straight
+// on. All densities are per steradian and normalized, so evaluate() is also the density of sample().
 #pragma once
 
 #include <wend/core/frame.h>

@@ -12,9 +12,9 @@ inline Rgb transmittance(const HomogeneousMedium& medium, float distance) {
     return {std::exp(-tau.r), std::exp(-tau.g), std::exp(-tau.b)};
 }
 
-/// Residual ratio tracking (novak2014) from 0 to `distance` along the ray: in each cell of the majorant grid the smallest density is the control, whose
-/// transmittance is exact, and only the residual is estimated. Estimates that have become small are ended by roulette, so that a
-/// dense medium costs no more than a few mean free paths.
+/// Residual ratio tracking (novak2014) from 0 to `distance` along the ray: in each cell of the majorant grid the
+/// smallest density is the control, whose transmittance is exact, and only the residual is estimated. Estimates that
+/// have become small are ended by roulette, so that a dense medium costs no more than a few mean free paths.
 Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random);
 
 inline Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float distance, Pcg32& random) {

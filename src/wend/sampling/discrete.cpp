@@ -94,7 +94,8 @@ PiecewiseConstant2D::Sample PiecewiseConstant2D::sample(const Vec2& u) const {
     const float px = row[x + 1] - row[x];
     const float fx = px > 0 ? std::min((u.x - row[x]) / px, one_minus_epsilon) : 0.5f;
     const float fy = py > 0 ? std::min((u.y - rows_[y]) / py, one_minus_epsilon) : 0.5f;
-    return {{(x + fx) / width_, (y + fy) / height_}, px * py * static_cast<float>(width_) * static_cast<float>(height_)};
+    return {{(x + fx) / width_, (y + fy) / height_},
+            px * py * static_cast<float>(width_) * static_cast<float>(height_)};
 }
 
 float PiecewiseConstant2D::density(const Vec2& point) const {

@@ -46,8 +46,8 @@ public:
 private:
     int width_ = 0;
     int height_ = 0;
-    std::vector<float> rows_;        // cumulative over rows, height + 1 entries from 0 to 1
-    std::vector<float> columns_;     // cumulative within each row, width + 1 entries a row
+    std::vector<float> rows_;     // cumulative over rows, height + 1 entries from 0 to 1
+    std::vector<float> columns_;  // cumulative within each row, width + 1 entries a row
 };
 
 }  // namespace wend

@@ -12,8 +12,8 @@ enum class SamplerKind {
     independent,  ///< independent uniform numbers: what statistics assume
 };
 
-/// The uniform numbers of one camera sample, a pure function of (seed, pixel, sample index): the picture does not depend on which thread
-/// draws them, nor in what order pixels are rendered.
+/// The uniform numbers of one camera sample, a pure function of (seed, pixel, sample index): the picture does not
+/// depend on which thread draws them, nor in what order pixels are rendered.
 class Sampler {
 public:
     Sampler(SamplerKind kind, std::uint64_t seed, std::uint64_t pixel, std::uint32_t sample)

@@ -1,5 +1,5 @@
-// Two-dimensional Owen-scrambled Sobol points (burley2020), padded: each pair of dimensions is an independently shuffled and scrambled
-// copy of the first two Sobol dimensions.
+// Two-dimensional Owen-scrambled Sobol points (burley2020), padded: each pair of dimensions is an independently
+// shuffled and scrambled copy of the first two Sobol dimensions.
 #pragma once
 
 #include <wend/core/random.h>
@@ -16,8 +16,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     return __builtin_bswap32(x);
 }
 
-/// A hash in which a bit of the result depends on the bits of x below it only (laine2011, with the constants of burley2020's erratum):
-/// on bit-reversed numbers this is an Owen scramble.
+/// A hash in which a bit of the result depends on the bits of x below it only (laine2011, with the constants of
+/// burley2020's erratum): on bit-reversed numbers this is an Owen scramble.
 constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -27,8 +27,8 @@ constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-/// The first two Sobol coordinates of a point, as bit-reversed 32-bit fractions. The second dimension's matrix is Pascal's triangle modulo
-/// 2, a Kronecker power of [1 1; 0 1], hence five butterfly steps.
+/// The first two Sobol coordinates of a point, as bit-reversed 32-bit fractions. The second dimension's matrix is
+/// Pascal's triangle modulo 2, a Kronecker power of [1 1; 0 1], hence five butterfly steps.
 constexpr std::array<std::uint32_t, 2> sobol_reversed(std::uint32_t index) {
     std::uint32_t y = index;
     y ^= (y >> 1) & 0x55555555u;

@@ -52,8 +52,8 @@ inline float cone_density(float one_minus_cosine) {
     return 1 / (2 * pi * one_minus_cosine);
 }
 
-/// Barycentric coordinates (of the second and third vertex) of a uniform point in a triangle, with less distortion than the square
-/// root map (heitz2019).
+/// Barycentric coordinates (of the second and third vertex) of a uniform point in a triangle, with less distortion than
+/// the square root map (heitz2019).
 inline Vec2 to_triangle(const Vec2& u) {
     return u.y > u.x ? Vec2(u.x * 0.5f, u.y - u.x * 0.5f) : Vec2(u.x - u.y * 0.5f, u.y * 0.5f);
 }

@@ -1,4 +1,5 @@
-// Cameras: from a point on the film to a ray. Film coordinates are in pixels of the full picture, (0,0) the upper left corner.
+// Cameras: from a point on the film to a ray. Film coordinates are in pixels of the full picture, (0,0) the upper left
+// corner.
 #pragma once
 
 #include <wend/core/ray.h>
@@ -15,7 +16,7 @@ struct ScreenWindow {
 
 /// A thin lens; a pinhole where the radius is 0. The camera looks along +z.
 struct PerspectiveCamera {
-    ScreenWindow screen;     ///< at distance 1, already scaled by the tangent of half the field of view
+    ScreenWindow screen;  ///< at distance 1, already scaled by the tangent of half the field of view
     float lens_radius = 0;
     float focal_distance = 1e6f;
 };

@@ -10,7 +10,8 @@ namespace wend {
 namespace {
 
 /// Connection to a point on an area light, given the density of the point per world area.
-std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& normal, float area_density, const Light& light) {
+std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& normal, float area_density,
+                                   const Light& light) {
     const Vec3 d = q - p;
     const float d2 = length_squared(d);
     if (!(d2 > 0)) {
@@ -114,10 +115,12 @@ std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Ve
         std::visit([&](const auto& s) { return sample_shape(s, from, l.object_area, u); }, quadric.shape);
     const Vec3 n = normalize(point.normal);
     const Vec3 world_normal = normalize(quadric.object_from_world.transposed_vector(n)) * l.flip;
-    return connect(p, quadric.world_from_object.point(point.position), world_normal, point.density / area_stretch(l, n), light);
+    return connect(p, quadric.world_from_object.point(point.position), world_normal, point.density / area_stretch(l, n),
+                   light);
 }
 
-float solid_angle_density(float area_density, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& normal) {
+float solid_angle_density(float area_density, const Vec3& p, const Vec3& direction, const Vec3& hit,
+                          const Vec3& normal) {
     const float cosine = abs_dot(normal, direction);
     return cosine > 1e-7f ? area_density * length_squared(hit - p) / cosine : 0.0f;
 }
@@ -185,7 +188,9 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const DistantLight& l) const { return disk * mean(l.radiance); }
         float operator()(const UniformInfiniteLight& l) const { return 4 * pi * disk * mean(l.radiance); }
         float operator()(const ImageInfiniteLight& l) const { return 4 * pi * disk * mean(l.mean_radiance()); }
-        float operator()(const TriangleLight& l) const { return (l.two_sided ? 2 : 1) * pi * l.area * mean(l.radiance); }
+        float operator()(const TriangleLight& l) const {
+            return (l.two_sided ? 2 : 1) * pi * l.area * mean(l.radiance);
+        }
         float operator()(const QuadricLight& l) const {
             return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean(l.radiance);
         }
@@ -193,7 +198,8 @@ float light_power(const Light& light, float scene_radius) {
     return std::visit(Power{pi * scene_radius * scene_radius}, light);
 }
 
-TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance, bool two_sided) {
+TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance,
+                                  bool two_sided) {
     const Vec3 n = cross(p1 - p0, p2 - p0);
     const float l = length(n);
     return {p0, p1, p2, l > 0 ? n * ((flip ? -1 : 1) / l) : Vec3(0, 0, 1), 0.5f * l, radiance, two_sided};
@@ -208,7 +214,11 @@ QuadricLight make_quadric_light(std::shared_ptr<const Quadric> quadric, const Tr
         float operator()(const Disk& s) const { return 0.5f * s.phi_max * (sqr(s.radius) - sqr(s.inner_radius)); }
     };
     const float area = std::visit(Area{}, quadric->shape);
-    return {std::move(quadric), flip ? -1.0f : 1.0f, radiance, two_sided, area,
+    return {std::move(quadric),
+            flip ? -1.0f : 1.0f,
+            radiance,
+            two_sided,
+            area,
             static_cast<float>(std::abs(world_from_object.determinant()))};
 }
 
@@ -239,7 +249,10 @@ Vec2 equal_area_sphere_to_square(const Vec3& d) {
 }
 
 ImageInfiniteLight::ImageInfiniteLight(Image image, float scale, const Transform& world_from_light)
-    : image_(std::move(image)), scale_(scale), world_from_light_(world_from_light), light_from_world_(world_from_light.inverse()) {
+    : image_(std::move(image)),
+      scale_(scale),
+      world_from_light_(world_from_light),
+      light_from_world_(world_from_light.inverse()) {
     std::vector<float> weights;
     weights.reserve(image_.pixels.size());
     Rgb sum;
@@ -257,7 +270,8 @@ Rgb ImageInfiniteLight::texel(int x, int y) const {
 
 Rgb ImageInfiniteLight::radiance(const Vec3& direction) const {
     const Vec2 uv = equal_area_sphere_to_square(normalize(light_from_world_.vector(direction)));
-    return texel(static_cast<int>(uv.x * static_cast<float>(image_.width)), static_cast<int>(uv.y * static_cast<float>(image_.height)));
+    return texel(static_cast<int>(uv.x * static_cast<float>(image_.width)),
+                 static_cast<int>(uv.y * static_cast<float>(image_.height)));
 }
 
 float ImageInfiniteLight::density(const Vec3& direction) const {

@@ -39,7 +39,8 @@ struct UniformInfiniteLight {
     Rgb radiance;
 };
 
-/// Radiance from infinity by direction: a square picture in the equal-area octahedral mapping (clarberg2008), as pbrt-v4 has it.
+/// Radiance from infinity by direction: a square picture in the equal-area octahedral mapping (clarberg2008), as
+/// pbrt-v4 has it.
 class ImageInfiniteLight {
 public:
     ImageInfiniteLight(Image image, float scale, const Transform& world_from_light);
@@ -69,7 +70,8 @@ struct TriangleLight {
     bool two_sided = false;
 };
 
-/// An emitting sphere or disk, sampled uniformly by area in its own space, a sphere from outside only on the side that can be seen.
+/// An emitting sphere or disk, sampled uniformly by area in its own space, a sphere from outside only on the side that
+/// can be seen.
 struct QuadricLight {
     std::shared_ptr<const Quadric> quadric;
     float flip = 1;  ///< -1 where the normal is reversed
@@ -79,13 +81,14 @@ struct QuadricLight {
     float determinant = 1;  ///< absolute volume factor of the map to the world
 };
 
-using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight>;
+using Light =
+    std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight>;
 
 /// A connection from `p` to the light; none where it cannot shine.
 std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u);
 
-/// Density per steradian with which sample_light(light, p) yields `direction`, whose ray meets an area light at `hit` with unit normal
-/// `hit_normal` (both ignored for lights at infinity).
+/// Density per steradian with which sample_light(light, p) yields `direction`, whose ray meets an area light at `hit`
+/// with unit normal `hit_normal` (both ignored for lights at infinity).
 float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal);
 
 /// Radiance that leaves an area light at a point with the given unit geometric normal towards w.
@@ -96,11 +99,13 @@ Rgb environment_radiance(const Light& light, const Vec3& direction);
 
 bool is_at_infinity(const Light& light);
 
-/// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at infinity reach.
+/// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at
+/// infinity reach.
 float light_power(const Light& light, float scene_radius);
 
 /// Area light of a triangle; `flip` reverses its normal.
-TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance, bool two_sided);
+TriangleLight make_triangle_light(const Vec3& p0, const Vec3& p1, const Vec3& p2, bool flip, const Rgb& radiance,
+                                  bool two_sided);
 
 /// Area light of a quadric.
 QuadricLight make_quadric_light(std::shared_ptr<const Quadric> quadric, const Transform& world_from_object, bool flip,

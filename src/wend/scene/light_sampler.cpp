@@ -164,7 +164,8 @@ int TreeLightSampler::build(std::span<std::pair<int, Bounds>> lights, int parent
         leaf_of_light_[static_cast<std::size_t>(lights[0].first)] = index;
         return index;
     }
-    // Split where the sum of power times surface area times spread of normals is least, over buckets of the widest axis.
+    // Split where the sum of power times surface area times spread of normals is least, over buckets of the widest
+    // axis.
     Box3 centres;
     for (const auto& [light, b] : lights) {
         centres.extendBy(b.box.center());
@@ -270,7 +271,9 @@ float TreeLightSampler::probability(const LightReceiver& receiver, int light) co
     while (nodes_[static_cast<std::size_t>(node)].parent >= 0) {
         const int parent = nodes_[static_cast<std::size_t>(node)].parent;
         const float a = nodes_[static_cast<std::size_t>(parent) + 1].bounds.importance(receiver);
-        const float b = nodes_[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(parent)].child)].bounds.importance(receiver);
+        const float b =
+            nodes_[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(parent)].child)].bounds.importance(
+                receiver);
         const bool is_first = node == parent + 1;
         probability *= a + b > 0 ? (is_first ? a : b) / (a + b) : 0.0f;
         node = parent;

@@ -33,8 +33,8 @@ private:
     AliasTable table_;
 };
 
-/// By a binary tree over the lights that have a place: at each node the branch is drawn by an estimate of what its lights send to the
-/// receiver. Lights at infinity are drawn uniformly beside the tree.
+/// By a binary tree over the lights that have a place: at each node the branch is drawn by an estimate of what its
+/// lights send to the receiver. Lights at infinity are drawn uniformly beside the tree.
 class TreeLightSampler {
 public:
     TreeLightSampler(std::span<const Light> lights, float scene_radius);
@@ -43,8 +43,8 @@ public:
     float probability(const LightReceiver& receiver, int light) const;
 
 private:
-    /// Where lights are, where they shine, and how strongly. The cone of normals is `axis` with half angle theta_o; they emit up to theta_e
-    /// from each normal.
+    /// Where lights are, where they shine, and how strongly. The cone of normals is `axis` with half angle theta_o;
+    /// they emit up to theta_e from each normal.
     struct Bounds {
         Box3 box;
         Vec3 axis{0, 0, 1};
@@ -57,8 +57,8 @@ private:
     };
     struct Node {
         Bounds bounds;
-        int child = -1;   ///< index of the second child (the first follows its parent), or -1 at a leaf
-        int light = -1;   ///< at a leaf
+        int child = -1;  ///< index of the second child (the first follows its parent), or -1 at a leaf
+        int light = -1;  ///< at a leaf
         int parent = -1;
     };
 

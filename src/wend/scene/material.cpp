@@ -48,7 +48,8 @@ Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const Textur
 
 Bsdf bsdf_of(const CoatedDiffuseMaterial& m, const Textures& textures, const TexturePoint& p) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
-    return CoatedDiffuseBsdf{clamp01(textures.evaluate(m.reflectance, p)), m.ior, alpha.x, alpha.y, m.inner_reflectance};
+    return CoatedDiffuseBsdf{clamp01(textures.evaluate(m.reflectance, p)), m.ior, alpha.x, alpha.y,
+                             m.inner_reflectance};
 }
 
 Bsdf bsdf_of(const InterfaceMaterial&, const Textures&, const TexturePoint&) {

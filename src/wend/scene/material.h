@@ -20,7 +20,8 @@ struct Roughness {
 };
 
 struct ConductorMaterial {
-    /// Complex index; or, where `reflectance` is set (>= 0), the reflectance at normal incidence, which then determines k with eta = 1.
+    /// Complex index; or, where `reflectance` is set (>= 0), the reflectance at normal incidence, which then determines
+    /// k with eta = 1.
     TextureId eta = 0;
     TextureId k = 0;
     TextureId reflectance = -1;

@@ -11,7 +11,8 @@
 
 namespace wend {
 
-/// Embree over the surfaces of a scene. Its instruction set is pinned, so that the same rays hit the same points on every machine.
+/// Embree over the surfaces of a scene. Its instruction set is pinned, so that the same rays hit the same points on
+/// every machine.
 class RayCaster {
 public:
     /// Which surfaces a ray sees.

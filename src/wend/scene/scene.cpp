@@ -54,8 +54,8 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         bounds_ = Box3(Vec3(-1), Vec3(1));  // nothing but lights and media
     }
     const float radius = 0.5f * length(bounds_.size());
-    light_sampler_ = std::make_unique<LightSampler>(
-        d_.light_tree ? LightSampler(TreeLightSampler(d_.lights, radius)) : LightSampler(PowerLightSampler(d_.lights, radius)));
+    light_sampler_ = std::make_unique<LightSampler>(d_.light_tree ? LightSampler(TreeLightSampler(d_.lights, radius))
+                                                                  : LightSampler(PowerLightSampler(d_.lights, radius)));
 }
 
 Scene::~Scene() = default;

@@ -27,13 +27,14 @@ inline constexpr MediumId vacuum = -1;
 struct Surface {
     Shape shape;
     int material = 0;
-    /// Media on the two sides; the same on both where the surface bounds no medium, and then the walk keeps the medium it is in.
+    /// Media on the two sides; the same on both where the surface bounds no medium, and then the walk keeps the medium
+    /// it is in.
     MediumId interior = vacuum;
     MediumId exterior = vacuum;
     /// The geometric normal points against the shape's own orientation. A mesh with normals follows those instead.
     bool flip_normal = false;
-    int first_light = -1;           ///< area light of the first primitive, those of the others following; -1: none
-    TextureId alpha = -1;           ///< probability of being there at all; -1: certain
+    int first_light = -1;  ///< area light of the first primitive, those of the others following; -1: none
+    TextureId alpha = -1;  ///< probability of being there at all; -1: certain
 
     bool bounds_medium() const { return interior != exterior; }
 };
@@ -59,19 +60,19 @@ struct SceneDescription {
     std::vector<ObjectDefinition> objects;
     std::vector<Instance> instances;
     std::vector<Light> lights;
-    bool light_tree = true;           ///< choose lights by the tree, not by power alone
+    bool light_tree = true;  ///< choose lights by the tree, not by power alone
 };
 
 /// Where a ray meets a surface.
 struct Hit {
     float distance = 0;
     Vec3 position;
-    Vec3 normal;           ///< geometric, unit length, towards the exterior
-    Frame shading;         ///< z: interpolated normal on the geometric normal's side; x along dp/du
+    Vec3 normal;    ///< geometric, unit length, towards the exterior
+    Frame shading;  ///< z: interpolated normal on the geometric normal's side; x along dp/du
     Vec2 uv;
     const Surface* surface = nullptr;
     std::uint32_t primitive = 0;
-    int light = -1;        ///< area light, if any
+    int light = -1;  ///< area light, if any
 };
 
 /// Embree's structures over the scene's surfaces.
@@ -79,14 +80,15 @@ class RayCaster;
 
 class Scene {
 public:
-    /// Builds the acceleration structures. Throws InputError if the scene holds nothing that can be rendered (no finite vertex ...).
+    /// Builds the acceleration structures. Throws InputError if the scene holds nothing that can be rendered (no finite
+    /// vertex ...).
     explicit Scene(SceneDescription description);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
-    /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their probability, decided by
-    /// a hash of the ray, so that the answer is a function of the arguments.
+    /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their
+    /// probability, decided by a hash of the ray, so that the answer is a function of the arguments.
     std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const;
     /// Whether anything opaque (no interface) lies within `distance`.
     bool is_occluded(const Ray& ray, float distance) const;
@@ -97,7 +99,9 @@ public:
     /// Whether intersect_interface() can return anything.
     bool has_interfaces() const { return has_interfaces_; }
 
-    const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(hit.surface->material)]; }
+    const Material& material(const Hit& hit) const {
+        return d_.materials[static_cast<std::size_t>(hit.surface->material)];
+    }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
     Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, {hit.uv, hit.position}); }
     /// The medium on the side of the surface that `w` points to, given the one the walk is in.

@@ -92,8 +92,10 @@ Box3 object_bounds(const Disk& s) {
 
 }  // namespace
 
-bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max, QuadricHit& hit) {
-    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max, hit); }, quadric.shape);
+bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max,
+               QuadricHit& hit) {
+    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max, hit); },
+                      quadric.shape);
 }
 
 QuadricPoint project(const Quadric& quadric, const Vec3& p) {
@@ -104,7 +106,8 @@ Box3 bounds(const Quadric& quadric) {
     const Box3 local = std::visit([](const auto& s) { return object_bounds(s); }, quadric.shape);
     Box3 world;
     for (int corner = 0; corner < 8; ++corner) {
-        world.extendBy(quadric.world_from_object.point({corner & 1 ? local.max.x : local.min.x, corner & 2 ? local.max.y : local.min.y,
+        world.extendBy(quadric.world_from_object.point({corner & 1 ? local.max.x : local.min.x,
+                                                        corner & 2 ? local.max.y : local.min.y,
                                                         corner & 4 ? local.max.z : local.min.z}));
     }
     return world;

@@ -19,7 +19,9 @@ struct TriangleMesh {
     std::vector<std::uint32_t> indices;  ///< three a triangle
 
     std::size_t triangle_count() const { return indices.size() / 3; }
-    Vec3 vertex(std::size_t triangle, int corner) const { return positions[indices[3 * triangle + static_cast<std::size_t>(corner)]]; }
+    Vec3 vertex(std::size_t triangle, int corner) const {
+        return positions[indices[3 * triangle + static_cast<std::size_t>(corner)]];
+    }
 };
 
 /// A sphere around the origin of its space, cut at z_min, z_max and the sweep angle phi_max (radians).
@@ -57,9 +59,11 @@ struct QuadricHit {
 };
 
 /// The nearest hit with t in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
-bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max, QuadricHit& hit);
+bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max,
+               QuadricHit& hit);
 
-/// A point near the surface moved onto it, its normal (outward; disk: +z) and its tangent along u; object space, not normalized.
+/// A point near the surface moved onto it, its normal (outward; disk: +z) and its tangent along u; object space, not
+/// normalized.
 struct QuadricPoint {
     Vec3 position;
     Vec3 normal;

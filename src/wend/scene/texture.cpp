@@ -66,7 +66,8 @@ Rgb Textures::evaluate(TextureId id, const TexturePoint& p) const {
     }
     if (const auto* i = std::get_if<ImageTexture>(&texture)) {
         const Rgb value = bilinear(*i, i->mapping(p)) * i->scale;
-        return i->invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b)) : value;
+        return i->invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b))
+                         : value;
     }
     const auto& board = std::get<CheckerboardTexture>(texture);
     bool odd;

@@ -1,4 +1,5 @@
-// Textures: colour as a function of a surface point. A node refers to others by index, so that a scene's textures are one flat list of values.
+// Textures: colour as a function of a surface point. A node refers to others by index, so that a scene's textures are
+// one flat list of values.
 #pragma once
 
 #include <wend/core/colour.h>

@@ -1,5 +1,6 @@
-// Scattering at a surface point. Local directions point away from the surface, z is the shading normal. evaluate() includes the
-// cosine of the sampled direction; radiance is carried, so transmission includes the squared ratio of indices.
+// Scattering at a surface point. Local directions point away from the surface, z is the shading normal. evaluate()
+// includes the cosine of the sampled direction; radiance is carried, so transmission includes the squared ratio of
+// indices.
 #pragma once
 
 #include <wend/core/colour.h>
@@ -13,8 +14,8 @@ namespace wend {
 /// A direction drawn from a BSDF, local.
 struct BsdfSample {
     Vec3 direction;
-    Rgb value;              ///< BSDF times cosine (for specular: the coefficient times `density`)
-    float density = 0;      ///< per steradian; a probability if specular
+    Rgb value;          ///< BSDF times cosine (for specular: the coefficient times `density`)
+    float density = 0;  ///< per steradian; a probability if specular
     bool specular = false;
 };
 
@@ -41,7 +42,8 @@ struct ConductorBsdf {
     bool is_specular() const;
 };
 
-/// Smooth or rough boundary between dielectrics (walter2007); `ior` is the index on the far side of the normal over that on the near side.
+/// Smooth or rough boundary between dielectrics (walter2007); `ior` is the index on the far side of the normal over
+/// that on the near side.
 struct DielectricBsdf {
     float ior = 1.5f;
     float alpha_x = 0;
@@ -53,9 +55,9 @@ struct DielectricBsdf {
     bool is_specular() const;
 };
 
-/// A diffuse base under a dielectric coat, smooth or rough. Light that enters is refracted in and out and reflected inside any number of times, in closed
-/// form for a smooth coat; a rough coat keeps the smooth one's transmission, and its reflection is a GGX lobe. Seen from below it
-/// is like from above.
+/// A diffuse base under a dielectric coat, smooth or rough. Light that enters is refracted in and out and reflected
+/// inside any number of times, in closed form for a smooth coat; a rough coat keeps the smooth one's transmission, and
+/// its reflection is a GGX lobe. Seen from below it is like from above.
 struct CoatedDiffuseBsdf {
     Rgb reflectance;
     float ior = 1.5f;

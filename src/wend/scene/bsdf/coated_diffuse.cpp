@@ -20,7 +20,8 @@ Rgb CoatedDiffuseBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const float transmitted = (1 - fresnel_dielectric(cosine_o, ior)) * (1 - fresnel_dielectric(cosine_i, ior));
     Rgb value;
     for (int c = 0; c < 3; ++c) {
-        value[c] = reflectance[c] * transmitted * inv_pi * cosine_i / (sqr(ior) * (1 - reflectance[c] * inner_reflectance));
+        value[c] =
+            reflectance[c] * transmitted * inv_pi * cosine_i / (sqr(ior) * (1 - reflectance[c] * inner_reflectance));
     }
     if (!Microfacets::is_smooth(alpha_x, alpha_y)) {
         const Vec3 m = normalize(wo + wi);

@@ -5,7 +5,8 @@
 namespace wend {
 namespace {
 
-/// The microfacet that reflects or refracts wo into wi, and the ratio of indices beyond and before (1 for a reflection).
+/// The microfacet that reflects or refracts wo into wi, and the ratio of indices beyond and before (1 for a
+/// reflection).
 struct Facet {
     Vec3 normal;
     float index_ratio;
@@ -54,7 +55,8 @@ Rgb DielectricBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const float n = facet->index_ratio;
     const float denominator = sqr(dot(wi, m) + dot(wo, m) / n);
     // The factor 1/n² is that of radiance.
-    return Rgb((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) / (denominator * std::abs(wo.z) * n * n));
+    return Rgb((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) /
+               (denominator * std::abs(wo.z) * n * n));
 }
 
 float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {

@@ -5,8 +5,8 @@
 
 namespace wend {
 
-/// The anisotropic GGX (Trowbridge-Reitz) distribution of microfacet normals (walter2007), sampled by visible normals (heitz2018). Directions
-/// are local, z is the mean normal.
+/// The anisotropic GGX (Trowbridge-Reitz) distribution of microfacet normals (walter2007), sampled by visible normals
+/// (heitz2018). Directions are local, z is the mean normal.
 class Microfacets {
 public:
     Microfacets(float alpha_x, float alpha_y) : ax_(std::max(alpha_x, 1e-4f)), ay_(std::max(alpha_y, 1e-4f)) {}
