@@ -1,0 +1,233 @@
+#include <wend/core/error.h>
+#include <wend/io/bytes.h>
+#include <wend/io/gzip.h>
+#include <wend/io/nanovdb_file.h>
+#include <wend/io/voxel_blocks.h>
+
+#include <blosc.h>
+#include <fmt/format.h>
+#include <nanovdb/NanoVDB.h>
+#include <nanovdb/util/GridChecksum.h>
+#include <nanovdb/util/HostBuffer.h>
+#include <nanovdb/util/IO.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace wend {
+namespace {
+
+/// A grid as it lies in the file.
+struct PackedGrid {
+    std::string name;
+    nanovdb::GridType type;
+    nanovdb::io::Codec codec;
+    std::uint64_t unpacked_size;
+    std::string_view bytes;
+};
+
+std::vector<PackedGrid> grids_in(std::string_view file, const Place& place) {
+    std::vector<PackedGrid> grids;
+    Bytes bytes(file, place);
+    while (!bytes.empty()) {
+        const auto header = bytes.take<nanovdb::io::Header>();
+        if (header.magic != NANOVDB_MAGIC_NUMBER || header.version.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER) {
+            throw InputError(place, "not a NanoVDB file of a version that is known");
+        }
+        const std::size_t first = grids.size();
+        std::vector<std::uint64_t> sizes;
+        for (int i = 0; i < header.gridCount; ++i) {
+            const auto meta = bytes.take<nanovdb::io::MetaData>();
+            const std::string name(bytes.take(meta.nameSize));
+            grids.push_back(
+                {name.c_str(), meta.gridType, header.codec, meta.gridSize, {}});  // the name ends with a zero
+            sizes.push_back(meta.fileSize);
+        }
+        for (std::size_t i = 0; i < sizes.size(); ++i) {
+            grids[first + i].bytes = bytes.take(sizes[i]);
+        }
+    }
+    return grids;
+}
+
+void unzip(const PackedGrid& grid, char* to, const Place& place) {
+    Bytes bytes(grid.bytes, place);
+    const std::string_view packed = bytes.take(bytes.take<std::uint64_t>());
+    uLongf size = grid.unpacked_size;
+    if (uncompress(reinterpret_cast<Bytef*>(to), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) !=
+            Z_OK ||
+        size != grid.unpacked_size) {
+        throw InputError(place, fmt::format("grid `{}`: the compressed data is damaged", grid.name));
+    }
+}
+
+void unblosc(const PackedGrid& grid, char* to, const Place& place) {
+    Bytes bytes(grid.bytes, place);
+    for (std::uint64_t done = 0; done < grid.unpacked_size;) {
+        const std::string_view packed = bytes.take(bytes.take<std::uint64_t>());
+        const std::uint64_t chunk = std::min<std::uint64_t>(grid.unpacked_size - done, nanovdb::io::Internal::MAX_SIZE);
+        std::size_t size = 0;
+        if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) != 0 || size != chunk ||
+            blosc_decompress_ctx(packed.data(), to + done, chunk, 1) != static_cast<int>(chunk)) {
+            throw InputError(place, fmt::format("grid `{}`: the compressed data is damaged", grid.name));
+        }
+        done += chunk;
+    }
+}
+
+nanovdb::HostBuffer unpack(const PackedGrid& grid, const Place& place) {
+    // No codec packs better than this; what claims to be larger is damaged, and memory must not be taken for it.
+    constexpr std::uint64_t best_ratio = 2048;
+    if (grid.unpacked_size / best_ratio > grid.bytes.size()) {
+        throw InputError(place, fmt::format("grid `{}` has an impossible size", grid.name));
+    }
+    nanovdb::HostBuffer buffer = nanovdb::HostBuffer::create(grid.unpacked_size);
+    char* to = reinterpret_cast<char*>(buffer.data());
+    switch (grid.codec) {
+        case nanovdb::io::Codec::NONE:
+            std::memcpy(to, Bytes(grid.bytes, place).take(grid.unpacked_size).data(), grid.unpacked_size);
+            break;
+        case nanovdb::io::Codec::ZIP:
+            unzip(grid, to, place);
+            break;
+        case nanovdb::io::Codec::BLOSC:
+            unblosc(grid, to, place);
+            break;
+        default:
+            throw InputError(place, fmt::format("grid `{}` is compressed in an unknown way", grid.name));
+    }
+    return buffer;
+}
+
+/// Looks at everything in a grid's memory that a look-up follows or counts by, so that damaged data is found here and
+/// not by a crash. T is the grid's kind of value.
+template <class T>
+class GridCheck {
+public:
+    GridCheck(const nanovdb::HostBuffer& buffer, const std::string& name, const Place& place)
+        : begin_(reinterpret_cast<const char*>(buffer.data())), size_(buffer.size()), name_(name), place_(place) {}
+
+    const nanovdb::NanoGrid<T>& checked() {
+        expect(sizeof(nanovdb::NanoGrid<T>) + sizeof(nanovdb::NanoTree<T>) <= size_);
+        const auto& grid = *reinterpret_cast<const nanovdb::NanoGrid<T>*>(begin_);
+        expect(grid.isValid() && grid.gridSize() <= size_ && grid.version().getMajor() == NANOVDB_MAJOR_VERSION_NUMBER);
+        const auto& tree = grid.tree();
+        const auto& root = *at<nanovdb::NanoRoot<T>>(&tree, static_cast<std::int64_t>(tree.data()->mNodeOffset[3]));
+        const auto tiles = root.data()->mTableSize;
+        expect(tiles <= bytes_behind(&root + 1) / sizeof(typename nanovdb::NanoRoot<T>::Tile));
+        for (std::uint32_t i = 0; i < tiles; ++i) {
+            if (const auto* tile = root.data()->tile(i); tile->isChild()) {
+                check(*at<nanovdb::NanoUpper<T>>(&root, tile->child));
+            }
+        }
+        for (int level = 0; level < 3; ++level) {
+            expect(tree.data()->mNodeCount[level] == count_[level]);
+        }
+        const nanovdb::GridChecksum stored(grid.checksum());
+        expect(nanovdb::validateChecksum(grid, stored.mode()));
+        return grid;
+    }
+
+private:
+    template <class Node>
+    void check(const Node& node) {
+        count_node(Node::LEVEL, sizeof(Node));
+        for (auto child = node.data()->mChildMask.beginOn(); child; ++child) {
+            check(*at<typename Node::ChildNodeType>(&node, node.data()->mTable[*child].child));
+        }
+    }
+    void check(const nanovdb::NanoLeaf<T>& leaf) {
+        count_node(0, sizeof(leaf));
+        expect(static_cast<std::uint64_t>(leaf.data()->memUsage()) <= bytes_behind(&leaf));
+    }
+
+    /// Nodes that share memory could make a small file take forever.
+    void count_node(int level, std::size_t bytes) { expect(++count_[level] <= size_ / bytes); }
+
+    std::size_t bytes_behind(const void* place) const {
+        return size_ - static_cast<std::size_t>(static_cast<const char*>(place) - begin_);
+    }
+
+    template <class Node>
+    const Node* at(const void* from, std::int64_t offset) const {
+        std::int64_t place = 0;
+        expect(!__builtin_add_overflow(static_cast<const char*>(from) - begin_, offset, &place) && place >= 0 &&
+               static_cast<std::size_t>(place) <= size_ && size_ - static_cast<std::size_t>(place) >= sizeof(Node) &&
+               place % NANOVDB_DATA_ALIGNMENT == 0);
+        return reinterpret_cast<const Node*>(begin_ + place);
+    }
+
+    void expect(bool condition) const {
+        if (!condition) {
+            throw InputError(place_, fmt::format("grid `{}` is damaged", name_));
+        }
+    }
+
+    const char* begin_;
+    std::size_t size_;
+    const std::string& name_;
+    const Place& place_;
+    std::size_t count_[3] = {0, 0, 0};
+};
+
+template <class T>
+Volume volume_of_type(const nanovdb::HostBuffer& buffer, const std::string& name, const std::filesystem::path& file) {
+    const Place place{file.string()};
+    const nanovdb::NanoGrid<T>& grid = GridCheck<T>(buffer, name, place).checked();
+    const auto accessor = grid.getAccessor();
+    const nanovdb::CoordBBox box = grid.tree().bbox();
+    VoxelTree tree;
+    tree.first = {box.min()[0], box.min()[1], box.min()[2]};
+    tree.last = {box.max()[0], box.max()[1], box.max()[2]};
+    tree.value = [&](int x, int y, int z) { return accessor.getValue(nanovdb::Coord(x, y, z)); };
+    tree.block_occupied = [&](const Vec3i& voxel) {
+        const nanovdb::Coord at(voxel.x, voxel.y, voxel.z);
+        return accessor.probeLeaf(at) || accessor.getValue(at) != 0;
+    };
+    tree.to_world = [&](const Imath::V3d& p) {
+        const auto q = grid.map().applyMap(nanovdb::Vec3d(p.x, p.y, p.z));
+        return Imath::V3d(q[0], q[1], q[2]);
+    };
+    return volume_of(tree, name, file);
+}
+
+}  // namespace
+
+std::optional<Volume> read_nanovdb(const std::filesystem::path& file, const std::string& grid_name) {
+    const Place place{file.string()};
+    const std::string bytes = read_file(file, Grid::default_max_bytes);
+    const std::vector<PackedGrid> grids = grids_in(bytes, place);
+    const auto grid =
+        std::find_if(grids.begin(), grids.end(), [&](const PackedGrid& g) { return g.name == grid_name; });
+    if (grid == grids.end()) {
+        return {};
+    }
+    const nanovdb::HostBuffer buffer = unpack(*grid, place);
+    switch (grid->type) {
+        case nanovdb::GridType::Float:
+            return volume_of_type<float>(buffer, grid_name, file);
+        case nanovdb::GridType::Fp4:
+            return volume_of_type<nanovdb::Fp4>(buffer, grid_name, file);
+        case nanovdb::GridType::Fp8:
+            return volume_of_type<nanovdb::Fp8>(buffer, grid_name, file);
+        case nanovdb::GridType::Fp16:
+            return volume_of_type<nanovdb::Fp16>(buffer, grid_name, file);
+        case nanovdb::GridType::FpN:
+            return volume_of_type<nanovdb::FpN>(buffer, grid_name, file);
+        default:
+            throw InputError(place,
+                             fmt::format("grid `{}` does not hold single-precision or quantized scalars", grid_name));
+    }
+}
+
+std::vector<std::string> nanovdb_names(const std::filesystem::path& file) {
+    const std::string bytes = read_file(file, Grid::default_max_bytes);
+    std::vector<std::string> names;
+    for (const PackedGrid& grid : grids_in(bytes, Place{file.string()})) {
+        names.push_back(grid.name);
+    }
+    return names;
+}
+
+}  // namespace wend
