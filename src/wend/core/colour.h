@@ -21,13 +21,13 @@ struct Rgb {
     constexpr Rgb& operator*=(const Rgb& o) { return *this = {r * o.r, g * o.g, b * o.b}; }
     constexpr Rgb& operator*=(float s) { return *this = {r * s, g * s, b * s}; }
 
-    friend constexpr Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-    friend constexpr Rgb operator-(const Rgb& a, const Rgb& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-    friend constexpr Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-    friend constexpr Rgb operator*(const Rgb& a, float s) { return {a.r * s, a.g * s, a.b * s}; }
-    friend constexpr Rgb operator*(float s, const Rgb& a) { return a * s; }
-    friend constexpr Rgb operator/(const Rgb& a, const Rgb& b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
-    friend constexpr Rgb operator/(const Rgb& a, float s) { return a * (1.0f / s); }
+    friend constexpr Rgb operator+(const Rgb& x, const Rgb& y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+    friend constexpr Rgb operator-(const Rgb& x, const Rgb& y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
+    friend constexpr Rgb operator*(const Rgb& x, const Rgb& y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+    friend constexpr Rgb operator*(const Rgb& x, float s) { return {x.r * s, x.g * s, x.b * s}; }
+    friend constexpr Rgb operator*(float s, const Rgb& x) { return x * s; }
+    friend constexpr Rgb operator/(const Rgb& x, const Rgb& y) { return {x.r / y.r, x.g / y.g, x.b / y.b}; }
+    friend constexpr Rgb operator/(const Rgb& x, float s) { return x * (1.0f / s); }
     friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
 };
 

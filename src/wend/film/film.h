@@ -2,7 +2,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
-#include <wend/film/image.h>
+#include <wend/film/picture.h>
 
 #include <cstdint>
 #include <vector>

@@ -93,7 +93,7 @@ private:
         if (record_) {
             tile.records.add_walk(vertices, result.sample.radiance);
         }
-        result.sample.radiance *= place.weight;
+        result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
     }
 

@@ -27,6 +27,7 @@ struct RenderSettings {
     int threads = 0;  ///< 0: all
     int max_depth = 5;
     Filter filter = Filter::box();
+    float exposure = 1;  ///< multiplies all radiances
 };
 
 /// How far a render is.

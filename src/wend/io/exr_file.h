@@ -1,7 +1,7 @@
 // OpenEXR pictures. Other rooms use image_file.h.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/film/picture.h>
 
 #include <filesystem>
 

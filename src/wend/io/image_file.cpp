@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 namespace wend {
 
@@ -18,19 +19,55 @@ Picture read_picture(const std::filesystem::path& file) {
     return read_exr(file);
 }
 
-void write_picture(const std::filesystem::path& file, const Picture& picture) {
-    WEND_EXPECT(!picture.image.pixels.empty());
+namespace {
+
+enum class PictureKind { exr, png, jpeg };
+
+std::optional<PictureKind> kind_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".exr") {
-        write_atomically(file, [&](const std::filesystem::path& temporary) { write_exr(temporary, picture); });
-    } else if (extension == ".png") {
-        write_atomically(file, encode_png(picture.image));
-    } else if (extension == ".jpg" || extension == ".jpeg") {
-        write_atomically(file, encode_jpeg(picture.image));
-    } else {
+        return PictureKind::exr;
+    }
+    if (extension == ".png") {
+        return PictureKind::png;
+    }
+    if (extension == ".jpg" || extension == ".jpeg") {
+        return PictureKind::jpeg;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool is_known_picture_extension(const std::filesystem::path& file) {
+    return kind_of(file).has_value();
+}
+
+void require_known_picture_extension(const std::filesystem::path& file) {
+    if (!is_known_picture_extension(file)) {
         throw InputError(Place{file.string()}, "pictures can be written as .exr, .png or .jpg");
+    }
+}
+
+std::string png_bytes(const Image& image) {
+    return encode_png(image);
+}
+
+void write_picture(const std::filesystem::path& file, const Picture& picture) {
+    WEND_EXPECT(!picture.image.pixels.empty());
+    require_known_picture_extension(file);
+    switch (*kind_of(file)) {
+        case PictureKind::exr:
+            write_atomically(file, [&](const std::filesystem::path& temporary) { write_exr(temporary, picture); });
+            break;
+        case PictureKind::png:
+            write_atomically(file, encode_png(picture.image));
+            break;
+        case PictureKind::jpeg:
+            write_atomically(file, encode_jpeg(picture.image));
+            break;
     }
 }
 

@@ -1,9 +1,10 @@
 // Picture files: OpenEXR through its library, PNG, JPEG, TGA, BMP and Radiance HDR through stb.
 #pragma once
 
-#include <wend/film/image.h>
+#include <wend/film/picture.h>
 
 #include <filesystem>
+#include <string>
 
 namespace wend {
 
@@ -27,5 +28,13 @@ void write_picture(const std::filesystem::path& file, const Picture& picture);
 
 /// Pictures with more pixels are refused before any memory is taken.
 inline constexpr long long max_pixels = 1ll << 28;
+
+/// Whether write_picture() knows the extension.
+bool is_known_picture_extension(const std::filesystem::path& file);
+/// Throws InputError, naming the extensions there are, unless it does: to ask before a long render.
+void require_known_picture_extension(const std::filesystem::path& file);
+
+/// The bytes of a PNG file of an image in sRGB, clamped to [0,1].
+std::string png_bytes(const Image& image);
 
 }  // namespace wend

@@ -3,7 +3,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/transform.h>
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/shape.h>
 

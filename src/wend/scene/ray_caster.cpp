@@ -78,15 +78,15 @@ struct Triangle {
 };
 
 struct Tangents {
-    Vec3 dpdu;
-    bool valid;
+    Vec3 dpdu{0, 0, 0};
+    bool valid = false;
 };
 
 /// dp/du of a triangle from its texture coordinates.
 Tangents tangents(const Vec3& e1, const Vec3& e2, const Vec2& d1, const Vec2& d2) {
     const float determinant = d1.x * d2.y - d1.y * d2.x;
     if (std::abs(determinant) < 1e-12f) {
-        return {{}, false};
+        return {};
     }
     return {(e1 * d2.y - e2 * d1.y) / determinant, true};
 }
@@ -194,7 +194,7 @@ Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
     hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.primitive);
     Vec3 normal;
     Vec3 shading;
-    Tangents t{{}, false};
+    Tangents t;
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
         const std::uint32_t* i = &mesh->indices[3 * std::size_t{raw.primitive}];
         const Vec3& p0 = mesh->positions[i[0]];

@@ -4,7 +4,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/transform.h>
-#include <wend/film/image.h>
+#include <wend/core/image.h>
 
 #include <memory>
 #include <variant>

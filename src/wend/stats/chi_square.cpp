@@ -65,7 +65,11 @@ ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<con
     if (degrees_of_freedom < 1) {
         throw std::invalid_argument("chi_square_test: fewer than two cells expect enough counts");
     }
-    return {statistic, degrees_of_freedom, boost::math::gamma_q(0.5 * degrees_of_freedom, 0.5 * statistic)};
+    return {statistic, degrees_of_freedom, chi_square_p_value(statistic, degrees_of_freedom)};
+}
+
+double chi_square_p_value(double statistic, int degrees_of_freedom) {
+    return boost::math::gamma_q(0.5 * degrees_of_freedom, 0.5 * statistic);
 }
 
 }  // namespace wend

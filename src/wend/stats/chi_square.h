@@ -23,4 +23,7 @@ struct ChiSquare {
 /// since such a test could not fail.
 ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<const double> expected);
 
+/// Probability that a chi-square variable with this many degrees of freedom (at least 1) exceeds `statistic`.
+double chi_square_p_value(double statistic, int degrees_of_freedom);
+
 }  // namespace wend

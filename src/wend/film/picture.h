@@ -1,28 +1,13 @@
 #pragma once
 
-#include <wend/core/colour.h>
+#include <wend/core/image.h>
 #include <wend/core/vector.h>
 
-#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace wend {
-
-/// A picture in memory: linear colour, row-major, the first row on top.
-struct Image {
-    int width = 0;
-    int height = 0;
-    std::vector<Rgb> pixels;
-
-    Image() = default;
-    Image(int w, int h, Rgb fill = {})
-        : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
-
-    Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
-    const Rgb& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
-};
 
 /// Named channels beside the beauty of a picture: "albedo" with channels R, G, B; "depth" with channel Z.
 struct Layer {

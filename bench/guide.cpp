@@ -1,0 +1,127 @@
+// Cost of asking the learned field and of training it.
+#include <wend/core/random.h>
+#include <wend/guide/fit.h>
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using namespace wend;
+using namespace wend::guide;
+
+const Box3 unit_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+constexpr std::size_t queries = 1024;
+
+/// Radiance of three lamps at finite distances over a weak background.
+Records lamp_records(std::size_t count, std::uint64_t seed) {
+    const std::array<Vec3, 3> lamps = {Vec3(0.5f, 0.5f, 3), Vec3(-2, 0.2f, 0.5f), Vec3(0.4f, -1, -1)};
+    Pcg32 random(seed);
+    Records records;
+    records.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec2 u = random.uniform2();
+        const Vec3 position(u.x, u.y, random.uniform());
+        const Vec3& lamp = lamps[static_cast<std::size_t>(3 * random.uniform())];
+        const bool background = random.uniform() < 0.2f;
+        const Vmf lobe = background ? Vmf{} : Vmf{normalize(lamp - position), 50};
+        const Vec3 w = lobe.sample(random.uniform2());
+        records.push_back({position, w, lobe.density(w), lobe.density(w),
+                           background ? std::numeric_limits<float>::infinity() : length(lamp - position)});
+    }
+    return records;
+}
+
+FitSettings settings_with(int lobes) {
+    FitSettings settings;
+    settings.lobes = lobes;
+    return settings;
+}
+
+struct Query {
+    Vec3 position;
+    Vec2 u;
+    Vmf phase;
+};
+
+std::vector<Query> random_queries() {
+    Pcg32 random(7);
+    std::vector<Query> result;
+    for (std::size_t i = 0; i < queries; ++i) {
+        const Vec2 u = random.uniform2();
+        const Vec3 position(u.x, u.y, random.uniform());
+        const Vec3 forward = Vmf{}.sample(random.uniform2());
+        result.push_back({position, random.uniform2(), Vmf::with_mean_cosine(forward, 0.8f)});
+    }
+    return result;
+}
+
+/// Look-up, re-aiming, product with a phase function, sample and density: a guided direction.
+void guided_direction(benchmark::State& state) {
+    const Field field = fit(Field::empty(unit_box), lamp_records(200000, 1), settings_with(state.range(0)), 1).field;
+    const std::vector<Query> all = random_queries();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Query& query = all[i++ % queries];
+        const VmfMixture product =
+            field.find(query.position)->incident(query.position).product(query.phase).distribution;
+        const Vec3 w = product.sample(query.u);
+        benchmark::DoNotOptimize(product.density(w));
+    }
+}
+BENCHMARK(guided_direction)->Arg(8)->Arg(16);
+
+void mixture_step(benchmark::State& state, auto step) {
+    const Field field = fit(Field::empty(unit_box), lamp_records(20000, 1), settings_with(state.range(0)), 1).field;
+    const std::vector<Query> all = random_queries();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Query& query = all[i++ % queries];
+        step(*field.find(query.position), query);
+    }
+}
+
+void look_up_and_re_aim(benchmark::State& state) {
+    mixture_step(state, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.incident(query.position));
+    });
+}
+BENCHMARK(look_up_and_re_aim)->Arg(8);
+
+void product(benchmark::State& state) {
+    mixture_step(state, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.mixture().product(query.phase));
+    });
+}
+BENCHMARK(product)->Arg(8);
+
+void sample(benchmark::State& state) {
+    mixture_step(state, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.mixture().sample(query.u));
+    });
+}
+BENCHMARK(sample)->Arg(8);
+
+void density(benchmark::State& state) {
+    mixture_step(state, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.mixture().density(query.phase.mean));
+    });
+}
+BENCHMARK(density)->Arg(8);
+
+/// Records per second of one thread, first fit and refinement alike.
+void training(benchmark::State& state) {
+    const Records first = lamp_records(200000, 1), second = lamp_records(200000, 2);
+    const Field start = fit(Field::empty(unit_box), first, settings_with(state.range(0)), 1).field;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(fit(Field::empty(unit_box), first, settings_with(state.range(0)), 1));
+        benchmark::DoNotOptimize(fit(start, second, settings_with(state.range(0)), 1));
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(first.size() + second.size()));
+}
+BENCHMARK(training)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
+
+}  // namespace

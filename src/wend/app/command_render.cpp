@@ -1,0 +1,119 @@
+#include <wend/app/commands.h>
+#include <wend/app/interrupt.h>
+#include <wend/app/progress.h>
+#include <wend/app/session.h>
+#include <wend/core/error.h>
+#include <wend/io/image_file.h>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+namespace wend {
+namespace {
+
+struct RenderOptions {
+    CommonOptions common;
+    SceneOptions scene;
+    std::string output;
+    int samples = 0;
+    double seconds = 0;
+    std::string sampling = "classical";
+    std::string passes;
+};
+
+std::vector<int> parse_passes(const std::string& text) {
+    std::vector<int> passes;
+    for (const std::string& part : split_list(text)) {
+        int n = 0;
+        const auto result = std::from_chars(part.data(), part.data() + part.size(), n);
+        if (result.ec != std::errc() || result.ptr != part.data() + part.size() || n <= 0) {
+            throw InputError("--passes " + text +
+                             ": expected positive numbers of samples per pixel, separated by commas");
+        }
+        passes.push_back(n);
+    }
+    return passes;
+}
+
+/// Where the picture goes if nobody says: the scene's own file name, in the current folder.
+std::filesystem::path default_output(const Session& session) {
+    std::filesystem::path name = std::filesystem::path(session.film_file()).filename();
+    if (name.empty() || !is_known_picture_extension(name)) {
+        name = std::filesystem::path(session.scene_file()).stem();
+        name += ".exr";
+    }
+    return name;
+}
+
+void render_scene(const RenderOptions& options, const Streams& streams) {
+    const Preset preset = parse_preset(options.sampling);
+    if (!options.output.empty()) {
+        require_writable_picture(options.output);
+    }
+    const Session session(options.scene, options.common, streams);
+    const std::filesystem::path output =
+        options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
+
+    RenderSettings settings = session.settings();
+    settings.preset = preset;
+    settings.samples = options.samples > 0 ? options.samples : settings.samples;
+    settings.seconds = options.seconds;
+    settings.passes = options.passes.empty() ? std::vector<int>() : parse_passes(options.passes);
+
+    Film film = session.new_film();
+    const InterruptGuard interrupt;
+    RenderStatistics statistics;
+    {
+        ProgressBar bar(streams.err, !options.common.quiet,
+                        std::filesystem::path(session.scene_file()).filename().string());
+        statistics = render(session.scene(), film, settings, [&](const RenderProgress& progress) {
+            bar.update(progress);
+            return !interrupt.requested();
+        });
+    }
+    write_picture(output, session.picture(film, settings, statistics));
+    options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
+                                             statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
+    if (statistics.counts.rejected > 0) {
+        streams.err << "warning: " << statistics.counts.rejected
+                    << " samples were not finite numbers and count as black\n";
+    }
+    nlohmann::json described = session.describe(settings);
+    described["passes"] = statistics.passes;
+    described["output"] = output.string();
+    options.common.write_json(streams, {{"spp", statistics.samples},
+                                        {"seconds", statistics.seconds},
+                                        {"training_seconds", statistics.training_seconds},
+                                        {"paths", statistics.counts.paths},
+                                        {"segments", statistics.counts.segments},
+                                        {"field_bytes", statistics.field_bytes},
+                                        {"rejected_samples", statistics.counts.rejected},
+                                        {"interrupted", statistics.interrupted},
+                                        {"settings", std::move(described)}});
+}
+
+}  // namespace
+
+Action add_render_command(CLI::App& program) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
+    options->scene.add_to(command);
+    command.add_option(
+        "-o,--output", options->output,
+        "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name)");
+    CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
+    CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
+    CLI::Option* passes = command.add_option("--passes", options->passes,
+                                             "repeat these passes of an earlier run (settings.passes of its --json)");
+    samples->check(CLI::Range(1, 1 << 30))->excludes(seconds)->excludes(passes);
+    seconds->check(CLI::Range(1e-3, 1e9))->excludes(passes);
+    command.add_option(
+        "--sampling", options->sampling,
+        "classical, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");
+    options->common.add_to(command);
+    return [options](const Streams& streams) { render_scene(*options, streams); };
+}
+
+}  // namespace wend

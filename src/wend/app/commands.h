@@ -1,0 +1,16 @@
+// The subcommands, one file each: a function that adds it to the program and returns what it does.
+#pragma once
+
+#include <wend/app/options.h>
+
+namespace wend {
+
+Action add_render_command(CLI::App& program);
+Action add_compare_command(CLI::App& program);
+Action add_metric_command(CLI::App& program);
+Action add_demo_command(CLI::App& program);
+
+/// The names that --sampling takes, for help texts.
+std::string guidable_decisions_text();
+
+}  // namespace wend

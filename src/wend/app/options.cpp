@@ -1,0 +1,68 @@
+#include <wend/app/options.h>
+#include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
+
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+namespace wend {
+
+void CommonOptions::add_to(CLI::App& command) {
+    command.add_option("--json", json, "write the results as JSON to this file ('-': standard output)");
+    command.add_option("--seed", seed, "seed of the random numbers (default: the scene's, or 0)");
+    command.add_option("--threads", threads, "number of threads (0: all); the picture does not depend on it")
+        ->check(CLI::Range(0, 4096));
+    command.add_flag("--quiet", quiet, "no progress and no notes");
+}
+
+void CommonOptions::note(const Streams& streams, const std::string& text) const {
+    if (!quiet) {
+        streams.err << text << '\n' << std::flush;
+    }
+}
+
+void CommonOptions::write_json(const Streams& streams, const nlohmann::json& results) const {
+    if (json.empty()) {
+        return;
+    }
+    const std::string text = results.dump(2) + "\n";
+    if (json == "-") {
+        streams.out << text << std::flush;
+    } else {
+        write_atomically(json, text);
+    }
+}
+
+nlohmann::json json_number(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+std::pair<int, int> parse_resolution(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    if (first.ec == std::errc() && first.ptr != end && *first.ptr == 'x') {
+        const auto second = std::from_chars(first.ptr + 1, end, height);
+        if (second.ec == std::errc() && second.ptr == end && width > 0 && height > 0) {
+            return {width, height};
+        }
+    }
+    throw InputError("--resolution " + text + ": expected WIDTHxHEIGHT with positive numbers, such as 320x180");
+}
+
+std::vector<std::string> split_list(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (;;) {
+        const std::size_t comma = text.find(',', begin);
+        parts.push_back(text.substr(begin, comma - begin));
+        if (comma == std::string::npos) {
+            return parts;
+        }
+        begin = comma + 1;
+    }
+}
+
+}  // namespace wend

@@ -1,0 +1,48 @@
+// What all subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wend {
+
+/// Where a subcommand writes: results, and everything else.
+struct Streams {
+    std::ostream& out;
+    std::ostream& err;
+};
+
+/// Options of every subcommand.
+struct CommonOptions {
+    std::string json;  ///< file for the results as JSON; "-" for standard output; empty: none
+    std::optional<std::uint64_t> seed;
+    int threads = 0;
+    bool quiet = false;
+
+    void add_to(CLI::App& command);
+    /// Where progress and notes go: nowhere if quiet.
+    void note(const Streams& streams, const std::string& text) const;
+    /// Writes the results to where --json says.
+    void write_json(const Streams& streams, const nlohmann::json& results) const;
+};
+
+/// Numbers as JSON has them: null where not finite.
+nlohmann::json json_number(double value);
+
+/// "320x180" and the like. Throws InputError.
+std::pair<int, int> parse_resolution(const std::string& text);
+
+/// Splits at commas.
+std::vector<std::string> split_list(const std::string& text);
+
+/// What a subcommand does once its arguments are known.
+using Action = std::function<void(const Streams&)>;
+
+}  // namespace wend

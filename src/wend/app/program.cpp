@@ -1,0 +1,55 @@
+#include <wend/app/commands.h>
+#include <wend/app/program.h>
+#include <wend/core/error.h>
+#include <wend/integrator/preset.h>
+
+#include <exception>
+#include <new>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+namespace wend {
+
+std::string guidable_decisions_text() {
+    std::string text;
+    for (const std::string& name : guidable_decisions()) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+int run_program(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+    const Streams streams{out, err};
+    try {
+        CLI::App program("Wend renders participating media by zero-variance-based path sampling.", "wend");
+        program.set_version_flag("--version", std::string("wend ") + WEND_VERSION);
+        program.require_subcommand(1);
+        std::vector<std::pair<CLI::App*, Action>> actions;
+        for (const auto add : {add_render_command, add_compare_command, add_metric_command, add_demo_command}) {
+            Action action = add(program);
+            actions.emplace_back(program.get_subcommands({}).back(), std::move(action));
+        }
+        try {
+            program.parse(argc, argv);
+        } catch (const CLI::ParseError& e) {
+            return program.exit(e, out, err) == 0 ? 0 : 2;
+        }
+        for (const auto& [command, action] : actions) {
+            if (command->parsed()) {
+                action(streams);
+            }
+        }
+        return 0;
+    } catch (const InputError& e) {
+        err << e.what() << '\n';
+        return 2;
+    } catch (const std::bad_alloc&) {
+        err << "error: out of memory\n";
+    } catch (const std::exception& e) {
+        err << "error: " << e.what() << '\n';
+    }
+    return 1;
+}
+
+}  // namespace wend

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <wend/integrator/render.h>
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+namespace wend {
+
+/// Shows how far a render is: a bar that redraws itself on a terminal, a line now and then elsewhere, nothing where
+/// disabled.
+class ProgressBar {
+public:
+    ProgressBar(std::ostream& stream, bool enabled, std::string label);
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    void update(const RenderProgress& progress);
+
+private:
+    std::ostream& stream_;
+    bool enabled_;
+    bool terminal_;
+    std::string label_;
+    std::chrono::steady_clock::time_point last_;
+    bool drawn_ = false;
+};
+
+/// "1:05" or "2:03:04".
+std::string format_duration(double seconds);
+
+}  // namespace wend

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+namespace wend {
+
+/// The page that report_page fills: HTML with {{names}} for its parts.
+extern const std::string_view report_template;
+
+/// Its style sheet and its script.
+extern const std::string_view report_style;
+extern const std::string_view report_script;
+
+}  // namespace wend

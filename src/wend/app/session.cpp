@@ -1,0 +1,113 @@
+#include <wend/app/session.h>
+#include <wend/core/error.h>
+#include <wend/io/image_file.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace wend {
+namespace {
+
+LoadedScene load(const SceneOptions& options) {
+    LoadOverrides overrides;
+    if (!options.resolution.empty()) {
+        const auto [width, height] = parse_resolution(options.resolution);
+        overrides.resolution = Vec2i(width, height);
+    }
+    return load_scene(options.file, overrides);
+}
+
+SamplerKind parse_sampler(const std::string& name) {
+    static const std::map<std::string, SamplerKind> kinds = {{"sobol", SamplerKind::sobol},
+                                                             {"independent", SamplerKind::independent}};
+    const auto found = kinds.find(name);
+    if (found == kinds.end()) {
+        throw InputError("unknown sampler '" + name + "': expected sobol or independent");
+    }
+    return found->second;
+}
+
+/// "x0,x1,y0,y1" as fractions of the picture.
+PixelRect parse_crop(const std::string& text, const Vec2i& size) {
+    double v[4];
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3], &used) != 4 ||
+        used != static_cast<int>(text.size()) ||
+        !(v[0] >= 0 && v[0] < v[1] && v[1] <= 1 && v[2] >= 0 && v[2] < v[3] && v[3] <= 1)) {
+        throw InputError("--crop " + text +
+                         ": expected X0,X1,Y0,Y1 as fractions of the picture, such as 0.25,0.75,0,0.5");
+    }
+    const auto pixel = [](double fraction, int n) { return static_cast<int>(std::ceil(fraction * n)); };
+    return {{pixel(v[0], size.x), pixel(v[2], size.y)}, {pixel(v[1], size.x), pixel(v[3], size.y)}};
+}
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& command) {
+    command.add_option("scene", file, "pbrt-v4 scene file")->required();
+    command.add_option("--resolution", resolution, "size of the picture, WIDTHxHEIGHT (default: the scene's)");
+    command.add_option("--crop", crop, "part of the picture to render: X0,X1,Y0,Y1 as fractions");
+    command
+        .add_option("--max-depth", max_depth,
+                    "largest number of scattering events of a walk; 0: no limit (default: the scene's)")
+        ->check(CLI::Range(0, 1 << 30));
+    command.add_option("--sampler", sampler, "random numbers: sobol or independent (default: the scene's)");
+}
+
+Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
+    : Session(options, common, streams, load(options)) {
+}
+
+Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams, LoadedScene loaded)
+    : scene_file_(options.file),
+      film_file_(loaded.film_file),
+      resolution_(loaded.resolution),
+      crop_(options.crop.empty() ? loaded.crop : parse_crop(options.crop, loaded.resolution)),
+      scene_(std::move(loaded.scene)) {
+    for (const std::string& warning : loaded.warnings) {
+        common.note(streams, warning);
+    }
+    settings_.samples = loaded.samples;
+    settings_.sampler = options.sampler.empty() ? loaded.sampler : parse_sampler(options.sampler);
+    settings_.seed = common.seed.value_or(loaded.seed);
+    settings_.threads = common.threads;
+    settings_.max_depth =
+        options.max_depth ? (*options.max_depth == 0 ? 1 << 30 : *options.max_depth) : loaded.max_depth;
+    settings_.filter = loaded.filter;
+    settings_.exposure = loaded.exposure;
+}
+
+nlohmann::json Session::describe(const RenderSettings& settings) const {
+    return {{"scene", scene_file_},
+            {"sampling", to_string(settings.preset)},
+            {"resolution", {resolution_.x, resolution_.y}},
+            {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
+            {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+            {"seed", settings.seed},
+            {"threads", settings.threads},
+            {"max_depth", settings.max_depth},
+            {"version", WEND_VERSION}};
+}
+
+Picture Session::picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const {
+    Picture picture = film.picture();
+    picture.metadata = {{"wend:scene", scene_file_},
+                        {"wend:settings", describe(settings).dump()},
+                        {"wend:seed", std::to_string(settings.seed)},
+                        {"wend:version", WEND_VERSION},
+                        {"wend:seconds", fmt::format("{:.3f}", statistics.seconds)},
+                        {"wend:spp", std::to_string(statistics.samples)}};
+    return picture;
+}
+
+void require_writable_picture(const std::filesystem::path& file) {
+    require_known_picture_extension(file);
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) {
+        throw InputError(folder.string() + ": no such folder to write " + file.filename().string() + " into");
+    }
+}
+
+}  // namespace wend

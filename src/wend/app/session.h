@@ -1,0 +1,59 @@
+// A scene ready to render, with what the command line said about it.
+#pragma once
+
+#include <wend/app/options.h>
+#include <wend/film/film.h>
+#include <wend/integrator/render.h>
+#include <wend/io/load/load_scene.h>
+#include <wend/scene/scene.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace wend {
+
+/// Options of the subcommands that render.
+struct SceneOptions {
+    std::string file;
+    std::string resolution;
+    std::string crop;
+    std::optional<int> max_depth;
+    std::string sampler;
+
+    void add_to(CLI::App& command);
+};
+
+/// A loaded scene and the settings to render it with.
+class Session {
+public:
+    /// Loads the scene; warnings go to the notes. Throws InputError.
+    Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams);
+
+    const Scene& scene() const { return scene_; }
+    const RenderSettings& settings() const { return settings_; }
+    Film new_film() const { return {resolution_, crop_}; }
+    const std::string& film_file() const { return film_file_; }
+    const std::string& scene_file() const { return scene_file_; }
+    const Vec2i& resolution() const { return resolution_; }
+
+    /// The settings as JSON, as the "settings" key of results has them.
+    nlohmann::json describe(const RenderSettings& settings) const;
+    /// The film's picture with metadata: scene, settings, seed, version, time, samples.
+    Picture picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const;
+
+private:
+    Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams, LoadedScene loaded);
+
+    std::string scene_file_;
+    std::string film_file_;
+    Vec2i resolution_;
+    PixelRect crop_;
+    RenderSettings settings_;
+    Scene scene_;
+};
+
+/// Throws InputError unless a picture of this name can be written: a known extension, in a folder that exists.
+void require_writable_picture(const std::filesystem::path& file);
+
+}  // namespace wend

@@ -1,0 +1,44 @@
+// How far a picture is from its reference, number by number; film/flip.h says how far for a viewer.
+#pragma once
+
+#include <wend/core/image.h>
+
+#include <vector>
+
+namespace wend {
+
+/// A reference as two independent halves of equal quality. (I − a)(I − b) estimates the squared error without the
+/// reference's own noise. A single reference file stands for both halves; its noise then counts as error of the
+/// picture.
+struct Reference {
+    Image a, b;
+
+    /// (a + b) / 2, the best picture the reference holds.
+    Image average() const;
+};
+
+/// The measures of one picture I against a reference with average R. Sums run over pixels and channels in linear
+/// colour; the averages of two halves leave noise only in denominators, where it biases by a relative O(variance of R /
+/// R²).
+struct Metrics {
+    /// Mean of (I − a)(I − b) / (R² + e), e = 0.01 · mean(R)². May be slightly negative for two halves.
+    double relmse = 0;
+    /// Standard error of `relmse` from the scatter over pixels, taken as independent.
+    double relmse_std_error = 0;
+    /// `relmse` without the worst 0.1 % of pixels (rounded down: none below 1000 pixels).
+    double relmse_trimmed = 0;
+    /// Mean of (I − a)(I − b).
+    double mse = 0;
+    /// Mean of |I − R| / (|R| + 0.01 · |mean(R)|). Noise of R counts here, also with two halves.
+    double mape = 0;
+};
+
+/// All measures. Throws InputError where sizes differ, where a pixel is not finite, or where mean(R) is zero (relative
+/// errors mean nothing against a black reference).
+Metrics measure(const Image& image, const Reference& reference);
+
+/// The terms of relMSE pixel by pixel, averaged over channels: their mean is `Metrics::relmse`. Row-major like the
+/// image. Throws as `measure` does.
+std::vector<float> relative_squared_errors(const Image& image, const Reference& reference);
+
+}  // namespace wend

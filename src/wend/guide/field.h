@@ -1,0 +1,79 @@
+// The learned field: space divided into cells, each with a mixture of incident radiance.
+#pragma once
+
+#include <wend/core/vector.h>
+#include <wend/guide/region.h>
+#include <wend/guide/statistics.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wend::guide {
+
+/// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
+/// number of threads.
+class Field {
+public:
+    /// A field that knows nothing yet about a scene of the given bounds, which must be finite and not empty.
+    static Field empty(const Box3& bounds);
+
+    /// The region of a position; null as long as the field has learned nothing. Positions outside the bounds belong to
+    /// the nearest cells along the tree's planes.
+    const Region* find(const Vec3& position) const;
+
+    const Box3& bounds() const { return bounds_; }
+    /// Number of cells.
+    std::size_t size() const { return regions_.size(); }
+    /// Memory of the cells and of the tree.
+    std::size_t bytes() const;
+
+    /// What each cell costs: its region, its memory and two nodes of the tree.
+    static constexpr std::size_t bytes_per_cell();
+
+private:
+    friend class Fitting;
+
+    /// An inner node has its children side by side at `child` and `child` + 1; a leaf has its region in `child`.
+    struct Node {
+        static constexpr std::uint32_t leaf = 3;
+
+        float plane = 0;
+        std::uint32_t axis : 2 = leaf;
+        std::uint32_t child : 30 = 0;
+    };
+
+    /// What only fitting needs to know of a cell.
+    struct Memory {
+        std::uint32_t depth = 0;
+        /// Largest distance of a record from the reference point so far.
+        float radius = 0;
+        /// Whether the region's reference point has been chosen.
+        bool anchored = false;
+        Statistics statistics;
+    };
+
+    explicit Field(const Box3& bounds);
+
+    /// The leaf of a position, as an index into nodes_.
+    std::uint32_t leaf_of(const Vec3& position) const {
+        std::uint32_t i = 0;
+        while (nodes_[i].axis != Node::leaf) {
+            i = nodes_[i].child + (position[static_cast<int>(nodes_[i].axis)] >= nodes_[i].plane ? 1 : 0);
+        }
+        return i;
+    }
+
+    Box3 bounds_;
+    bool trained_ = false;
+    std::vector<Node> nodes_;
+    /// One region and one memory per leaf, under the same index.
+    std::vector<Region> regions_;
+    std::vector<Memory> memories_;
+};
+
+constexpr std::size_t Field::bytes_per_cell() {
+    return sizeof(Region) + sizeof(Memory) + 2 * sizeof(Node);
+}
+
+}  // namespace wend::guide

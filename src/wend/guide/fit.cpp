@@ -1,0 +1,389 @@
+#include <wend/guide/fit.h>
+
+#include <wend/core/contracts.h>
+#include <wend/core/error.h>
+#include <wend/core/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace wend::guide {
+namespace {
+
+constexpr int no_axis = -1;
+
+void validate(const FitSettings& s) {
+    const auto require = [](bool holds, const char* rule) {
+        if (!holds) {
+            throw InputError(std::string("guiding field: ") + rule);
+        }
+    };
+    require(s.lobes >= 1 && s.lobes <= max_lobes, "the number of lobes must be 1 to 16");
+    require(s.leaf_samples >= 1, "the samples of a leaf must be at least 1");
+    require(s.max_depth >= 0 && s.max_depth <= 64, "the depth must be 0 to 64");
+    require(s.max_bytes >= (std::size_t{64} << 10), "the memory must be at least 64 KiB");
+    require(s.decay >= 0 && s.decay <= 1, "the decay must be 0 to 1");
+    require(s.max_iterations >= 1, "the iterations must be at least 1");
+    require(s.tolerance >= 0, "the tolerance must not be negative");
+    require(s.priors.weight > 0 && s.priors.mean_cosine > 0, "the priors must be positive");
+    require(s.priors.max_kappa > 0 && s.priors.max_kappa <= Vmf::max_kappa,
+            "the largest concentration must be above 0 and at most 1e5");
+}
+
+/// The weight above which a record is cut, for fitting only: sqrt(n) times the mean of the n cut weights (ionides2008,
+/// with the mean made robust). One freak among ordinary records counts as sqrt(n) of them, and nothing is cut from many
+/// equals.
+double weight_limit(const std::vector<double>& weights) {
+    constexpr int most_rounds = 8;
+    double limit = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < most_rounds; ++round) {
+        double sum = 0;
+        for (const double w : weights) {
+            sum += std::min(w, limit);
+        }
+        const double next = sum / std::sqrt(static_cast<double>(weights.size()));
+        if (next >= limit) {
+            break;
+        }
+        limit = next;
+    }
+    return limit;
+}
+
+double total_weight(const std::array<LobeSums, max_lobes>& sums) {
+    return std::accumulate(sums.begin(), sums.end(), 0.0, [](double t, const LobeSums& s) { return t + s.weight; });
+}
+
+std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, const std::array<LobeSums, max_lobes>& b) {
+    for (int i = 0; i < max_lobes; ++i) {
+        a[i].weight += b[i].weight;
+        a[i].weight_square += b[i].weight_square;
+        a[i].direction += b[i].direction;
+        a[i].inverse_distance += b[i].inverse_distance;
+        a[i].inverse_distance_square += b[i].inverse_distance_square;
+    }
+    return a;
+}
+
+/// Sum over the lobes of how far their resultant vectors are apart.
+double movement(const std::array<LobeSums, max_lobes>& a, const std::array<LobeSums, max_lobes>& b) {
+    double sum = 0;
+    for (int i = 0; i < max_lobes; ++i) {
+        sum += (a[i].direction - b[i].direction).length();
+    }
+    return sum;
+}
+
+}  // namespace
+
+/// One call of fit(), step by step: the records are sorted into the leaves, leaves are split level by level, and every
+/// leaf is fitted. What runs in parallel writes to one leaf only.
+class Fitting {
+public:
+    Fitting(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads)
+        : field_(previous), records_(records), settings_(settings), threads_(threads) {
+        WEND_EXPECT(records.size() < std::numeric_limits<std::uint32_t>::max());
+    }
+
+    FitResult run() && {
+        for (Field::Memory& memory : field_.memories_) {
+            memory.statistics = memory.statistics.decayed(settings_.decay);
+        }
+        sort_into_leaves();
+        grow();
+        parallel_for(cells_.size(), threads_, [&](std::size_t i) { fit_cell(cells_[i]); });
+        field_.trained_ = field_.trained_ || !order_.empty();
+        report_.records = records_.size();
+        report_.ignored = records_.size() - order_.size();
+        report_.dark = static_cast<std::size_t>(
+            std::count_if(order_.begin(), order_.end(), [&](std::uint32_t r) { return records_[r].radiance == 0; }));
+        report_.cells = field_.size();
+        report_.bytes = field_.bytes();
+        return {std::move(field_), report_};
+    }
+
+private:
+    /// A leaf and its records, order_[begin, end).
+    struct Cell {
+        std::uint32_t node;
+        std::size_t begin, end;
+
+        std::size_t size() const { return end - begin; }
+    };
+
+    struct Plane {
+        int axis = no_axis;
+        float position = 0;
+    };
+
+    const Record& record(std::size_t i) const { return records_[order_[i]]; }
+    std::uint32_t region_of(const Cell& cell) const { return field_.nodes_[cell.node].child; }
+    Field::Memory& memory_of(const Cell& cell) { return field_.memories_[region_of(cell)]; }
+    const Field::Memory& memory_of(const Cell& cell) const { return field_.memories_[region_of(cell)]; }
+    double count_of(const Cell& cell) const {
+        return memory_of(cell).statistics.count + static_cast<double>(cell.size());
+    }
+
+    /// A stable counting sort of the usable records by leaf.
+    void sort_into_leaves() {
+        constexpr std::uint32_t unusable = std::numeric_limits<std::uint32_t>::max();
+        constexpr std::size_t block = 4096;
+        std::vector<std::uint32_t> node_of(records_.size());
+        parallel_for((records_.size() + block - 1) / block, threads_, [&](std::size_t b) {
+            for (std::size_t i = b * block; i < std::min((b + 1) * block, records_.size()); ++i) {
+                node_of[i] = is_usable(records_[i]) ? field_.leaf_of(records_[i].position) : unusable;
+            }
+        });
+
+        std::vector<std::size_t> next(field_.nodes_.size(), 0);
+        for (const std::uint32_t node : node_of) {
+            if (node != unusable) {
+                ++next[node];
+            }
+        }
+        std::size_t begin = 0;
+        for (std::uint32_t node = 0; node < next.size(); ++node) {
+            const std::size_t count = next[node];
+            if (count > 0) {
+                cells_.push_back({node, begin, begin + count});
+            }
+            next[node] = begin;
+            begin += count;
+        }
+        order_.resize(begin);
+        for (std::size_t i = 0; i < records_.size(); ++i) {
+            if (node_of[i] != unusable) {
+                order_[next[node_of[i]]++] = static_cast<std::uint32_t>(i);
+            }
+        }
+    }
+
+    /// Splits the cells, level by level, until none is too full or a limit is reached.
+    void grow() {
+        std::vector<Cell> open = std::move(cells_), closed;
+        while (!open.empty()) {
+            std::vector<Plane> planes(open.size());
+            parallel_for(open.size(), threads_, [&](std::size_t i) { planes[i] = choose_plane(open[i]); });
+            limit_memory(open, planes);
+
+            std::vector<std::size_t> middles(open.size());
+            parallel_for(open.size(), threads_, [&](std::size_t i) { middles[i] = partition(open[i], planes[i]); });
+
+            std::vector<Cell> children;
+            for (std::size_t i = 0; i < open.size(); ++i) {
+                if (planes[i].axis == no_axis) {
+                    closed.push_back(open[i]);
+                } else {
+                    const std::uint32_t first = split(open[i], planes[i], middles[i]);
+                    children.push_back({first, open[i].begin, middles[i]});
+                    children.push_back({first + 1, middles[i], open[i].end});
+                }
+            }
+            open = std::move(children);
+        }
+        cells_ = std::move(closed);
+    }
+
+    /// The plane through the mean position, across the axis of largest variance; no axis where the cell is to stay
+    /// whole.
+    Plane choose_plane(const Cell& cell) const {
+        if (count_of(cell) <= settings_.leaf_samples || cell.size() < 2 ||
+            memory_of(cell).depth >= static_cast<std::uint32_t>(settings_.max_depth)) {
+            return {};
+        }
+        const Imath::V3d mean = mean_position(cell);
+        Imath::V3d variance(0, 0, 0);
+        Vec3 lowest = record(cell.begin).position;
+        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+            const Imath::V3d d = Imath::V3d(record(i).position) - mean;
+            variance += d * d;
+            for (int axis = 0; axis < 3; ++axis) {
+                lowest[axis] = std::min(lowest[axis], record(i).position[axis]);
+            }
+        }
+        int axis = variance.x >= variance.y ? 0 : 1;
+        axis = variance[axis] >= variance.z ? axis : 2;
+        const float position = static_cast<float>(mean[axis]);
+        // Otherwise the positions are too close for a float between them, and one side would stay empty.
+        return position > lowest[axis] ? Plane{axis, position} : Plane{};
+    }
+
+    Imath::V3d mean_position(const Cell& cell) const {
+        Imath::V3d sum(0, 0, 0);
+        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+            sum += Imath::V3d(record(i).position);
+        }
+        return sum / static_cast<double>(cell.size());
+    }
+
+    /// Withdraws the planes of the least used cells where memory does not suffice for all.
+    void limit_memory(const std::vector<Cell>& open, std::vector<Plane>& planes) {
+        const std::size_t most_cells = settings_.max_bytes / Field::bytes_per_cell();
+        const std::size_t room = most_cells - std::min(most_cells, field_.size());
+        std::vector<std::size_t> wanted;
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            if (planes[i].axis != no_axis) {
+                wanted.push_back(i);
+            }
+        }
+        if (wanted.size() <= room) {
+            return;
+        }
+        report_.memory_limited = true;
+        std::stable_sort(wanted.begin(), wanted.end(),
+                         [&](std::size_t a, std::size_t b) { return count_of(open[a]) > count_of(open[b]); });
+        for (const std::size_t i : std::span(wanted).subspan(room)) {
+            planes[i] = {};
+        }
+    }
+
+    /// Moves the records below the plane to the front, keeping their order; returns where the others begin.
+    std::size_t partition(const Cell& cell, const Plane& plane) {
+        if (plane.axis == no_axis) {
+            return cell.end;
+        }
+        const auto first = order_.begin() + static_cast<std::ptrdiff_t>(cell.begin);
+        const auto last = order_.begin() + static_cast<std::ptrdiff_t>(cell.end);
+        const auto middle = std::stable_partition(
+            first, last, [&](std::uint32_t r) { return records_[r].position[plane.axis] < plane.position; });
+        return static_cast<std::size_t>(middle - order_.begin());
+    }
+
+    /// Turns a leaf into an inner node; both children inherit what it knows, each by its share of the new records.
+    /// Returns the node of the first child.
+    std::uint32_t split(const Cell& cell, const Plane& plane, std::size_t middle) {
+        const std::uint32_t region = region_of(cell);
+        const auto other_region = static_cast<std::uint32_t>(field_.regions_.size());
+        const auto first = static_cast<std::uint32_t>(field_.nodes_.size());
+
+        Field::Memory memory = field_.memories_[region];
+        ++memory.depth;
+        memory.anchored = false;
+        memory.radius = 0;
+        const double share = static_cast<double>(middle - cell.begin) / static_cast<double>(cell.size());
+        Field::Memory other = memory;
+        memory.statistics = memory.statistics.share(share);
+        other.statistics = other.statistics.share(1 - share);
+
+        field_.memories_[region] = memory;
+        field_.memories_.push_back(other);
+        field_.regions_.push_back(Region(field_.regions_[region]));
+        Field::Node& node = field_.nodes_[cell.node];
+        node.plane = plane.position;
+        node.axis = static_cast<std::uint32_t>(plane.axis) & 3u;
+        node.child = first & 0x3fffffffu;
+        Field::Node leaf;
+        leaf.child = region & 0x3fffffffu;
+        field_.nodes_.push_back(leaf);
+        leaf.child = other_region & 0x3fffffffu;
+        field_.nodes_.push_back(leaf);
+        return first;
+    }
+
+    /// Fits a cell, which has at least one record.
+    void fit_cell(const Cell& cell) {
+        Region& region = field_.regions_[region_of(cell)];
+        Field::Memory& memory = memory_of(cell);
+        if (!memory.anchored) {
+            anchor(region, memory, Vec3(mean_position(cell)));
+        }
+
+        std::vector<double> weights;
+        std::vector<Observation> observations;
+        observe(cell, region.reference(), memory, weights, observations);
+
+        LobeModel model{region.mixture(), region.inverse_distance()};
+        if (!observations.empty()) {
+            const double limit = weight_limit(weights);
+            double sum = 0;
+            for (double& w : weights) {
+                w = std::min(w, limit);
+                sum += w;
+            }
+            const double unit = sum / static_cast<double>(weights.size());
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                observations[i].weight = static_cast<float>(weights[i] / unit);
+            }
+            model = fit_lobes(model, observations, unit, memory);
+        }
+        region = Region(region.reference(), model.mixture, model.inverse_distance,
+                        static_cast<float>(memory.statistics.fluence / memory.statistics.count));
+    }
+
+    /// Sees all records of a cell from its reference point: counts them all, and lists those that carry radiance.
+    void observe(const Cell& cell, const Vec3& reference, Field::Memory& memory, std::vector<double>& weights,
+                 std::vector<Observation>& observations) const {
+        constexpr float largest_inverse_distance = 1e15f;  // its square is a float
+        weights.reserve(cell.size());
+        observations.reserve(cell.size());
+        float radius_squared = sqr(memory.radius);
+        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+            const Record& r = record(i);
+            const Vec3 offset = reference - r.position;
+            radius_squared = std::max(radius_squared, length_squared(offset));
+            const double weight = weight_of(r);
+            if (weight > 0) {
+                weights.push_back(weight);
+                observations.push_back({r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
+                memory.statistics.fluence += weight;
+            }
+        }
+        memory.statistics.count += static_cast<double>(cell.size());
+        memory.radius = std::sqrt(radius_squared);
+    }
+
+    /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
+    /// each round.
+    LobeModel fit_lobes(LobeModel model, std::span<const Observation> observations, double unit,
+                        Field::Memory& memory) const {
+        const std::array<LobeSums, max_lobes> earlier = memory.statistics.lobes;
+        std::array<LobeSums, max_lobes>& sums = memory.statistics.lobes;
+        if (!(total_weight(earlier) > 0)) {
+            model = initial_lobes(settings_.lobes);
+        }
+        for (int round = 0; round < settings_.max_iterations; ++round) {
+            const std::array<LobeSums, max_lobes> last = sums;
+            sums = earlier + expectation(model, observations, unit);
+            model = maximization(sums, model, settings_.priors, memory.radius);
+            if (round > 0 && movement(sums, last) < settings_.tolerance * total_weight(sums)) {
+                break;
+            }
+        }
+        return model;
+    }
+
+    /// Chooses the reference point of a new cell; what was inherited is re-aimed at it.
+    static void anchor(Region& region, Field::Memory& memory, const Vec3& reference) {
+        memory.anchored = true;
+        const Vec3 offset = region.reference() - reference;
+        const VmfMixture mixture = region.incident(reference);
+        Lanes inverse_distance;
+        for (int i = 0; i < mixture.size(); ++i) {
+            const float inverse = region.inverse_distance()[i];
+            const Vec3 to_source = region.mixture().lobe(i).vmf.mean + offset * inverse;
+            inverse_distance[i] = inverse / std::max(length(to_source), 1e-3f);
+            LobeSums& sums = memory.statistics.lobes[i];
+            sums.direction = Imath::V3d(mixture.lobe(i).vmf.mean) * sums.direction.length();
+        }
+        region = Region(reference, mixture, inverse_distance, region.fluence());
+    }
+
+    Field field_;
+    std::span<const Record> records_;
+    const FitSettings& settings_;
+    int threads_;
+    /// Indices of the usable records, those of a leaf side by side.
+    std::vector<std::uint32_t> order_;
+    std::vector<Cell> cells_;
+    FitReport report_;
+};
+
+FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads) {
+    validate(settings);
+    return Fitting(previous, records, settings, threads).run();
+}
+
+}  // namespace wend::guide

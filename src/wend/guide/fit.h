@@ -1,0 +1,53 @@
+// Training: a new field from the previous one and the records of a pass.
+#pragma once
+
+#include <wend/guide/field.h>
+#include <wend/guide/lobe_fit.h>
+#include <wend/guide/records.h>
+
+#include <cstddef>
+#include <span>
+
+namespace wend::guide {
+
+struct FitSettings {
+    /// Lobes per cell, 1 to max_lobes.
+    int lobes = 8;
+    /// A cell holding more records than this is split; older records count less (see `decay`).
+    double leaf_samples = 4000;
+    /// Most splits above a cell, at most 64.
+    int max_depth = 32;
+    /// The field's memory, Field::bytes(), stays below; at least 64 KiB. The most used cells are split first.
+    std::size_t max_bytes = std::size_t{256} << 20;
+    /// How much the records of earlier fits count in this one, 0 (not at all) to 1.
+    double decay = 0.8;
+    /// Most rounds of expectation maximization, at least 1.
+    int max_iterations = 12;
+    /// Rounds end when the resultant vectors of the lobes move less than this share of the total weight.
+    double tolerance = 5e-3;
+    LobePriors priors;
+};
+
+struct FitReport {
+    std::size_t records = 0;
+    /// Records with a number that is not finite or out of range (is_usable), which taught nothing.
+    std::size_t ignored = 0;
+    /// Usable records with zero radiance.
+    std::size_t dark = 0;
+    std::size_t cells = 0;
+    std::size_t bytes = 0;
+    /// Whether cells stayed unsplit for lack of memory.
+    bool memory_limited = false;
+};
+
+struct FitResult {
+    Field field;
+    FitReport report;
+};
+
+/// Refines the previous field by the records, on at most `threads` threads (0: all). The result depends on the order of
+/// the records but not on the threads, bit for bit. Cost is proportional to the number of records times the depth of
+/// the tree. Throws InputError for settings out of range.
+FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads = 0);
+
+}  // namespace wend::guide

@@ -1,0 +1,171 @@
+#include <wend/guide/lobe_fit.h>
+
+#include <wend/core/contracts.h>
+#include <wend/guide/fast_exp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend::guide {
+namespace {
+
+/// Float sums of this many observations are added to the double ones.
+constexpr std::size_t block_size = 1024;
+
+/// The model in lanes.
+struct LobeLanes {
+    int blocks;
+    Lanes x, y, z, half_kappa, log_amplitude, inverse_distance;
+
+    explicit LobeLanes(const LobeModel& model)
+        : blocks(blocks_for(model.mixture.size())), inverse_distance(model.inverse_distance) {
+        constexpr float log_of_nothing = -1e30f;
+        std::fill(std::begin(log_amplitude.value), std::end(log_amplitude.value), log_of_nothing);
+        for (int i = 0; i < model.mixture.size(); ++i) {
+            const auto [weight, vmf] = model.mixture.lobe(i);
+            x[i] = vmf.mean.x;
+            y[i] = vmf.mean.y;
+            z[i] = vmf.mean.z;
+            half_kappa[i] = 0.5f * vmf.kappa;
+            log_amplitude[i] = weight > 0 ? std::log(weight) + std::log(vmf_peak(vmf.kappa)) : log_of_nothing;
+        }
+    }
+};
+
+/// The sums of LobeSums in lanes.
+struct SumLanes {
+    Lanes weight, weight_square, x, y, z, inverse_distance, inverse_distance_square;
+
+    void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
+        for (int i = 0; i < max_lobes; ++i) {
+            sums[i].weight += unit * weight[i];
+            sums[i].weight_square += unit * unit * weight_square[i];
+            sums[i].direction += unit * Imath::V3d(x[i], y[i], z[i]);
+            sums[i].inverse_distance += unit * inverse_distance[i];
+            sums[i].inverse_distance_square += unit * inverse_distance_square[i];
+        }
+    }
+};
+
+void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sums) {
+    const Vec3 w = o.direction, t = o.offset;
+    const float along = dot(w, t);
+    const float across = std::max(0.0f, length_squared(t) - along * along);
+
+    Lanes x, y, z, exponent;
+    for_lanes(lobes.blocks, [&](int i) {
+        // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
+        // reference point.
+        const float b = lobes.inverse_distance[i];
+        const float inside = 1 - b * b * across;
+        const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
+        x[i] = distance * w.x - b * t.x;
+        y[i] = distance * w.y - b * t.y;
+        z[i] = distance * w.z - b * t.z;
+        const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
+        exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * (dx * dx + dy * dy + dz * dz);
+    });
+    const float largest = largest_lane(lobes.blocks, exponent);
+    Lanes density;
+    for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
+    const float scale = o.weight / sum_lanes(lobes.blocks, density);
+
+    for_lanes(lobes.blocks, [&](int i) {
+        const float weight = density[i] * scale;
+        const float weighted_inverse = weight * o.inverse_distance;
+        sums.weight[i] += weight;
+        sums.weight_square[i] += weight * weight;
+        sums.x[i] += weight * x[i];
+        sums.y[i] += weight * y[i];
+        sums.z[i] += weight * z[i];
+        sums.inverse_distance[i] += weighted_inverse;
+        sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
+    });
+}
+
+/// 1 up to `good`, 0 from `bad`, linear between.
+double ramp_down(double x, double good, double bad) {
+    return std::clamp((bad - x) / (bad - good), 0.0, 1.0);
+}
+
+double effective_records(const LobeSums& s) {
+    return s.weight_square > 0 ? s.weight * s.weight / s.weight_square : 0.0;
+}
+
+/// The lobe's inverse distance, drawn to 0 (no re-aiming) where it is doubtful: few records, distances that differ
+/// among themselves (vertices inside a medium are not the source), or a source so near that turning by it is
+/// meaningless.
+double reliable_inverse_distance(const LobeSums& s, double radius) {
+    constexpr double enough_records = 8;
+    if (effective_records(s) < enough_records || !(s.inverse_distance > 0)) {
+        return 0;
+    }
+    const double mean = s.inverse_distance / s.weight;
+    const double relative_variance = s.inverse_distance_square / s.weight / (mean * mean) - 1;
+    return mean * ramp_down(relative_variance, 0.25, 1.0) * ramp_down(mean * radius, 0.75, 1.0);
+}
+
+}  // namespace
+
+LobeModel initial_lobes(int lobes) {
+    WEND_EXPECT(lobes >= 1 && lobes <= max_lobes);
+    constexpr double golden_angle = 2.39996322972865332;
+    // Half as wide as the spiral's points are apart.
+    const float kappa = static_cast<float>(lobes) * inv_pi;
+    std::array<WeightedVmf, max_lobes> start{};
+    for (int i = 0; i < lobes; ++i) {
+        const double z = 1 - (2 * i + 1.0) / lobes;
+        const double r = std::sqrt(1 - z * z);
+        const Vec3 mean(static_cast<float>(r * std::cos(golden_angle * i)),
+                        static_cast<float>(r * std::sin(golden_angle * i)), static_cast<float>(z));
+        start[i] = {1, {normalize(mean), kappa}};
+    }
+    return {VmfMixture(std::span(start.data(), lobes)), {}};
+}
+
+std::array<LobeSums, max_lobes> expectation(const LobeModel& model, std::span<const Observation> observations,
+                                            double weight_unit) {
+    const LobeLanes lobes(model);
+    std::array<LobeSums, max_lobes> sums{};
+    while (!observations.empty()) {
+        const auto block = observations.first(std::min(block_size, observations.size()));
+        SumLanes block_sums;
+        for (const Observation& o : block) {
+            add_observation(lobes, o, block_sums);
+        }
+        block_sums.add_to(sums, weight_unit);
+        observations = observations.subspan(block.size());
+    }
+    return sums;
+}
+
+LobeModel maximization(const std::array<LobeSums, max_lobes>& sums, const LobeModel& previous, const LobePriors& priors,
+                       double radius) {
+    const int size = previous.mixture.size();
+    double weight = 0, weight_square = 0;
+    for (const LobeSums& s : std::span(sums.data(), size)) {
+        weight += s.weight;
+        weight_square += s.weight_square;
+    }
+    WEND_EXPECT(weight > 0);
+    const double records = weight * weight / weight_square;
+
+    LobeModel model;
+    std::array<WeightedVmf, max_lobes> lobes{};
+    for (int i = 0; i < size; ++i) {
+        const LobeSums& s = sums[i];
+        const double resultant = s.direction.length();
+        const double own_records = effective_records(s);
+        const double mean_cosine =
+            s.weight > 0 ? resultant / s.weight * own_records / (own_records + priors.mean_cosine) : 0.0;
+        const float share =
+            static_cast<float>((records * s.weight / weight + priors.weight) / (records + size * priors.weight));
+        const Vec3 mean = resultant > 0 ? Vec3(s.direction / resultant) : previous.mixture.lobe(i).vmf.mean;
+        lobes[i] = {share, {mean, std::min(vmf_kappa(static_cast<float>(mean_cosine)), priors.max_kappa)}};
+        model.inverse_distance[i] = static_cast<float>(reliable_inverse_distance(s, radius));
+    }
+    model.mixture = VmfMixture(std::span(lobes.data(), size));
+    return model;
+}
+
+}  // namespace wend::guide

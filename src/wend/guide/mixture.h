@@ -1,0 +1,63 @@
+// A mixture of von Mises–Fisher lobes: what a learned field says about the incident radiance at a point.
+#pragma once
+
+#include <wend/guide/lanes.h>
+#include <wend/sampling/vmf.h>
+
+#include <span>
+
+namespace wend::guide {
+
+struct WeightedVmf {
+    /// Share in the mixture, not negative.
+    float weight;
+    Vmf vmf;
+};
+
+struct MixtureProduct;
+
+/// A density over directions, Σ w_i vMF_i, of at most max_lobes lobes whose weights add up to 1. A value of fixed size
+/// without heap memory.
+class VmfMixture {
+public:
+    /// The uniform distribution: one lobe of concentration 0.
+    VmfMixture();
+
+    /// A mixture of 1 to max_lobes lobes; weights are scaled to the sum 1, and one at least must be positive.
+    explicit VmfMixture(std::span<const WeightedVmf> lobes);
+
+    int size() const { return size_; }
+    WeightedVmf lobe(int i) const;
+
+    /// Density at a unit direction, in 1/sr. Relative error 1e-6 · (1 + kappa angle²).
+    float density(const Vec3& direction) const;
+
+    /// A direction distributed by the density, from a point of [0,1)²; u.x selects the lobe, and what is left of it is
+    /// used again within the lobe.
+    Vec3 sample(Vec2 u) const;
+
+    /// The normalized product with a lobe, and its integral. Always a valid mixture, even where the integral
+    /// underflows. Lobes of weight below 1e-10 are dropped.
+    MixtureProduct product(const Vmf& factor) const;
+
+    /// The mixture as seen from a point displaced by -`offset`, where lobe i comes from a distance
+    /// 1/inverse_distance[i]: each mean m turns to the direction of m + offset · inverse_distance. Weights and
+    /// concentrations stay.
+    VmfMixture re_aimed(const Vec3& offset, const Lanes& inverse_distance) const;
+
+private:
+    int blocks() const { return blocks_for(size_); }
+
+    int size_;
+    Lanes mean_x_, mean_y_, mean_z_, kappa_, weight_;
+    /// Weight times density at the mean.
+    Lanes amplitude_;
+};
+
+struct MixtureProduct {
+    VmfMixture distribution;
+    /// ∫ mixture · factor dω, in 1/sr.
+    float integral;
+};
+
+}  // namespace wend::guide

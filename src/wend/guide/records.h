@@ -1,0 +1,35 @@
+// What walks report to the guide: one record for each direction drawn and what came back along it.
+#pragma once
+
+#include <wend/core/vector.h>
+
+#include <vector>
+
+namespace wend::guide {
+
+/// An estimate of the radiance arriving at a point from one direction. Estimates of zero are as informative as others:
+/// they tell where walks go (the cells of the field follow that) and lower the mean.
+struct Record {
+    Vec3 position;
+    /// Unit vector towards where the radiance comes from.
+    Vec3 direction;
+    /// Estimate of the incident radiance as a scalar, for instance its luminance; not negative.
+    float radiance;
+    /// Density the direction was drawn with, in 1/sr; positive.
+    float density;
+    /// Distance to the next vertex along the direction; positive, and infinite where there is none.
+    float distance;
+};
+
+/// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,
+/// sample and vertex.
+using Records = std::vector<Record>;
+
+/// Whether the field can learn from a record: finite numbers in their ranges (the distance may be infinite),
+/// coordinates up to 1e15 and a weight up to 1e30.
+bool is_usable(const Record& record);
+
+/// The record's share in ∫ L dω: radiance / density, in radiance times sr.
+double weight_of(const Record& record);
+
+}  // namespace wend::guide

@@ -1,0 +1,56 @@
+// The von Mises–Fisher distribution of directions: the bell curve of the sphere (docs/theory/learned_field.md).
+#pragma once
+
+#include <wend/core/vector.h>
+
+namespace wend {
+
+struct VmfProduct;
+
+/// Directions gathered around a mean: density C(kappa) e^{kappa cos}, over solid angle (1/sr), where cos is taken with
+/// the mean and C(kappa) = kappa / (4 pi sinh kappa). Concentration 0 is the uniform distribution. All formulas are
+/// written in 1 - cos, the half square of the chord, and hold for concentrations from 0 to max_kappa in single
+/// precision.
+struct Vmf {
+    static constexpr float max_kappa = 1e5f;
+
+    /// Unit length.
+    Vec3 mean{0, 0, 1};
+    /// Concentration, in [0, max_kappa].
+    float kappa = 0;
+
+    /// The distribution of a given mean cosine in (-1, 1), such as the g of a phase function; a negative one turns the
+    /// mean around.
+    static Vmf with_mean_cosine(const Vec3& mean, float mean_cosine);
+
+    /// Density at a unit direction, in 1/sr.
+    float density(const Vec3& direction) const;
+
+    /// The direction belonging to a point of the unit square, [0,1)² (jakob2012).
+    Vec3 sample(Vec2 u) const;
+
+    /// The normalized product of two densities, which is again of this kind, and its integral over the sphere.
+    VmfProduct product(const Vmf& other) const;
+};
+
+struct VmfProduct {
+    Vmf distribution;
+    /// ∫ f g dω in 1/sr: the convolution of f and g at the angle between their means.
+    float integral;
+};
+
+/// The density at the mean, kappa / (2 pi (1 - e^{-2 kappa})), in 1/sr.
+float vmf_peak(float kappa);
+
+/// Mean cosine coth(kappa) - 1/kappa, in [0, 1).
+float vmf_mean_cosine(float kappa);
+
+/// The inverse of vmf_mean_cosine: Newton's method from the start r(3 - r²)/(1 - r²) (banerjee2005). Mean cosines
+/// outside [0, 1) are clamped; the result is at most Vmf::max_kappa.
+float vmf_kappa(float mean_cosine);
+
+/// The lobe blurred by another of concentration `kappa`, approximately: the kind is not closed under convolution, but
+/// mean cosines multiply exactly.
+Vmf convolve(const Vmf& lobe, float kappa);
+
+}  // namespace wend

@@ -1,0 +1,32 @@
+#include <wend/guide/fast_exp.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wend::guide {
+namespace {
+
+TEST(FastExp, StaysWithinItsStatedError) {
+    double worst = 0;
+    for (double x = fast_exp_smallest; x <= 88; x += 0.000317) {
+        const float argument = static_cast<float>(x);
+        const double exact = std::exp(static_cast<double>(argument));
+        worst = std::max(worst, std::abs(fast_exp(argument) / exact - 1));
+    }
+    EXPECT_LT(worst, 5e-7);
+    EXPECT_GT(worst, 1e-8);  // or nothing was measured
+}
+
+TEST(FastExp, IsOneAtZeroAndNeverZeroOrInfinite) {
+    EXPECT_EQ(fast_exp(0), 1);
+    for (const float x :
+         {-88.0f, -1e10f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_EQ(fast_exp(x), fast_exp(fast_exp_smallest));
+    }
+    EXPECT_GE(fast_exp(-1e30f), std::numeric_limits<float>::min());
+}
+
+}  // namespace
+}  // namespace wend::guide

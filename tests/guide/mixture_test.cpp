@@ -1,0 +1,145 @@
+#include <tests/guide/sphere_integral.h>
+#include <tests/support/chi_square_sphere.h>
+#include <wend/guide/mixture.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace wend::guide {
+namespace {
+
+using test::integrate_sphere;
+
+VmfMixture three_lobes() {
+    const std::array<WeightedVmf, 3> lobes = {{{2.0f, {normalize(Vec3(1, 2, 3)), 20}},
+                                               {1.0f, {normalize(Vec3(-3, 1, 0)), 4}},
+                                               {0.5f, {normalize(Vec3(0, -1, -1)), 0.3f}}}};
+    return VmfMixture(lobes);
+}
+
+/// As many lobes as there can be, pseudo-random.
+VmfMixture many_lobes(std::uint64_t seed, float largest_kappa) {
+    Pcg32 random(seed);
+    std::vector<WeightedVmf> lobes;
+    for (int i = 0; i < max_lobes; ++i) {
+        const Vec3 mean = Vmf{}.sample(random.uniform2());
+        lobes.push_back({random.uniform(), {mean, largest_kappa * random.uniform()}});
+    }
+    return VmfMixture(lobes);
+}
+
+TEST(VmfMixture, StartsUniform) {
+    EXPECT_FLOAT_EQ(VmfMixture().density({0, 1, 0}), inv_4pi);
+    EXPECT_EQ(VmfMixture().size(), 1);
+}
+
+TEST(VmfMixture, IntegratesToOne) {
+    EXPECT_NEAR(integrate_sphere([m = three_lobes()](const Vec3& w) { return m.density(w); }), 1, 1e-4);
+    EXPECT_NEAR(integrate_sphere([m = many_lobes(1, 80)](const Vec3& w) { return m.density(w); }), 1, 2e-4);
+}
+
+TEST(VmfMixture, DensityIsTheWeightedSumOfItsLobes) {
+    const VmfMixture mixture = many_lobes(2, 80);
+    Pcg32 random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 w = Vmf{}.sample(random.uniform2());
+        double sum = 0;
+        for (int k = 0; k < mixture.size(); ++k) {
+            sum += static_cast<double>(mixture.lobe(k).weight) * mixture.lobe(k).vmf.density(w);
+        }
+        EXPECT_NEAR(mixture.density(w), sum, 1e-5 * sum);
+    }
+}
+
+TEST(VmfMixture, SamplesFollowTheDensity) {
+    const auto follows = [](const VmfMixture& mixture, std::uint64_t seed) {
+        test::SphereTestOptions options;
+        options.seed = seed;
+        return test::follows_density(
+            test::chi_square_sphere([&](Vec2 u) { return mixture.sample(u); },
+                                    [&](const Vec3& w) { return mixture.density(w); }, options),
+            "mixture", 3);
+    };
+    EXPECT_TRUE(follows(three_lobes(), 1));
+    EXPECT_TRUE(follows(many_lobes(4, 40), 2));
+    EXPECT_TRUE(follows(three_lobes().product({normalize(Vec3(1, 0, 1)), 3}).distribution, 3));
+}
+
+TEST(VmfMixture, AMixtureThatIsSlightlyOffIsRejected) {
+    const VmfMixture mixture = three_lobes();
+    const VmfMixture wrong = mixture.product({normalize(Vec3(1, 0, 1)), 0.1f}).distribution;
+    const auto test = test::chi_square_sphere([&](Vec2 u) { return mixture.sample(u); },
+                                              [&](const Vec3& w) { return wrong.density(w); });
+    EXPECT_LT(test.result.p_value, 1e-6);
+}
+
+TEST(VmfMixture, SelectsLobesAtTheEdgesOfTheSquare) {
+    // The last lobe has no weight: rounding must not select it.
+    const std::array<WeightedVmf, 3> lobes = {
+        {{0.0f, {{0, 0, -1}, 1e4f}}, {0.3f, {{0, 0, 1}, 1e4f}}, {0.0f, {{0, 0, -1}, 1e4f}}}};
+    const VmfMixture mixture(lobes);
+    for (const float u : {0.0f, 0.5f, one_minus_epsilon}) {
+        EXPECT_GT(mixture.sample({u, u}).z, 0.9f);
+    }
+}
+
+TEST(VmfMixture, ProductIsThePointwiseProduct) {
+    for (const float kappa : {0.0f, 0.2f, 5.0f, 100.0f}) {
+        const Vmf factor{normalize(Vec3(1, -1, 0.5f)), kappa};
+        for (const VmfMixture& mixture : {three_lobes(), many_lobes(5, 30)}) {
+            const MixtureProduct product = mixture.product(factor);
+            const double integral =
+                integrate_sphere([&](const Vec3& w) { return mixture.density(w) * factor.density(w); }, 400);
+            EXPECT_NEAR(product.integral, integral, 1e-3 * integral) << kappa;
+            EXPECT_NEAR(integrate_sphere([&](const Vec3& w) { return product.distribution.density(w); }, 400), 1, 1e-3);
+            Pcg32 random(6);
+            for (int i = 0; i < 100; ++i) {
+                const Vec3 w = Vmf{}.sample(random.uniform2());
+                const double pointwise = mixture.density(w) * factor.density(w);
+                EXPECT_NEAR(product.integral * product.distribution.density(w), pointwise, 2e-4 * pointwise + 1e-12);
+            }
+        }
+    }
+}
+
+TEST(VmfMixture, ProductWithTheUniformLobeChangesNothing) {
+    const VmfMixture mixture = three_lobes();
+    const MixtureProduct product = mixture.product(Vmf{});
+    EXPECT_NEAR(product.integral, inv_4pi, 1e-6 * inv_4pi);
+    for (int i = 0; i < mixture.size(); ++i) {
+        EXPECT_NEAR(product.distribution.lobe(i).weight, mixture.lobe(i).weight, 1e-6);
+        EXPECT_NEAR(product.distribution.lobe(i).vmf.kappa, mixture.lobe(i).vmf.kappa, 1e-5);
+    }
+}
+
+TEST(VmfMixture, ProductThatUnderflowsIsStillADistribution) {
+    const std::array<WeightedVmf, 2> lobes = {{{1.0f, {{0, 0, 1}, 1e4f}}, {1.0f, {{0, 1, 0}, 1e4f}}}};
+    const MixtureProduct product = VmfMixture(lobes).product({normalize(Vec3(0, -1, -2)), 1e5f});
+    EXPECT_EQ(product.integral, 0);
+    float sum = 0;
+    for (int i = 0; i < product.distribution.size(); ++i) {
+        sum += product.distribution.lobe(i).weight;
+    }
+    EXPECT_NEAR(sum, 1, 1e-6);
+    const Vec3 w = product.distribution.sample({0.3f, 0.7f});
+    EXPECT_NEAR(length(w), 1, 1e-5);
+    EXPECT_GT(product.distribution.density(w), 0);
+}
+
+TEST(VmfMixture, ReAimingFollowsTheSourceAndLeavesFarLobesAlone) {
+    const std::array<WeightedVmf, 2> lobes = {{{1.0f, {{0, 0, 1}, 50}}, {1.0f, {{0, 1, 0}, 50}}}};
+    Lanes inverse_distance;
+    inverse_distance[0] = 0.5f;  // a source at (0, 0, 2)
+    const Vec3 position(1, 0, 0.5f);
+    const VmfMixture seen = VmfMixture(lobes).re_aimed(-position, inverse_distance);
+    EXPECT_NEAR(dot(seen.lobe(0).vmf.mean, normalize(Vec3(0, 0, 2) - position)), 1, 1e-6);
+    EXPECT_EQ(seen.lobe(1).vmf.mean, Vec3(0, 1, 0));
+    // At the source itself there is no direction to turn to.
+    EXPECT_EQ(VmfMixture(lobes).re_aimed({0, 0, -2}, inverse_distance).lobe(0).vmf.mean, Vec3(0, 0, 1));
+}
+
+}  // namespace
+}  // namespace wend::guide

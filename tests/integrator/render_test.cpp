@@ -1,0 +1,182 @@
+// Whole pictures: reproducible, the same in the mean however they are sampled, and honest about their noise.
+#include <tests/support/scenes.h>
+
+#include <wend/stats/chi_square.h>
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr int resolution = 24;
+
+/// A foggy room with a small light behind a screen: surfaces and a volume, much indirect light.
+SceneDescription foggy_room(bool grid = false) {
+    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, resolution);
+    const Box3 room(Vec3(-1), Vec3(1));
+    const Rgb absorption(0.05f, 0.1f, 0.15f);
+    const Rgb scattering(0.6f, 0.5f, 0.4f);
+    const MediumId fog = grid ? test::add_uniform_grid(s, room, absorption, scattering, 0.4f)
+                              : test::add_homogeneous(s, absorption, scattering, 0.4f);
+    s.camera_medium = vacuum;
+    const int white = test::add_diffuse(s, Rgb(0.7f));
+    const int red = test::add_diffuse(s, {0.7f, 0.2f, 0.1f});
+    const int boundary = test::add_interface(s);
+    test::add_parallelogram(s, {-1, -1, -1}, {0, 2, 0}, {2, 0, 0}, boundary, fog);  // open front
+    test::add_parallelogram(s, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, white);
+    test::add_parallelogram(s, {-1, -1, -1}, {0, 0, 2}, {0, 2, 0}, red);
+    test::add_parallelogram(s, {1, -1, -1}, {0, 2, 0}, {0, 0, 2}, white);
+    test::add_parallelogram(s, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, white);
+    test::add_parallelogram(s, {-1, 1, -1}, {0, 0, 2}, {2, 0, 0}, white);
+    test::add_parallelogram(s, {-0.5f, 0.5f, -0.5f}, {1, 0, 0}, {0, 0, 1}, white);  // the screen under the light
+    test::add_sphere(s, {0.4f, -0.6f, 0.2f}, 0.3f, test::add_dielectric(s, 1.5f), vacuum, fog);
+    const Vec3 p(-0.3f, 0.9f, -0.3f);
+    s.lights.push_back(make_triangle_light(p, p + Vec3(0.6f, 0, 0), p + Vec3(0, 0, 0.6f), true, Rgb(20.0f), true));
+    Surface emitter{TriangleMesh{{p, p + Vec3(0.6f, 0, 0), p + Vec3(0, 0, 0.6f)}, {}, {}, {0, 1, 2}}, white};
+    emitter.first_light = 0;
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(emitter));
+    return s;
+}
+
+Image render_image(const Scene& scene, const char* preset, int samples, std::uint64_t seed, int threads = 0,
+                   RenderStatistics* statistics = nullptr) {
+    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    RenderSettings settings;
+    settings.preset = parse_preset(preset);
+    settings.samples = samples;
+    settings.seed = seed;
+    settings.threads = threads;
+    settings.max_depth = 20;
+    const RenderStatistics result = render(scene, film, settings);
+    if (statistics) {
+        *statistics = result;
+    }
+    return film.beauty();
+}
+
+class Reproducible : public testing::TestWithParam<const char*> {};
+
+TEST_P(Reproducible, TheSamePictureForAnyNumberOfThreads) {
+    const Scene scene(foggy_room());
+    const Image one = render_image(scene, GetParam(), 20, 3, 1);
+    for (const int threads : {2, 5}) {
+        EXPECT_EQ(render_image(scene, GetParam(), 20, 3, threads).pixels, one.pixels) << threads << " threads";
+    }
+    EXPECT_NE(render_image(scene, GetParam(), 20, 4, 2).pixels, one.pixels) << "another seed must give another picture";
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, Reproducible, testing::Values("classical", "direction"));
+
+TEST(Reproducible, TheListOfPassesRepeatsATimedRun) {
+    const Scene scene(foggy_room());
+    RenderSettings settings;
+    settings.preset = parse_preset("direction");
+    settings.seconds = 0.6;
+    Film timed({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    const RenderStatistics first = render(scene, timed, settings);
+    settings.passes = first.passes;
+    settings.seconds = 0;
+    Film repeated({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    render(scene, repeated, settings);
+    EXPECT_EQ(timed.beauty().pixels, repeated.beauty().pixels);
+}
+
+/// Independent renders of the same picture: mean and its standard error, block by block and for the whole.
+struct Replicas {
+    static constexpr int block = 8;
+    static constexpr int blocks = (resolution / block) * (resolution / block);
+    std::vector<Moments> block_moments{static_cast<std::size_t>(blocks)};
+    Moments whole;
+
+    void add(const Image& image, double scale = 1) {
+        double total = 0;
+        std::vector<double> sums(static_cast<std::size_t>(blocks));
+        for (int y = 0; y < resolution; ++y) {
+            for (int x = 0; x < resolution; ++x) {
+                const double v = scale * luminance(image.at(x, y));
+                total += v;
+                sums[static_cast<std::size_t>((y / block) * (resolution / block) + x / block)] += v;
+            }
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            block_moments[i].add(sums[i] / (block * block));
+        }
+        whole.add(total / (resolution * resolution));
+    }
+};
+
+/// The p-value of "the same mean in all blocks", by the sum of squared z.
+double same_blocks(const Replicas& a, const Replicas& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.block_moments.size(); ++i) {
+        const Moments& x = a.block_moments[i];
+        const Moments& y = b.block_moments[i];
+        const double error2 = std::pow(x.standard_error(), 2) + std::pow(y.standard_error(), 2);
+        sum += std::pow(x.mean() - y.mean(), 2) / error2;
+    }
+    return chi_square_p_value(sum, Replicas::blocks);
+}
+
+TEST(GuidedDirection, GivesTheSamePictureAsClassicalSampling) {
+    for (const bool grid : {false, true}) {
+        const Scene scene(foggy_room(grid));
+        Replicas classical;
+        Replicas guided;
+        Replicas biased;
+        for (std::uint64_t i = 0; i < 24; ++i) {
+            classical.add(render_image(scene, "classical", 96, 1000 + i));
+            const Image image = render_image(scene, "direction", 96, 2000 + i);
+            guided.add(image);
+            biased.add(image, 1.03);
+        }
+        EXPECT_NEAR(guided.whole.mean() / classical.whole.mean(), 1, 0.01);
+        const double error = std::hypot(classical.whole.standard_error(), guided.whole.standard_error());
+        EXPECT_TRUE(agrees(guided.whole.mean() - classical.whole.mean(), error, 0, 4));
+        EXPECT_GT(same_blocks(classical, guided), 1e-4);
+        EXPECT_LT(same_blocks(classical, biased), 1e-4) << "the test could not see a bias of 3 %";
+    }
+}
+
+TEST(Render, CountsItsWork) {
+    const Scene scene(foggy_room());
+    RenderStatistics statistics;
+    render_image(scene, "direction", 5, 1, 0, &statistics);
+    EXPECT_EQ(statistics.samples, 5);
+    EXPECT_EQ(statistics.counts.paths, 5u * resolution * resolution);
+    EXPECT_GT(statistics.counts.segments, statistics.counts.paths);
+    EXPECT_EQ(statistics.counts.rejected, 0u);
+    EXPECT_GT(statistics.field_bytes, 0u);
+    EXPECT_EQ(statistics.passes, (std::vector<int>{1, 2, 2}));
+}
+
+TEST(Render, StopsBetweenPassesWhenAsked) {
+    const Scene scene(foggy_room());
+    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    RenderSettings settings;
+    settings.samples = 1000;
+    int calls = 0;
+    const RenderStatistics statistics = render(scene, film, settings, [&](const RenderProgress&) { return ++calls < 3; });
+    EXPECT_TRUE(statistics.interrupted);
+    EXPECT_EQ(statistics.passes.size(), 3u);
+    EXPECT_EQ(film.picture().layers[3].values[0], static_cast<float>(statistics.samples));
+}
+
+TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
+    EXPECT_TRUE(parse_preset("classical").is_classical());
+    EXPECT_TRUE(parse_preset("direction").direction);
+    EXPECT_EQ(to_string(parse_preset("direction")), "direction");
+    try {
+        parse_preset("directions");
+        FAIL();
+    } catch (const std::exception& e) {
+        EXPECT_NE(std::string(e.what()).find("direction"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace wend
