@@ -1,0 +1,287 @@
+#include <wend/io/load/camera_film.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+// The most that filters and samples per pixel can sensibly be asked for: beyond, a number is a mistake.
+constexpr float largest_filter_radius = 1000;
+
+/// `count` numbers, or none where the parameter is absent.
+template <class Numbers>
+Numbers exactly(const pbrt::ParameterSet& parameters, std::string_view name, Numbers values, std::size_t count) {
+    if (!values.empty() && values.size() != count) {
+        throw InputError(parameters.place_of(name),
+                         fmt::format("\"{}\" takes {} values, not {}", name, count, values.size()));
+    }
+    return values;
+}
+
+PixelRect clamp_to(const PixelRect& rect, const Vec2i& resolution) {
+    return {{std::max(rect.min.x, 0), std::max(rect.min.y, 0)},
+            {std::min(rect.max.x, resolution.x), std::min(rect.max.y, resolution.y)}};
+}
+
+PixelRect load_pixel_bounds(const pbrt::ParameterSet& parameters, const std::vector<int>& bounds, const Vec2i& in_file,
+                            const Vec2i& resolution) {
+    const auto scaled = [](int value, int from, int to) {
+        const double v = std::round(static_cast<double>(value) * to / from);
+        return static_cast<int>(std::clamp(v, -1e9, 1e9));
+    };
+    const PixelRect rect =
+        clamp_to({{scaled(bounds[0], in_file.x, resolution.x), scaled(bounds[2], in_file.y, resolution.y)},
+                  {scaled(bounds[1], in_file.x, resolution.x), scaled(bounds[3], in_file.y, resolution.y)}},
+                 resolution);
+    if (rect.width() <= 0 || rect.height() <= 0) {
+        throw InputError(parameters.place_of("pixelbounds"), "\"pixelbounds\" holds no pixel of the picture");
+    }
+    return rect;
+}
+
+PixelRect load_crop_window(const pbrt::ParameterSet& parameters, const std::vector<float>& window,
+                           const Vec2i& resolution) {
+    const auto [x0, x1] = std::minmax(window[0], window[1]);
+    const auto [y0, y1] = std::minmax(window[2], window[3]);
+    const auto pixel = [](float fraction, int size) {
+        return static_cast<int>(std::ceil(std::clamp(fraction, 0.0f, 1.0f) * static_cast<float>(size)));
+    };
+    const PixelRect rect{{pixel(x0, resolution.x), pixel(y0, resolution.y)},
+                         {pixel(x1, resolution.x), pixel(y1, resolution.y)}};
+    if (rect.width() <= 0 || rect.height() <= 0) {
+        throw InputError(parameters.place_of("cropwindow"), "\"cropwindow\" holds no pixel of the picture");
+    }
+    return rect;
+}
+
+ScreenWindow load_screen_window(const pbrt::ParameterSet& parameters, const Vec2i& resolution) {
+    const std::vector<float> window = exactly(parameters, "screenwindow", parameters.get_floats("screenwindow"), 4);
+    const float aspect = positive_float(parameters, "frameaspectratio",
+                                        static_cast<float>(resolution.x) / static_cast<float>(resolution.y));
+    if (window.empty()) {
+        const float x = std::max(aspect, 1.0f);
+        const float y = std::max(1 / aspect, 1.0f);
+        return {-x, x, -y, y};
+    }
+    const bool finite = std::all_of(window.begin(), window.end(), [](float v) { return std::isfinite(v); });
+    if (!finite || window[0] == window[1] || window[2] == window[3]) {
+        throw InputError(parameters.place_of("screenwindow"), "\"screenwindow\" is empty");
+    }
+    return {window[0], window[1], window[2], window[3]};
+}
+
+PerspectiveCamera load_perspective(const pbrt::ParameterSet& parameters, const ScreenWindow& screen) {
+    const float fov = parameters.get_float("fov", 90);
+    if (!(fov > 0 && fov < 180)) {
+        throw InputError(parameters.place_of("fov"),
+                         fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
+    }
+    const float scale = std::tan(0.5f * fov * pi / 180);
+    return {{screen.x_min * scale, screen.x_max * scale, screen.y_min * scale, screen.y_max * scale},
+            non_negative_float(parameters, "lensradius", 0),
+            positive_float(parameters, "focaldistance", 1e6f)};
+}
+
+SphericalCamera load_spherical(const pbrt::ParameterSet& parameters) {
+    const std::string mapping = parameters.get_string("mapping", "equalarea");
+    if (mapping == "equalarea") {
+        return {SphericalCamera::Mapping::equal_area};
+    }
+    if (mapping == "equirectangular") {
+        return {SphericalCamera::Mapping::equirectangular};
+    }
+    throw InputError(parameters.place_of("mapping"),
+                     fmt::format("the mapping \"{}\" is unknown; known are equalarea, equirectangular", mapping));
+}
+
+int positive_int(const pbrt::ParameterSet& parameters, std::string_view name, int fallback) {
+    const int value = parameters.get_int(name, fallback);
+    if (value < 1) {
+        throw InputError(parameters.place_of(name), fmt::format("\"{}\" must be at least 1, not {}", name, value));
+    }
+    return value;
+}
+
+}  // namespace
+
+FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std::optional<Vec2i>& resolution) {
+    const pbrt::ParameterSet& p = film.parameters;
+    if (film.type == "gbuffer" || film.type == "spectral") {
+        context.warnings.add(film.place,
+                             fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place", film.type));
+    } else if (film.type != "rgb") {
+        refuse_type("Film", film, {"rgb", "gbuffer", "spectral"});
+    }
+    FilmSettings settings;
+    const Vec2i in_file{positive_int(p, "xresolution", 1280), positive_int(p, "yresolution", 720)};
+    settings.resolution = resolution.value_or(in_file);
+    if (std::int64_t{settings.resolution.x} * settings.resolution.y > Film::max_pixels) {
+        throw InputError(resolution ? film.place : p.place_of("xresolution"),
+                         fmt::format("a picture of {} x {} pixels is too large: the most is {} pixels",
+                                     settings.resolution.x, settings.resolution.y, Film::max_pixels));
+    }
+    settings.crop = {{0, 0}, settings.resolution};
+    const auto bounds = exactly(p, "pixelbounds", p.get_ints("pixelbounds"), 4);
+    const auto window = exactly(p, "cropwindow", p.get_floats("cropwindow"), 4);
+    if (!window.empty()) {
+        settings.crop = load_crop_window(p, window, settings.resolution);
+    } else if (!bounds.empty()) {
+        settings.crop = load_pixel_bounds(p, bounds, in_file, settings.resolution);
+    }
+    settings.file = p.get_string("filename", "pbrt.exr");
+    settings.sensitivity = positive_float(p, "iso", 100) / 100;
+    const std::string sensor = p.get_string("sensor", "cie1931");
+    if (sensor != "cie1931") {
+        context.warnings.add(p.place_of("sensor"), "camera sensors are not imitated: \"cie1931\" takes their place");
+    }
+    if (p.get_float("whitebalance", 0) != 0) {
+        context.warnings.add(p.place_of("whitebalance"), "\"whitebalance\" is ignored: white stays what it is");
+    }
+    if (p.has("maxcomponentvalue")) {
+        static_cast<void>(p.get_float("maxcomponentvalue", 0));
+        context.warnings.add(p.place_of("maxcomponentvalue"),
+                             "\"maxcomponentvalue\" is ignored: clamping would darken the picture");
+    }
+    // These change neither what is rendered nor what is written here: files hold 32-bit floats.
+    static_cast<void>(p.get_bool("savefp16", true));
+    static_cast<void>(p.get_float("diagonal", 35));
+    context.warnings.add_unused("Film", film);
+    return settings;
+}
+
+Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const Vec2i& resolution) {
+    const pbrt::ParameterSet& p = camera.parameters;
+    const ScreenWindow screen = load_screen_window(p, resolution);
+    Camera::Kind kind;
+    if (camera.type == "perspective") {
+        kind = load_perspective(p, screen);
+    } else if (camera.type == "orthographic") {
+        kind = OrthographicCamera{screen, non_negative_float(p, "lensradius", 0),
+                                  positive_float(p, "focaldistance", 1e6f)};
+    } else if (camera.type == "spherical") {
+        kind = load_spherical(p);
+    } else if (camera.type == "realistic") {
+        context.warnings.add(camera.place, "Camera \"realistic\" is not implemented: \"perspective\" takes its place");
+        kind = load_perspective(p, screen);
+    } else {
+        refuse_type("Camera", camera, {"perspective", "orthographic", "spherical", "realistic"});
+    }
+    static_cast<void>(shutter_time(camera));
+    context.warnings.add_unused("Camera", camera);
+    return Camera(kind, camera.camera_from_world.inverse(), resolution.x, resolution.y);
+}
+
+float shutter_time(const pbrt::CameraEntity& camera) {
+    const pbrt::ParameterSet& p = camera.parameters;
+    const float time = p.get_float("shutterclose", 1) - p.get_float("shutteropen", 0);
+    if (!(time > 0) || !std::isfinite(time)) {
+        throw InputError(p.place_of("shutterclose"), "the shutter must close after it opens");
+    }
+    return time;
+}
+
+Filter load_filter(LoadContext& context, const pbrt::Entity& filter) {
+    const pbrt::ParameterSet& p = filter.parameters;
+    const auto radius = [&](std::string_view name, float fallback) {
+        const float r = positive_float(p, name, fallback);
+        if (r > largest_filter_radius) {
+            throw InputError(p.place_of(name),
+                             fmt::format("\"{}\" must not exceed {} pixels", name, largest_filter_radius));
+        }
+        return r;
+    };
+    const auto make = [&]() -> Filter {
+        if (filter.type == "box") {
+            return Filter::box(radius("xradius", 0.5f), radius("yradius", 0.5f));
+        }
+        if (filter.type == "triangle") {
+            return Filter::triangle(radius("xradius", 2), radius("yradius", 2));
+        }
+        if (filter.type == "gaussian") {
+            return Filter::gaussian(radius("xradius", 1.5f), radius("yradius", 1.5f), positive_float(p, "sigma", 0.5f));
+        }
+        if (filter.type == "mitchell") {
+            const float b = p.get_float("B", 1.0f / 3);
+            const float c = p.get_float("C", 1.0f / 3);
+            if (!std::isfinite(b) || !std::isfinite(c)) {
+                throw InputError(filter.place, "\"B\" and \"C\" must be finite");
+            }
+            return Filter::mitchell(radius("xradius", 2), radius("yradius", 2), b, c);
+        }
+        if (filter.type == "sinc") {
+            context.warnings.add(filter.place, "PixelFilter \"sinc\" is not implemented: \"mitchell\" takes its place");
+            return Filter::mitchell();
+        }
+        refuse_type("PixelFilter", filter, {"box", "gaussian", "mitchell", "sinc", "triangle"});
+    };
+    Filter result = make();
+    context.warnings.add_unused("PixelFilter", filter);
+    return result;
+}
+
+SamplerSettings load_sampler(LoadContext& context, const pbrt::Entity& sampler, const pbrt::ParameterSet& options) {
+    const pbrt::ParameterSet& p = sampler.parameters;
+    SamplerSettings settings;
+    if (sampler.type == "independent") {
+        settings.kind = SamplerKind::independent;
+    } else if (sampler.type == "stratified") {
+        const std::int64_t samples = std::int64_t{positive_int(p, "xsamples", 4)} * positive_int(p, "ysamples", 4);
+        settings.samples = static_cast<int>(std::min<std::int64_t>(samples, 1 << 30));
+    } else if (sampler.type != "halton" && sampler.type != "paddedsobol" && sampler.type != "pmj02bn" &&
+               sampler.type != "sobol" && sampler.type != "zsobol") {
+        refuse_type("Sampler", sampler,
+                    {"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"});
+    }
+    if (sampler.type != "stratified") {
+        settings.samples = positive_int(p, "pixelsamples", 16);
+    }
+    settings.seed = static_cast<std::uint32_t>(p.get_int("seed", options.get_int("seed", 0)));
+    // How points are scrambled or jittered is the sampler's own affair here.
+    static_cast<void>(p.get_string("randomization", ""));
+    static_cast<void>(p.get_bool("jitter", true));
+    context.warnings.add_unused("Sampler", sampler);
+    return settings;
+}
+
+IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& integrator) {
+    const pbrt::ParameterSet& p = integrator.parameters;
+    constexpr std::string_view walks[] = {"path", "randomwalk", "simplepath", "simplevolpath", "volpath"};
+    constexpr std::string_view others[] = {"ambientocclusion", "bdpt", "function", "lightpath", "mlt", "sppm"};
+    if (std::count(std::begin(others), std::end(others), integrator.type) > 0) {
+        context.warnings.add(
+            integrator.place,
+            fmt::format("Integrator \"{}\" is not implemented: \"volpath\" takes its place", integrator.type));
+    } else if (std::count(std::begin(walks), std::end(walks), integrator.type) == 0) {
+        refuse_type("Integrator", integrator,
+                    {"ambientocclusion", "bdpt", "function", "lightpath", "mlt", "path", "randomwalk", "simplepath",
+                     "simplevolpath", "sppm", "volpath"});
+    }
+    IntegratorSettings settings;
+    settings.max_depth = p.get_int("maxdepth", 5);
+    if (settings.max_depth < 0) {
+        throw InputError(p.place_of("maxdepth"),
+                         fmt::format("\"maxdepth\" must not be below 0, but is {}", settings.max_depth));
+    }
+    const std::string lights = p.get_string("lightsampler", "bvh");
+    settings.light_tree = lights == "bvh";
+    if (lights == "uniform" || lights == "exhaustive") {
+        context.warnings.add(
+            p.place_of("lightsampler"),
+            fmt::format("the light sampler \"{}\" is not implemented: \"power\" takes its place", lights));
+    } else if (lights != "bvh" && lights != "power") {
+        throw InputError(
+            p.place_of("lightsampler"),
+            fmt::format("the light sampler \"{}\" is unknown; known are bvh, power, uniform, exhaustive", lights));
+    }
+    if (p.get_bool("regularize", false)) {
+        context.warnings.add(p.place_of("regularize"),
+                             "\"regularize\" is ignored: rougher materials would bias the picture");
+    }
+    context.warnings.add_unused("Integrator", integrator);
+    return settings;
+}
+
+}  // namespace wend

@@ -1,0 +1,139 @@
+#include <wend/io/load/colours.h>
+#include <wend/io/pbrt/text_file.h>
+#include <wend/io/pbrt/token_stream.h>
+#include <wend/io/spectrum/blackbody.h>
+#include <wend/io/spectrum/named_spectra.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace wend {
+namespace {
+
+struct Matrix {
+    float m[3][3];
+
+    Rgb operator*(const Rgb& c) const {
+        return {m[0][0] * c.r + m[0][1] * c.g + m[0][2] * c.b, m[1][0] * c.r + m[1][1] * c.g + m[1][2] * c.b,
+                m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
+    }
+};
+
+// To Rec. 709 from the primaries of each space, white staying white. Rows sum to 1.
+constexpr Matrix from_dci_p3 = {
+    {{1.224940f, -0.224940f, 0}, {-0.042057f, 1.042057f, 0}, {-0.019638f, -0.078636f, 1.098274f}}};
+constexpr Matrix from_rec2020 = {
+    {{1.660491f, -0.587641f, -0.072850f}, {-0.124550f, 1.132900f, -0.008350f}, {-0.018151f, -0.100579f, 1.118730f}}};
+constexpr Matrix from_aces2065_1 = {
+    {{2.521690f, -1.134130f, -0.387560f}, {-0.276480f, 1.372720f, -0.096240f}, {-0.015380f, -0.152980f, 1.168360f}}};
+
+/// Colours that Rec. 709 cannot show are clamped to its faces.
+Rgb to_rec709(const pbrt::RgbColour& colour) {
+    const auto clamped = [](const Rgb& c) {
+        return Rgb(std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f));
+    };
+    switch (colour.space) {
+        case pbrt::ColourSpace::dci_p3:
+            return clamped(from_dci_p3 * colour.value);
+        case pbrt::ColourSpace::rec2020:
+            return clamped(from_rec2020 * colour.value);
+        case pbrt::ColourSpace::aces2065_1:
+            return clamped(from_aces2065_1 * colour.value);
+        default:
+            return colour.value;
+    }
+}
+
+Rgb reduce(const std::vector<SpectrumSample>& samples, SpectrumKind kind, const Place& place) {
+    try {
+        return rgb_from_pairs(samples, kind);
+    } catch (const InputError& error) {
+        throw InputError(place, error.what());
+    }
+}
+
+/// Wavelengths and values, separated by space; the rest of a line after # is a comment.
+std::vector<SpectrumSample> read_spectrum(const std::filesystem::path& file, const Place& place) {
+    std::istringstream lines(pbrt::read_text_file(file, place));
+    std::vector<float> numbers;
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        float value = 0;
+        while (words >> value) {
+            numbers.push_back(value);
+        }
+        if (!words.eof()) {
+            throw InputError(Place{file.string(), number, 0}, "expected a number");
+        }
+    }
+    if (numbers.empty() || numbers.size() % 2 != 0) {
+        throw InputError(Place{file.string(), 0, 0}, "a spectrum file holds pairs of a wavelength and a value");
+    }
+    std::vector<SpectrumSample> samples;
+    for (std::size_t i = 0; i < numbers.size(); i += 2) {
+        samples.push_back({numbers[i], numbers[i + 1]});
+    }
+    return samples;
+}
+
+Rgb reduce_named(const LoadContext& context, const std::string& name, SpectrumKind kind, const pbrt::Location& place) {
+    if (const auto known = find_named_spectrum(name)) {
+        return *known;
+    }
+    const std::filesystem::path file = pbrt::find_file(name, place, context.base_directory);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+        throw InputError(place, fmt::format("\"{}\" is neither a known spectrum ({}) nor a file", name,
+                                            fmt::join(spectrum_names(), ", ")));
+    }
+    return reduce(read_spectrum(file, place), kind, place);
+}
+
+}  // namespace
+
+Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, SpectrumKind kind,
+                  const pbrt::Location& place) {
+    Rgb colour;
+    if (const auto* rgb = std::get_if<pbrt::RgbColour>(&value)) {
+        colour = to_rec709(*rgb);
+    } else if (const auto* sampled = std::get_if<pbrt::SampledSpectrum>(&value)) {
+        std::vector<SpectrumSample> samples;
+        for (std::size_t i = 0; i < sampled->values.size(); ++i) {
+            samples.push_back({sampled->wavelengths[i], sampled->values[i]});
+        }
+        colour = reduce(samples, kind, place);
+    } else if (const auto* named = std::get_if<pbrt::NamedSpectrum>(&value)) {
+        colour = reduce_named(context, named->name, kind, place);
+    } else if (kind == SpectrumKind::illuminant) {
+        colour = blackbody_rgb(std::get<pbrt::Blackbody>(value).temperature);
+    } else {
+        throw InputError(place, "a black body is light: it cannot be a reflectance, coefficient or index");
+    }
+    if (!is_finite(colour) || min_value(colour) < 0) {
+        throw InputError(place, fmt::format("a colour must be finite and not negative, but is ({}, {}, {})", colour.r,
+                                            colour.g, colour.b));
+    }
+    return colour;
+}
+
+std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name,
+                              SpectrumKind kind) {
+    const auto value = parameters.get_colour(name);
+    return value ? std::optional(reduce_colour(context, *value, kind, parameters.place_of(name))) : std::nullopt;
+}
+
+std::vector<Rgb> glow_by_temperature(float step, float hottest) {
+    constexpr float highest = 40000;
+    const auto steps = static_cast<std::size_t>(std::clamp(hottest, 0.0f, highest) / step) + 2;
+    std::vector<Rgb> glow;
+    glow.reserve(steps);
+    for (std::size_t i = 0; i < steps; ++i) {
+        glow.push_back(blackbody_emission(static_cast<double>(i) * static_cast<double>(step)));
+    }
+    return glow;
+}
+
+}  // namespace wend

@@ -1,0 +1,29 @@
+// Colours of scene files as the three channels that Wend computes with.
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/io/load/context.h>
+#include <wend/io/spectrum/colorimetry.h>
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace wend {
+
+/// A colour of a scene file. RGB is converted to Rec. 709 primaries and otherwise taken as it stands, whatever it
+/// means; spectra are reduced by their kind, light to luminance 1 (as are black bodies). Throws InputError at the
+/// parameter where a channel is negative or not finite, a black body is to reflect, or the name is neither that of a
+/// known spectrum nor of a file of wavelengths and values.
+std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name,
+                              SpectrumKind kind);
+
+/// The same for a value that was looked up already, at this place.
+Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, SpectrumKind kind,
+                  const pbrt::Location& place);
+
+/// What a medium of temperature 0, `step`, 2 `step`, ... kelvin emits, up to `hottest` or 40000 K, above which the
+/// colour hardly changes; at least two values.
+std::vector<Rgb> glow_by_temperature(float step, float hottest);
+
+}  // namespace wend

@@ -1,0 +1,48 @@
+// What every part of the scene loader shares.
+#pragma once
+
+#include <wend/io/pbrt/description.h>
+
+#include <filesystem>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wend {
+
+/// What is understood but not done as asked, each kind once.
+class Warnings {
+public:
+    /// Adds `file:line:column: warning: text`, unless the text was there before.
+    void add(const Place& place, const std::string& text);
+    /// One warning for each parameter that nobody asked for: once for a name in directives of this kind and type.
+    void add_unused(std::string_view directive, const pbrt::Entity& entity);
+    void add_unused(const std::string& owner, const pbrt::ParameterSet& parameters);
+
+    const std::vector<std::string>& all() const { return all_; }
+
+private:
+    std::set<std::string> texts_;
+    std::vector<std::string> all_;
+};
+
+struct LoadContext {
+    std::filesystem::path base_directory;
+    Warnings warnings;
+};
+
+/// The existing file that a string parameter names. Throws InputError at the parameter if there is none, at the
+/// directive if the parameter is missing.
+std::filesystem::path required_file(const LoadContext& context, const pbrt::Entity& entity, std::string_view parameter);
+
+/// "Shape "frob" is unknown; known are ...", with the directive's place.
+[[noreturn]] void refuse_type(std::string_view directive, const pbrt::Entity& entity,
+                              std::initializer_list<std::string_view> known);
+
+/// A float parameter that must be finite and above 0, or finite and not below 0; InputError at its place otherwise.
+float positive_float(const pbrt::ParameterSet& parameters, std::string_view name, float fallback);
+float non_negative_float(const pbrt::ParameterSet& parameters, std::string_view name, float fallback);
+
+}  // namespace wend

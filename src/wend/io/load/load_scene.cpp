@@ -1,0 +1,128 @@
+#include <wend/io/load/camera_film.h>
+#include <wend/io/load/lights.h>
+#include <wend/io/load/load_scene.h>
+#include <wend/io/load/materials.h>
+#include <wend/io/load/media.h>
+#include <wend/io/load/shapes.h>
+#include <wend/io/pbrt/parser.h>
+
+#include <fmt/format.h>
+
+namespace wend {
+namespace {
+
+MediumId medium_id(const std::optional<std::size_t>& index) {
+    return index ? static_cast<MediumId>(*index) : vacuum;
+}
+
+/// Fills a SceneDescription, part by part; each refers to those before.
+class SceneBuilder {
+public:
+    SceneBuilder(LoadContext& context, pbrt::Description& description, SceneDescription& scene)
+        : context_(context), description_(description), scene_(scene), textures_(context, scene.textures) {}
+
+    void build() {
+        for (const pbrt::TextureEntity& texture : description_.textures) {
+            textures_.add(texture);
+        }
+        for (const pbrt::MediumEntity& medium : description_.media) {
+            scene_.media.push_back(load_medium(context_, medium));
+        }
+        add_materials();
+        for (const pbrt::LightEntity& light : description_.lights) {
+            if (auto loaded = load_light(context_, textures_, light)) {
+                scene_.lights.push_back(std::move(*loaded));
+            }
+        }
+        for (const pbrt::Entity& light : description_.area_lights) {
+            area_lights_.push_back(load_area_light(context_, textures_, light));
+        }
+        scene_.objects.resize(description_.objects.size());
+        for (pbrt::ShapeEntity& shape : description_.shapes) {
+            add_shape(shape);
+        }
+        for (const pbrt::ObjectInstance& instance : description_.instances) {
+            scene_.instances.push_back({static_cast<int>(instance.object), instance.world_from_instance});
+        }
+    }
+
+private:
+    void add_materials() {
+        for (LoadedMaterial& material : load_materials(context_, textures_, description_.materials)) {
+            std::optional<MediumId> inside;
+            if (material.inside) {
+                inside = static_cast<MediumId>(scene_.media.size());
+                scene_.media.push_back(*material.inside);
+            }
+            scene_.materials.push_back(std::move(material.material));
+            inside_.push_back(inside);
+        }
+    }
+
+    void add_shape(pbrt::ShapeEntity& entity) {
+        std::optional<Shape> shape = load_shape(context_, entity);
+        if (!shape) {
+            return;
+        }
+        Surface surface{std::move(*shape)};
+        surface.material = static_cast<int>(entity.material);
+        surface.interior = inside_[entity.material].value_or(medium_id(entity.interior));
+        surface.exterior = medium_id(entity.exterior);
+        surface.flip_normal = flips_normal(entity);
+        surface.alpha = load_alpha(entity);
+        if (entity.area_light) {
+            attach(area_lights_[*entity.area_light], entity.world_from_object, surface, scene_.lights);
+        }
+        context_.warnings.add_unused("Shape", entity);
+        std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
+        group.push_back(static_cast<int>(scene_.surfaces.size()));
+        scene_.surfaces.push_back(std::move(surface));
+    }
+
+    TextureId load_alpha(const pbrt::ShapeEntity& entity) {
+        const std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        const Rgb* constant = alpha ? scene_.textures.constant(*alpha) : nullptr;
+        const bool opaque = !alpha || (constant && constant->r >= 1);
+        return opaque ? -1 : *alpha;
+    }
+
+    LoadContext& context_;
+    pbrt::Description& description_;
+    SceneDescription& scene_;
+    TextureLoader textures_;
+    std::vector<std::optional<MediumId>> inside_;  ///< by material
+    std::vector<AreaLight> area_lights_;
+};
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides) {
+    return load_scene(pbrt::parse_file(file), overrides);
+}
+
+LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {
+    LoadContext context{description.base_directory, {}};
+    LoadedScene loaded;
+    const FilmSettings film = load_film(context, description.film, overrides.resolution);
+    const SamplerSettings sampler = load_sampler(context, description.sampler, description.options);
+    const IntegratorSettings integrator = load_integrator(context, description.integrator);
+    loaded.resolution = film.resolution;
+    loaded.crop = film.crop;
+    loaded.film_file = film.file;
+    loaded.exposure = film.sensitivity * shutter_time(description.camera);
+    loaded.filter = load_filter(context, description.filter);
+    loaded.sampler = sampler.kind;
+    loaded.samples = sampler.samples;
+    loaded.seed = sampler.seed;
+    loaded.max_depth = integrator.max_depth;
+    loaded.scene.light_tree = integrator.light_tree;
+    loaded.scene.camera = load_camera(context, description.camera, film.resolution);
+    loaded.scene.camera_medium = medium_id(description.camera.medium);
+    context.warnings.add_unused("Option", description.options);
+    SceneBuilder(context, description, loaded.scene).build();
+    loaded.warnings = std::move(description.warnings);
+    loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());
+    return loaded;
+}
+
+}  // namespace wend

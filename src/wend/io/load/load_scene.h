@@ -1,0 +1,48 @@
+// From a pbrt-v4 file to a scene that can be rendered.
+#pragma once
+
+#include <wend/film/film.h>
+#include <wend/film/filter.h>
+#include <wend/io/pbrt/description.h>
+#include <wend/sampling/sampler.h>
+#include <wend/scene/scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wend {
+
+/// What a scene file asks for.
+struct LoadedScene {
+    SceneDescription scene;
+    Vec2i resolution{0, 0};
+    PixelRect crop;
+    float exposure = 1;  ///< multiplies the film's samples: shutter time times ISO / 100
+    Filter filter = Filter::box();
+    SamplerKind sampler = SamplerKind::sobol;
+    int samples = 16;  ///< per pixel
+    int max_depth = 5;
+    std::uint64_t seed = 0;
+    std::string film_file;  ///< where the file wants the picture
+    /// What Wend lacks or ignores, as `file:line:column: warning: ...`, each kind once.
+    std::vector<std::string> warnings;
+};
+
+/// What the command line says instead of the file.
+struct LoadOverrides {
+    /// Size of the picture. What the camera sees changes only with the shape of the picture: as in pbrt, the field of
+    /// view is that of the shorter side.
+    std::optional<Vec2i> resolution;
+};
+
+/// Reads a pbrt-v4 scene file and everything it refers to. Throws InputError, with the place, for whatever is wrong in
+/// it; what is right but not implemented is replaced by the nearest there is, and named in a warning.
+LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides = {});
+
+/// The same for a file that has been parsed.
+LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides = {});
+
+}  // namespace wend

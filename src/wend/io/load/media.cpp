@@ -1,0 +1,337 @@
+#include <wend/io/load/cloud.h>
+#include <wend/io/load/colours.h>
+#include <wend/io/load/media.h>
+#include <wend/io/volume_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr int cloud_cells = 128;
+
+Rgb load_coefficient(LoadContext& context, const pbrt::ParameterSet& p, std::string_view name) {
+    return get_colour(context, p, name, SpectrumKind::unbounded).value_or(Rgb(1.0f));
+}
+
+/// The emitter's radiance "Le", black where there is none.
+Rgb load_emitted(LoadContext& context, const pbrt::ParameterSet& p) {
+    return get_colour(context, p, "Le", SpectrumKind::illuminant).value_or(Rgb(0.0f));
+}
+
+/// pbrt calls it "Lescale", scenes for its earlier versions "LeScale".
+std::string_view emission_scale_name(const pbrt::ParameterSet& p) {
+    return p.has("LeScale") ? "LeScale" : "Lescale";
+}
+
+PhaseFunction load_phase(const pbrt::ParameterSet& p) {
+    return PhaseFunction(HenyeyGreenstein{load_mean_cosine(p)});
+}
+
+struct Coefficients {
+    Rgb absorption;
+    Rgb scattering;
+};
+
+Coefficients load_coefficients(LoadContext& context, const pbrt::ParameterSet& p) {
+    const float scale = non_negative_float(p, "scale", 1);
+    return {load_coefficient(context, p, "sigma_a") * scale, load_coefficient(context, p, "sigma_s") * scale};
+}
+
+Medium load_homogeneous(LoadContext& context, const pbrt::MediumEntity& entity) {
+    const pbrt::ParameterSet& p = entity.parameters;
+    const float scale = non_negative_float(p, "scale", 1);
+    HomogeneousMedium medium;
+    if (p.has("preset")) {
+        const MediumPreset measured = required_preset(p, "preset");
+        medium.absorption = measured.sigma_a * scale;
+        medium.scattering = measured.sigma_prime_s * scale;
+    } else {
+        const Coefficients coefficients = load_coefficients(context, p);
+        medium.absorption = coefficients.absorption;
+        medium.scattering = coefficients.scattering;
+    }
+    medium.emission = medium.absorption * load_emitted(context, p) * non_negative_float(p, emission_scale_name(p), 1);
+    medium.phase = load_phase(p);
+    return medium;
+}
+
+/// "p0" and "p1": where a grid is, in the medium's space.
+Box3 load_box(const pbrt::ParameterSet& p) {
+    const Vec3 a = p.get_point3("p0", {0, 0, 0});
+    const Vec3 b = p.get_point3("p1", {1, 1, 1});
+    Box3 box;
+    box.extendBy(a);
+    box.extendBy(b);
+    const Vec3 size = box.size();
+    if (!is_finite(a) || !is_finite(b) || !(size.x > 0 && size.y > 0 && size.z > 0)) {
+        throw InputError(p.place_of("p1"), "the box from \"p0\" to \"p1\" is empty");
+    }
+    return box;
+}
+
+/// Index space of a grid of cells that fill the box: sample i is in the middle of cell i.
+Transform index_from_box(const Box3& box, const Vec3i& cells) {
+    const Vec3 size = box.size();
+    return Transform::translate(-0.5, -0.5, -0.5) *
+           Transform::scale(cells.x / static_cast<double>(size.x), cells.y / static_cast<double>(size.y),
+                            cells.z / static_cast<double>(size.z)) *
+           Transform::translate(-box.min.x, -box.min.y, -box.min.z);
+}
+Box3 all_cells(const Vec3i& cells) {
+    return {Vec3(-0.5f),
+            Vec3(static_cast<float>(cells.x), static_cast<float>(cells.y), static_cast<float>(cells.z)) - Vec3(0.5f)};
+}
+
+/// "nx", "ny", "nz", whose product must be `count`.
+Vec3i load_size(const pbrt::ParameterSet& p, std::size_t count, std::string_view name) {
+    const Vec3i size(p.get_int("nx", 1), p.get_int("ny", 1), p.get_int("nz", 1));
+    // In double precision, which overflows nowhere and is exact as far as numbers fit into memory.
+    const double voxels = static_cast<double>(size.x) * size.y * size.z;
+    if (size.x < 1 || size.y < 1 || size.z < 1 || voxels != static_cast<double>(count)) {
+        throw InputError(p.place_of(name), fmt::format("\"{}\" has {} values where nx * ny * nz = {} * {} * {}", name,
+                                                       count, size.x, size.y, size.z));
+    }
+    return size;
+}
+
+/// Values in the order of the file, x fastest.
+std::shared_ptr<const Grid> make_grid(const std::vector<float>& values, const Vec3i& size, const Place& place,
+                                      std::string_view name) {
+    if (!std::all_of(values.begin(), values.end(), [](float v) { return v >= 0 && std::isfinite(v); })) {
+        throw InputError(place, fmt::format("\"{}\" holds a value that is negative or not finite", name));
+    }
+    if (std::max({size.x, size.y, size.z}) > Grid::max_coordinate) {
+        throw InputError(place, fmt::format("a grid may have {} voxels a side at most", Grid::max_coordinate));
+    }
+    const auto at = [&](int x, int y, int z) {
+        return values[(static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y)) *
+                          static_cast<std::size_t>(size.x) +
+                      static_cast<std::size_t>(x)];
+    };
+    const auto occupied = [&](const Vec3i& first, const Vec3i& last) {
+        for (int z = first.z; z <= std::min(last.z, size.z - 1); ++z) {
+            for (int y = first.y; y <= std::min(last.y, size.y - 1); ++y) {
+                for (int x = first.x; x <= std::min(last.x, size.x - 1); ++x) {
+                    if (at(x, y, z) > 0) {
+                        return true;
+                    }
+                }
+            }
+        }
+        return false;
+    };
+    return std::make_shared<const Grid>(Vec3i(0, 0, 0), size, occupied, at);
+}
+
+/// A medium that glows by its temperature. `scale` multiplies the black body.
+std::shared_ptr<GridEmission> make_glow(const pbrt::ParameterSet& p, std::shared_ptr<const Grid> temperature,
+                                        const Transform& index_from_world, float scale) {
+    auto emission = std::make_shared<GridEmission>();
+    emission->radiance = Rgb(scale);
+    emission->field_from_world = AffineMap(index_from_world);
+    emission->temperature_offset = p.get_float("temperatureoffset", p.get_float("temperaturecutoff", 0));
+    emission->temperature_scale = p.get_float("temperaturescale", 1);
+    if (!std::isfinite(emission->temperature_offset) || !std::isfinite(emission->temperature_scale)) {
+        throw InputError(p.place_of("temperaturescale"), "the temperature's offset and scale must be finite");
+    }
+    emission->black_body_step = 20;
+    emission->black_body =
+        glow_by_temperature(emission->black_body_step,
+                            (temperature->max_value() - emission->temperature_offset) * emission->temperature_scale);
+    emission->field = std::move(temperature);
+    return emission;
+}
+
+/// What a "uniformgrid" emits: by a grid of temperatures, or "Le" times a number or a grid of numbers.
+std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbrt::ParameterSet& p, const Vec3i& size,
+                                                 const Transform& index_from_world) {
+    const auto grid_of = [&](const std::vector<float>& values, std::string_view name) {
+        load_size(p, values.size(), name);
+        return make_grid(values, size, p.place_of(name), name);
+    };
+    const std::string_view scales_name = emission_scale_name(p);
+    const std::vector<float> scales = p.get_floats(scales_name);
+    const bool is_uniform = scales.size() <= 1;
+    const float scale = scales.size() == 1 ? non_negative_float(p, scales_name, 1) : 1.0f;
+    const std::vector<float> temperature = p.get_floats("temperature");
+    const Rgb emitted = load_emitted(context, p);
+    if (!temperature.empty()) {
+        if (p.has("Le")) {
+            throw InputError(p.place_of("Le"), "a medium takes either \"Le\" or \"temperature\"");
+        }
+        if (!is_uniform) {
+            context.warnings.add(p.place_of(scales_name),
+                                 "a grid of emission scales beside one of temperatures is ignored");
+        }
+        return make_glow(p, grid_of(temperature, "temperature"), index_from_world, scale);
+    }
+    if (is_black(emitted)) {
+        return nullptr;
+    }
+    auto emission = std::make_shared<GridEmission>();
+    emission->radiance = emitted * scale;
+    if (!is_uniform) {
+        emission->field = grid_of(scales, scales_name);
+        emission->field_from_world = AffineMap(index_from_world);
+    }
+    return emission;
+}
+
+Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
+    const pbrt::ParameterSet& p = entity.parameters;
+    const std::vector<float> density = p.get_floats("density");
+    if (density.empty()) {
+        throw InputError(entity.place, "\"uniformgrid\" needs the parameter \"float density\"");
+    }
+    const Vec3i size = load_size(p, density.size(), "density");
+    const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
+    const Coefficients c = load_coefficients(context, p);
+    return GridMedium(make_grid(density, size, p.place_of("density"), "density"), index_from_world, all_cells(size),
+                      c.absorption, c.scattering, load_phase(p),
+                      load_grid_emission(context, p, size, index_from_world));
+}
+
+/// Three coefficients a voxel become one density, whose colour is that of the mean.
+Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
+    const pbrt::ParameterSet& p = entity.parameters;
+    context.warnings.add(entity.place, "Medium \"rgbgrid\" is not implemented: a grid of one colour takes its place");
+    const auto colours = [&](std::string_view name) {
+        std::vector<Rgb> values;
+        for (const pbrt::RgbColour& colour : p.get_rgbs(name)) {
+            values.push_back(reduce_colour(context, colour, SpectrumKind::unbounded, p.place_of(name)));
+        }
+        return values;
+    };
+    const std::vector<Rgb> absorption = colours("sigma_a");
+    const std::vector<Rgb> scattering = colours("sigma_s");
+    const std::vector<Rgb> emitted = colours("Le");
+    const std::size_t count = std::max(absorption.size(), scattering.size());
+    if (count == 0) {
+        throw InputError(entity.place, "\"rgbgrid\" needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\"");
+    }
+    const Vec3i size = load_size(p, count, absorption.empty() ? "sigma_s" : "sigma_a");
+    for (const auto& [values, name] : {std::pair(&absorption, "sigma_a"), {&scattering, "sigma_s"}, {&emitted, "Le"}}) {
+        if (!values->empty()) {
+            load_size(p, values->size(), name);
+        }
+    }
+    const auto at = [](const std::vector<Rgb>& values, std::size_t i) {
+        return values.empty() ? Rgb(1.0f) : values[i];
+    };
+    std::vector<float> density(count);
+    Rgb total_absorption, total_scattering;
+    float total = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        density[i] = mean(at(absorption, i) + at(scattering, i));
+        total_absorption += at(absorption, i);
+        total_scattering += at(scattering, i);
+        total += density[i];
+    }
+    const float scale = non_negative_float(p, "scale", 1) / (total > 0 ? total : 1.0f);
+    const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
+    std::shared_ptr<GridEmission> emission;
+    const float emission_scale = non_negative_float(p, emission_scale_name(p), 1);
+    if (!emitted.empty()) {
+        std::vector<float> strength(count);
+        Rgb sum;
+        float total_strength = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            strength[i] = mean(emitted[i]);
+            sum += emitted[i];
+            total_strength += strength[i];
+        }
+        emission = std::make_shared<GridEmission>();
+        emission->radiance = sum * (emission_scale / (total_strength > 0 ? total_strength : 1.0f));
+        emission->field = make_grid(strength, size, p.place_of("Le"), "Le");
+        emission->field_from_world = AffineMap(index_from_world);
+    }
+    return GridMedium(make_grid(density, size, entity.place, "sigma_a"), index_from_world, all_cells(size),
+                      total_absorption * scale, total_scattering * scale, load_phase(p), std::move(emission));
+}
+
+Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) {
+    const pbrt::ParameterSet& p = entity.parameters;
+    const std::filesystem::path file = required_file(context, entity, "filename");
+    const Transform medium_from_world = entity.world_from_medium.inverse();
+    Volume density = read_volume(file, p.get_string("gridname", "density"));
+    std::optional<Volume> temperature = try_read_volume(file, p.get_string("temperaturename", "temperature"));
+    std::shared_ptr<GridEmission> emission;
+    const float scale = non_negative_float(p, emission_scale_name(p), 1);
+    if (temperature) {
+        emission = make_glow(p, std::make_shared<const Grid>(std::move(temperature->grid)),
+                             temperature->world_from_index.inverse() * medium_from_world, scale);
+    }
+    const Vec3i first = density.grid.first();
+    const Vec3i last = first + density.grid.size();
+    const Coefficients c = load_coefficients(context, p);
+    return GridMedium(std::make_shared<const Grid>(std::move(density.grid)),
+                      density.world_from_index.inverse() * medium_from_world, Box3(Vec3(first), Vec3(last)),
+                      c.absorption, c.scattering, load_phase(p), std::move(emission));
+}
+
+Medium load_cloud(LoadContext& context, const pbrt::MediumEntity& entity) {
+    const pbrt::ParameterSet& p = entity.parameters;
+    const CloudShape shape{non_negative_float(p, "density", 1), non_negative_float(p, "wispiness", 1),
+                           non_negative_float(p, "frequency", 5)};
+    const Box3 box = load_box(p);
+    const Vec3 size = box.size();
+    const Transform index_from_medium =
+        Transform::scale(cloud_cells / static_cast<double>(size.x), cloud_cells / static_cast<double>(size.y),
+                         cloud_cells / static_cast<double>(size.z)) *
+        Transform::translate(-box.min.x, -box.min.y, -box.min.z);
+    const Rgb absorption = load_coefficient(context, p, "sigma_a");
+    const Rgb scattering = load_coefficient(context, p, "sigma_s");
+    return GridMedium(std::make_shared<const Grid>(bake_cloud(shape, box, cloud_cells)),
+                      index_from_medium * entity.world_from_medium.inverse(), Box3(Vec3(0.0f), Vec3(cloud_cells)),
+                      absorption, scattering, load_phase(p));
+}
+
+}  // namespace
+
+Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium) {
+    const auto load = [&]() -> Medium {
+        if (medium.type == "homogeneous") {
+            return load_homogeneous(context, medium);
+        }
+        if (medium.type == "uniformgrid") {
+            return load_uniform_grid(context, medium);
+        }
+        if (medium.type == "rgbgrid") {
+            return load_rgb_grid(context, medium);
+        }
+        if (medium.type == "nanovdb") {
+            return load_volume_file(context, medium);
+        }
+        if (medium.type == "cloud") {
+            return load_cloud(context, medium);
+        }
+        refuse_type("Medium", medium, {"cloud", "homogeneous", "nanovdb", "rgbgrid", "uniformgrid"});
+    };
+    Medium result = load();
+    context.warnings.add_unused("Medium", medium);
+    return result;
+}
+
+float load_mean_cosine(const pbrt::ParameterSet& parameters) {
+    const float g = parameters.get_float("g", 0);
+    if (!(std::abs(g) < 1)) {
+        throw InputError(parameters.place_of("g"), fmt::format("\"g\" must lie between -1 and 1, not {}", g));
+    }
+    return g;
+}
+
+MediumPreset required_preset(const pbrt::ParameterSet& parameters, std::string_view name) {
+    const std::string preset = parameters.get_string(name, "");
+    const auto found = medium_preset(preset);
+    if (!found) {
+        throw InputError(parameters.place_of(name), fmt::format("the medium \"{}\" is unknown; known are {}", preset,
+                                                                fmt::join(medium_preset_names(), ", ")));
+    }
+    return *found;
+}
+
+}  // namespace wend

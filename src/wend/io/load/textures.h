@@ -1,0 +1,65 @@
+#pragma once
+
+#include <wend/io/load/context.h>
+#include <wend/io/spectrum/colorimetry.h>
+#include <wend/scene/texture.h>
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace wend {
+
+/// Adds the textures of a scene file to the scene's, and looks up what parameters refer to.
+class TextureLoader {
+public:
+    /// Both must outlive this.
+    TextureLoader(LoadContext& context, Textures& textures) : context_(context), textures_(textures) {}
+
+    /// Throws InputError for an unknown type, a missing or broken picture, or a texture of the other kind.
+    void add(const pbrt::TextureEntity& texture);
+
+    /// The reflectance or number, or texture of such, that a parameter gives; a constant where it is absent.
+    TextureId colour(const pbrt::ParameterSet& parameters, std::string_view name, const Rgb& fallback);
+    TextureId real(const pbrt::ParameterSet& parameters, std::string_view name, float fallback);
+    TextureId constant(const Rgb& value) { return textures_.add_constant(value); }
+    /// None where the parameter is absent.
+    std::optional<TextureId> find_colour(const pbrt::ParameterSet& parameters, std::string_view name,
+                                         SpectrumKind kind);
+    std::optional<TextureId> find_real(const pbrt::ParameterSet& parameters, std::string_view name);
+
+    /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
+    Rgb mean(TextureId id) const;
+
+    /// Reads a picture file once however often it is asked for. `encoding` is pbrt's: "sRGB", "linear" or "gamma X".
+    std::shared_ptr<const Image> picture(const std::filesystem::path& file, const std::string& encoding,
+                                         const Place& place);
+
+private:
+    TextureId load(const pbrt::TextureEntity& texture);
+    TextureId load_constant(const pbrt::TextureEntity& texture);
+    TextureId load_scale(const pbrt::TextureEntity& texture);
+    TextureId load_mix(const pbrt::TextureEntity& texture);
+    TextureId load_imagemap(const pbrt::TextureEntity& texture);
+    TextureId load_checkerboard(const pbrt::TextureEntity& texture);
+    TextureId replace(const pbrt::TextureEntity& texture);
+
+    /// Adds a texture made of others. Throws InputError if evaluating it takes absurdly many steps.
+    TextureId add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place);
+    /// A parameter of the texture's own kind.
+    TextureId operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
+    TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place) const;
+    UvMapping load_mapping(const pbrt::TextureEntity& texture);
+
+    LoadContext& context_;
+    Textures& textures_;
+    std::map<std::pair<pbrt::TextureKind, std::string>, TextureId> by_name_;
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> pictures_;
+    std::map<TextureId, int> evaluations_;  ///< how many an evaluation takes, of textures made of others
+};
+
+}  // namespace wend
