@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -76,7 +77,7 @@ TEST(LoadMaterials, SpectrumFiles) {
                 1e-3f);
     EXPECT_PRED2(contains,
                  message_of([] { Loaded("Material \"diffuse\" \"spectrum reflectance\" \"wend_broken.spd\""); }),
-                 "wend_broken.spd:2: error: expected a number");
+                 "wend_broken.spd:2:1: error: expected a number");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"spectrum reflectance\" \"metal-Xx\""); }),
                  "test.pbrt:3:20: error: \"metal-Xx\" is neither");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"blackbody reflectance\" 3000"); }),
@@ -155,13 +156,41 @@ TEST(LoadMaterials, SubsurfaceIsAMediumBehindADielectric) {
     EXPECT_PRED2(contains, message_of([&] { inside("\"float g\" 1"); }), "\"g\" must lie between");
 }
 
-TEST(LoadMaterials, AlbedoOfReflectanceMatchesTheDiffuseReflectanceOfHalfSpaces) {
-    // Diffuse reflectance of an isotropic half-space of albedo 0.9, by the H function (chandrasekhar1960).
-    EXPECT_NEAR(albedo_of_reflectance(0.4149f, 0), 0.9f, 0.01f);
+/// Share of diffuse light that an isotropic half-space reflects: 1 - 2 sqrt(1 - c) times the first moment of the H
+/// function (chandrasekhar1960), whose equation is solved by iteration.
+float diffuse_reflectance(double albedo) {
+    constexpr int n = 200;
+    constexpr auto mu = [](int i) { return (i + 0.5) / n; };
+    std::vector<double> h(n, 1.0);
+    const double root = std::sqrt(1 - albedo);
+    for (int iteration = 0; iteration < 100; ++iteration) {
+        std::vector<double> next(n);
+        for (int i = 0; i < n; ++i) {
+            double sum = 0;
+            for (int j = 0; j < n; ++j) {
+                sum += mu(j) * h[static_cast<std::size_t>(j)] / (mu(i) + mu(j));
+            }
+            next[static_cast<std::size_t>(i)] = 1 / (root + 0.5 * albedo * sum / n);
+        }
+        h = next;
+    }
+    double moment = 0;
+    for (int i = 0; i < n; ++i) {
+        moment += mu(i) * h[static_cast<std::size_t>(i)] / n;
+    }
+    return static_cast<float>(1 - 2 * root * moment);
+}
+
+TEST(LoadMaterials, AlbedoOfReflectanceInvertsTheDiffuseReflectanceOfHalfSpaces) {
+    for (const float reflectance : {0.05f, 0.2f, 0.5f, 0.8f}) {
+        const float albedo = albedo_of_reflectance(reflectance, 0);
+        EXPECT_NEAR(diffuse_reflectance(static_cast<double>(albedo)), reflectance, 0.0025f);
+    }
     EXPECT_NEAR(albedo_of_reflectance(0, 0.5f), 0, 1e-4f);
     EXPECT_NEAR(albedo_of_reflectance(1, 0.5f), 1, 1e-4f);
-    EXPECT_GT(albedo_of_reflectance(0.5f, 0.5f), albedo_of_reflectance(0.5f, 0));
-    EXPECT_LT(albedo_of_reflectance(0.4f, 0), albedo_of_reflectance(0.5f, 0));
+    // Forward scattering reflects less, so it takes a higher albedo: by similarity, (1 - g) c / (1 - g c) is kept.
+    const float c = albedo_of_reflectance(0.5f, 0.5f);
+    EXPECT_NEAR(0.5f * c / (1 - 0.5f * c), albedo_of_reflectance(0.5f, 0), 1e-5f);
 }
 
 TEST(LoadMaterials, SubstitutesAreNamedOnce) {

@@ -65,9 +65,9 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
         return message_of([&] { load_text(medium_text(type, parameters)); });
     };
     EXPECT_PRED2(contains, message("homogeneous", "\"rgb sigma_a\" [ -1 0 0 ]"),
-                 "test.pbrt:3:50: error: a colour must be finite and not negative");
+                 "test.pbrt:3:49: error: a colour must be finite and not negative");
     EXPECT_PRED2(contains, message("homogeneous", "\"float g\" 1"),
-                 "test.pbrt:3:50: error: \"g\" must lie between -1 and 1");
+                 "test.pbrt:3:49: error: \"g\" must lie between -1 and 1");
     EXPECT_PRED2(contains, message("homogeneous", "\"float scale\" -1"), "\"scale\" must not be below 0");
     EXPECT_PRED2(contains, message("homogeneous", "\"string preset\" \"Gravel\""), "known are Apple");
     EXPECT_PRED2(contains, message("gas", ""), "Medium \"gas\" is unknown; known are cloud");
