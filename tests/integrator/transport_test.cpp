@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Media, DiffuseReflectance,
                                          Known{"Slabb2_95", 0.95f, 2, 0, 1, 0.428724},
                                          Known{"Slabb1_8", 0.8f, 1, 0, 1, 0.210847},
                                          Known{"Slabb4_95g_75", 0.95f, 4, 0.75f, 1, 0.203461}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& known) { return std::string(known.param.name); });
 
 TEST(SlabReflectance, MatchesTheReferenceTable) {
     std::ifstream file(test::shared_dir() / "references" / "slab_reference.csv");

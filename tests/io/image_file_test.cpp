@@ -192,6 +192,18 @@ TEST_F(ImageFile, DamagedFilesDoNotCrash) {
     }
 }
 
+TEST_F(ImageFile, JpegWithATooLargeHuffmanTableIsRefused) {
+    Picture picture;
+    picture.image = gradient(40, 30);
+    write_picture(folder / "a.jpg", picture);
+    std::string bytes = read_file(folder / "a.jpg");
+    const std::size_t first_count = bytes.find("\xff\xc4") + 5;
+    bytes[first_count + 15] = '\xff';
+    bytes[first_count + 14] = '\xff';
+    store("a.jpg", bytes);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
+}
+
 TEST_F(ImageFile, AbsurdSizesAreRefusedBeforeTheyAreAllocated) {
     Picture picture;
     picture.image = gradient(4, 3);
@@ -204,7 +216,10 @@ TEST_F(ImageFile, AbsurdSizesAreRefusedBeforeTheyAreAllocated) {
               std::string::npos);
     std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\xff\xff\xff\xff\x18\x20", 18);
     store("a.tga", tga);
-    EXPECT_NE(message_of([&] { read_image(folder / "a.tga"); }).find("impossible size"), std::string::npos);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.tga"); }).find("too large: 65535 x 65535"), std::string::npos);
+    tga.replace(12, 4, "\x20\x4e\x10\x27");
+    store("a.tga", tga);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.tga"); }).find("cannot hold 20000 x 10000"), std::string::npos);
 }
 
 TEST_F(ImageFile, MissingUnknownAndForeignFilesAreNamed) {

@@ -5,7 +5,10 @@ namespace wend {
 std::string to_string(const Place& place) {
     std::string text = place.file.empty() ? "input" : place.file;
     if (place.line > 0) {
-        text += ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
+        text += ':';
+        text += std::to_string(place.line);
+        text += ':';
+        text += std::to_string(place.column);
     }
     return text;
 }

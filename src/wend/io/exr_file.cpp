@@ -2,6 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
+#include <wend/io/image_size.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -11,8 +12,10 @@
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string_view>
@@ -22,7 +25,7 @@ namespace wend {
 namespace {
 
 // More numbers than this in all channels together are refused.
-constexpr long long max_values = 1ll << 30;
+constexpr std::int64_t max_values = std::int64_t{1} << 30;
 
 Imf::Slice float_slice(const float* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
     const std::size_t pixel = values_per_pixel * sizeof(float);
@@ -42,19 +45,16 @@ void check_size(Imf::IStream& stream, const Place& place) {
     stream.seekg(0);
 
     const Imath::Box2i& window = header.dataWindow();
-    const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
-    const long long height = static_cast<long long>(window.max.y) - window.min.y + 1;
-    int channels = 0;
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    check_image_size(width, height, std::filesystem::file_size(place.file), place);
+    std::int64_t channels = 0;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         ++channels;
     }
-    if (width <= 0 || height <= 0) {
-        throw InputError(place, "the picture has no pixels");
-    }
-    if (width > max_pixels || height > max_pixels || width * height > max_pixels ||
-        width * height * channels > max_values) {
-        throw InputError(place, "the picture is too large: " + std::to_string(width) + " x " + std::to_string(height) +
-                                    " pixels of " + std::to_string(channels) + " channels");
+    if (width * height * channels > max_values) {
+        throw InputError(
+            place, fmt::format("the picture is too large: {} x {} pixels of {} channels", width, height, channels));
     }
 }
 

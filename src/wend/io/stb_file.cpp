@@ -1,5 +1,7 @@
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
+#include <wend/io/image_size.h>
+#include <wend/io/jpeg_check.h>
 #include <wend/io/stb_file.h>
 
 #define STB_IMAGE_STATIC
@@ -134,16 +136,16 @@ void append(void* text, void* data, int size) {
 Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding) {
     const Place place{file.string()};
     const std::string bytes = read_file(file);
+    if (!huffman_tables_fit(bytes)) {
+        throw InputError(place, "the picture is damaged: a Huffman table is too large");
+    }
     int width = 0, height = 0, channels = 0;
     Source source(bytes);
     if (!stbi_info_from_callbacks(&callbacks, &source, &width, &height, &channels)) {
         throw InputError(place, source.ran_out() ? "the picture is truncated"
                                                  : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP or HDR)");
     }
-    if (width <= 0 || height <= 0 || static_cast<long long>(width) * height > max_pixels) {
-        throw InputError(place, "the picture has an impossible size: " + std::to_string(width) + " x " +
-                                    std::to_string(height) + " pixels");
-    }
+    check_image_size(width, height, bytes.size(), place);
     if (Source probe(bytes); stbi_is_hdr_from_callbacks(&callbacks, &probe)) {
         return load(bytes, place, stbi_loadf_from_callbacks, [](float v) { return v; });
     }

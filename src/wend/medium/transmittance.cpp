@@ -18,19 +18,29 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
     const Rgb relative = extinction / largest;
     const bool grey = extinction.r == extinction.g && extinction.g == extinction.b;
 
-    Rgb estimate(1.0f);  // product of the residual's ratios
-    float control = 0;   // optical thickness of the control at `largest`
-    const auto total = [&] {
-        if (grey) {
-            return Rgb(estimate.r * std::exp(-control));
+    Rgb estimate(1.0f);
+    // Ends a small estimate or makes it larger; false where it has ended.
+    const auto survives = [&] {
+        const float size = max_value(estimate);
+        if (size >= roulette_threshold) {
+            return true;
         }
-        return estimate *
-               Rgb(std::exp(-control * relative.r), std::exp(-control * relative.g), std::exp(-control * relative.b));
+        if (!(random.uniform() * roulette_threshold < size)) {
+            estimate = Rgb(0.0f);
+            return false;
+        }
+        estimate *= roulette_threshold / size;
+        return true;
     };
-    bool dead = false;
     medium.majorants().walk(index_ray.origin, index_ray.direction, 0, distance,
                             [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-                                control += largest * cell.minimum * (t_out - t_in);
+                                if (cell.minimum > 0) {
+                                    const float control = -largest * cell.minimum * (t_out - t_in);
+                                    estimate *= grey ? Rgb(std::exp(control)) : exp(relative * control);
+                                    if (!survives()) {
+                                        return false;
+                                    }
+                                }
                                 const float range = cell.maximum - cell.minimum;
                                 const float rate = largest * range;
                                 for (float t = t_in; rate > 0;) {
@@ -42,19 +52,13 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
                                     const float excess =
                                         (medium.density().sample_nearest(index_ray.at(t), u) - cell.minimum) / range;
                                     estimate *= grey ? Rgb(1 - excess) : Rgb(1.0f) - relative * excess;
-                                }
-                                const float size = max_value(total());
-                                if (size < roulette_threshold) {
-                                    const float survival = size / roulette_threshold;
-                                    if (!(random.uniform() < survival)) {
-                                        dead = true;
+                                    if (!survives()) {
                                         return false;
                                     }
-                                    estimate *= 1 / survival;
                                 }
                                 return true;
                             });
-    return dead ? Rgb(0.0f) : total();
+    return estimate;
 }
 
 }  // namespace wend

@@ -5,7 +5,7 @@
 namespace wend {
 
 /// The colour of a black body, scaled to luminance 1, as pbrt does with "blackbody L" of lights. Negative channels are
-/// clamped to 0 (blue below some 1900 K). `temperature` in kelvin. Throws InputError unless it is positive and finite.
+/// clamped to 0 (blue below some 1950 K). `temperature` in kelvin. Throws InputError unless it is positive and finite.
 Rgb blackbody_rgb(double temperature);
 
 /// What pbrt's rgb film shows of an emissive medium of this temperature with LeScale 1. There the emitted radiance is

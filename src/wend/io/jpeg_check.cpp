@@ -1,0 +1,61 @@
+#include <wend/io/jpeg_check.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace wend {
+namespace {
+
+constexpr unsigned char start_of_image = 0xd8, end_of_image = 0xd9, define_huffman = 0xc4;
+
+bool has_length(unsigned char marker) {
+    const bool restart = marker >= 0xd0 && marker <= 0xd7;
+    return marker > 0x01 && !restart && marker != start_of_image && marker != end_of_image;
+}
+
+/// The tables of one segment: a byte for the kind, 16 counts of codes by length, and as many symbols as they add up to.
+bool tables_fit(std::basic_string_view<unsigned char> segment) {
+    constexpr std::size_t lengths = 16;
+    while (segment.size() > lengths) {
+        const int symbols = std::accumulate(segment.begin() + 1, segment.begin() + 1 + lengths, 0);
+        if (symbols > 256) {
+            return false;
+        }
+        segment.remove_prefix(std::min(1 + lengths + static_cast<std::size_t>(symbols), segment.size()));
+    }
+    return true;
+}
+
+}  // namespace
+
+bool huffman_tables_fit(std::string_view file) {
+    const std::basic_string_view<unsigned char> bytes(reinterpret_cast<const unsigned char*>(file.data()), file.size());
+    if (bytes.size() < 2 || bytes[0] != 0xff || bytes[1] != start_of_image) {
+        return true;
+    }
+    // Markers are the bytes 0xff, any number of them, and another one; in compressed data 0 follows a plain 0xff.
+    for (std::size_t at = 2; at + 1 < bytes.size();) {
+        if (bytes[at] != 0xff) {
+            ++at;
+            continue;
+        }
+        const unsigned char marker = bytes[at + 1];
+        if (marker == 0xff) {
+            ++at;
+            continue;
+        }
+        at += 2;
+        if (!has_length(marker) || at + 2 > bytes.size()) {
+            continue;
+        }
+        const std::size_t length = std::max<std::size_t>(bytes[at] * 256u + bytes[at + 1], 2);
+        if (marker == define_huffman && !tables_fit(bytes.substr(at + 2, length - 2))) {
+            return false;
+        }
+        at += length;
+    }
+    return true;
+}
+
+}  // namespace wend
