@@ -2,6 +2,8 @@
 #include "load_support.h"
 #include "tests/support/paths.h"
 
+#include <wend/core/error.h>
+
 #include <gtest/gtest.h>
 
 namespace wend {
@@ -14,9 +16,13 @@ TEST(OwnScenes, LoadWithoutWarnings) {
             continue;
         }
         ++scenes;
-        const LoadedScene loaded = load_scene(entry.path());
-        EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings[0];
-        EXPECT_FALSE(loaded.scene.surfaces.empty()) << entry.path();
+        try {
+            const LoadedScene loaded = load_scene(entry.path());
+            EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings[0];
+            EXPECT_FALSE(loaded.scene.surfaces.empty()) << entry.path();
+        } catch (const InputError& error) {
+            ADD_FAILURE() << error.what();
+        }
     }
     EXPECT_GT(scenes, 0);
 }
