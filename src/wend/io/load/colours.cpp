@@ -66,7 +66,7 @@ std::vector<SpectrumSample> read_spectrum(const std::filesystem::path& file, con
             numbers.push_back(value);
         }
         if (!words.eof()) {
-            throw InputError(Place{file.string(), number, 0}, "expected a number");
+            throw InputError(Place{file.string(), number, 1}, "expected a number");
         }
     }
     if (numbers.empty() || numbers.size() % 2 != 0) {

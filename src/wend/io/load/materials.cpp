@@ -20,8 +20,7 @@ public:
     LoadedMaterial load(const pbrt::MaterialEntity& entity) {
         struct Stand {
             std::string_view type;
-            std::string_view
-                nearest;  ///< what takes the place of a type that Wend does not have; empty where it has it
+            std::string_view nearest;  ///< what a type that Wend does not have becomes; empty where it has it
             LoadedMaterial (MaterialLoader::*load)(const pbrt::MaterialEntity&);
         };
         static constexpr Stand known[] = {

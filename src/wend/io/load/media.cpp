@@ -146,6 +146,41 @@ std::shared_ptr<GridEmission> make_glow(const pbrt::ParameterSet& p, std::shared
     return emission;
 }
 
+/// What a "uniformgrid" emits: by a grid of temperatures, or "Le" times a number or a grid of numbers.
+std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbrt::ParameterSet& p, const Vec3i& size,
+                                                 const Transform& index_from_world) {
+    const auto grid_of = [&](const std::vector<float>& values, std::string_view name) {
+        load_size(p, values.size(), name);
+        return make_grid(values, size, p.place_of(name), name);
+    };
+    const std::string_view scales_name = emission_scale_name(p);
+    const std::vector<float> scales = p.get_floats(scales_name);
+    const bool is_uniform = scales.size() <= 1;
+    const float scale = scales.size() == 1 ? non_negative_float(p, scales_name, 1) : 1.0f;
+    const std::vector<float> temperature = p.get_floats("temperature");
+    const Rgb emitted = load_emitted(context, p);
+    if (!temperature.empty()) {
+        if (p.has("Le")) {
+            throw InputError(p.place_of("Le"), "a medium takes either \"Le\" or \"temperature\"");
+        }
+        if (!is_uniform) {
+            context.warnings.add(p.place_of(scales_name),
+                                 "a grid of emission scales beside one of temperatures is ignored");
+        }
+        return make_glow(p, grid_of(temperature, "temperature"), index_from_world, scale);
+    }
+    if (is_black(emitted)) {
+        return nullptr;
+    }
+    auto emission = std::make_shared<GridEmission>();
+    emission->radiance = emitted * scale;
+    if (!is_uniform) {
+        emission->field = grid_of(scales, scales_name);
+        emission->field_from_world = AffineMap(index_from_world);
+    }
+    return emission;
+}
+
 Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
     const pbrt::ParameterSet& p = entity.parameters;
     const std::vector<float> density = p.get_floats("density");
@@ -154,38 +189,10 @@ Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity)
     }
     const Vec3i size = load_size(p, density.size(), "density");
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
-    const auto scales_name = emission_scale_name(p);
-    const std::vector<float> scales = p.get_floats(scales_name);
-    const std::vector<float> temperature = p.get_floats("temperature");
-    const Rgb emitted = load_emitted(context, p);
-    std::shared_ptr<GridEmission> emission;
-    const auto grid_of = [&](const std::vector<float>& values, std::string_view name) {
-        load_size(p, values.size(), name);
-        return make_grid(values, size, p.place_of(name), name);
-    };
-    if (!temperature.empty()) {
-        if (p.has("Le")) {
-            throw InputError(p.place_of("Le"), "a medium takes either \"Le\" or \"temperature\"");
-        }
-        if (scales.size() > 1) {
-            context.warnings.add(p.place_of(scales_name),
-                                 "a grid of emission scales beside one of temperatures is ignored");
-        }
-        emission =
-            make_glow(p, grid_of(temperature, "temperature"), index_from_world, scales.size() == 1 ? scales[0] : 1.0f);
-    } else if (!is_black(emitted)) {
-        emission = std::make_shared<GridEmission>();
-        emission->radiance = emitted;
-        if (scales.size() == 1) {
-            emission->radiance *= scales[0];
-        } else if (!scales.empty()) {
-            emission->field = grid_of(scales, scales_name);
-            emission->field_from_world = AffineMap(index_from_world);
-        }
-    }
     const Coefficients c = load_coefficients(context, p);
     return GridMedium(make_grid(density, size, p.place_of("density"), "density"), index_from_world, all_cells(size),
-                      c.absorption, c.scattering, load_phase(p), std::move(emission));
+                      c.absorption, c.scattering, load_phase(p),
+                      load_grid_emission(context, p, size, index_from_world));
 }
 
 /// Three coefficients a voxel become one density, whose colour is that of the mean.

@@ -1,0 +1,236 @@
+#include "load_support.h"
+#include "pbrt_support.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+using pbrt::contains;
+using pbrt::message_of;
+using test::load_text;
+using test::warnings_with;
+
+void expect_near(const Vec3& a, const Vec3& b) {
+    EXPECT_NEAR(length(a - b), 0, 1e-5f) << a << " and " << b;
+}
+
+/// The pixels of a picture of this size.
+Vec3 direction_at(const LoadedScene& loaded, float x, float y) {
+    return loaded.scene.camera.ray({x, y}, {0.5f, 0.5f}).direction;
+}
+
+const std::string small_film = "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\n";
+
+TEST(LoadCamera, LooksAlongZWithYUpAndXToTheRight) {
+    const LoadedScene loaded = load_text("", small_film + "Camera \"perspective\" \"float fov\" 90");
+    expect_near(direction_at(loaded, 100, 50), {0, 0, 1});
+    // The field of view is that of the shorter side, the height.
+    expect_near(direction_at(loaded, 100, 0), normalize(Vec3(0, 1, 1)));
+    expect_near(direction_at(loaded, 100, 100), normalize(Vec3(0, -1, 1)));
+    expect_near(direction_at(loaded, 200, 50), normalize(Vec3(2, 0, 1)));
+}
+
+TEST(LoadCamera, TallPictureHasItsFieldOfViewAcross) {
+    const LoadedScene loaded = load_text(
+        "",
+        "Film \"rgb\" \"integer xresolution\" 50 \"integer yresolution\" 100\nCamera \"perspective\" \"float fov\" 90");
+    expect_near(direction_at(loaded, 50, 50), normalize(Vec3(1, 0, 1)));
+    expect_near(direction_at(loaded, 25, 0), normalize(Vec3(0, 2, 1)));
+}
+
+TEST(LoadCamera, FollowsLookAtAndMirroring) {
+    const LoadedScene plain = load_text("", small_film + "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\"");
+    expect_near(direction_at(plain, 100, 50), {0, 0, -1});
+    // Left-handed as pbrt is: with y up and looking along -z, the picture's right is +x.
+    EXPECT_GT(direction_at(plain, 150, 50).x * direction_at(plain, 50, 50).x, -1);
+    const float right = direction_at(plain, 150, 50).x;
+    const LoadedScene mirrored =
+        load_text("", small_film + "Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\"");
+    EXPECT_NEAR(direction_at(mirrored, 150, 50).x, -right, 1e-6f);
+    expect_near(plain.scene.camera.ray({100, 50}, {0, 0}).origin, {0, 0, 5});
+}
+
+TEST(LoadCamera, AnotherResolutionOfTheSameShapeSeesTheSame) {
+    const std::string options = small_film + "Camera \"perspective\" \"float fov\" 60";
+    const LoadedScene full = load_text("", options);
+    const LoadedScene half = load_text("", options, {Vec2i(100, 50)});
+    EXPECT_EQ(half.resolution, Vec2i(100, 50));
+    expect_near(direction_at(full, 30, 20), direction_at(half, 15, 10));
+    const LoadedScene square = load_text("", options, {Vec2i(100, 100)});
+    expect_near(direction_at(square, 50, 0), direction_at(full, 100, 0));
+    expect_near(direction_at(square, 100, 50), direction_at(full, 150, 50));
+}
+
+TEST(LoadCamera, ScreenWindowAndAspectOverrideTheShape) {
+    const LoadedScene window =
+        load_text("", small_film + "Camera \"perspective\" \"float fov\" 90 \"float screenwindow\" [ 0 1 -0.5 0 ]");
+    expect_near(direction_at(window, 0, 0), {0, 0, 1});
+    expect_near(direction_at(window, 200, 100), normalize(Vec3(1, -0.5f, 1)));
+    const LoadedScene aspect =
+        load_text("", small_film + "Camera \"perspective\" \"float fov\" 90 \"float frameaspectratio\" 1");
+    expect_near(direction_at(aspect, 200, 50), normalize(Vec3(1, 0, 1)));
+}
+
+TEST(LoadCamera, Orthographic) {
+    const LoadedScene loaded =
+        load_text("", small_film + "Camera \"orthographic\" \"float screenwindow\" [ -10 10 -5 5 ]");
+    const Ray ray = loaded.scene.camera.ray({200, 0}, {0.5f, 0.5f});
+    expect_near(ray.origin, {10, 5, 0});
+    expect_near(ray.direction, {0, 0, 1});
+}
+
+TEST(LoadCamera, SphericalMappings) {
+    // Equirectangular: the upper edge looks up, the left edge along +x.
+    const LoadedScene map = load_text("", small_film + "Camera \"spherical\" \"string mapping\" \"equirectangular\"");
+    expect_near(direction_at(map, 100, 0), {0, 1, 0});
+    expect_near(direction_at(map, 0, 50), {1, 0, 0});
+    expect_near(direction_at(map, 50, 50), {0, 0, 1});
+    // Equal area, the default: the middle looks up.
+    const LoadedScene square =
+        load_text("", "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 Camera \"spherical\"");
+    expect_near(direction_at(square, 4, 4), {0, 1, 0});
+}
+
+TEST(LoadCamera, StartsInItsMedium) {
+    const std::string fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n";
+    const LoadedScene loaded = load_text("", fog + "MediumInterface \"\" \"fog\" Camera \"perspective\"");
+    EXPECT_EQ(loaded.scene.camera_medium, 0);
+    EXPECT_EQ(load_text("", "Camera \"perspective\"").scene.camera_medium, vacuum);
+}
+
+TEST(LoadCamera, RefusesWhatIsWrongWithItsPlace) {
+    const auto message = [](const std::string& camera) { return message_of([&] { load_text("", camera); }); };
+    EXPECT_PRED2(contains, message("Camera \"perspective\" \"float fov\" 180"), "test.pbrt:1:22: error: \"fov\"");
+    EXPECT_PRED2(contains, message("Camera \"frob\""),
+                 "test.pbrt:1:1: error: Camera \"frob\" is unknown; known are perspective");
+    EXPECT_PRED2(contains, message("Camera \"perspective\" \"float screenwindow\" [ 1 2 3 ]"), "takes 4 values, not 3");
+    EXPECT_PRED2(contains, message("Camera \"perspective\" \"float frameaspectratio\" 0"), "must be above 0");
+    EXPECT_PRED2(contains, message("Camera \"spherical\" \"string mapping\" \"mercator\""), "mercator");
+    EXPECT_PRED2(contains, message("Camera \"perspective\" \"float shutterclose\" 0"), "shutter");
+}
+
+TEST(LoadCamera, RealisticBecomesPerspective) {
+    const LoadedScene loaded = load_text("", "Camera \"realistic\" \"string lensfile\" \"lens.dat\"");
+    EXPECT_EQ(warnings_with(loaded, "Camera \"realistic\" is not implemented"), 1);
+    EXPECT_EQ(warnings_with(loaded, "the parameter \"lensfile\" of Camera \"realistic\" is not used"), 1);
+}
+
+TEST(LoadFilm, Defaults) {
+    const LoadedScene loaded = load_text("");
+    EXPECT_EQ(loaded.resolution, Vec2i(1280, 720));
+    EXPECT_EQ(loaded.crop, (PixelRect{{0, 0}, {1280, 720}}));
+    EXPECT_EQ(loaded.film_file, "pbrt.exr");
+    EXPECT_EQ(loaded.exposure, 1);
+    EXPECT_EQ(loaded.samples, 16);
+    EXPECT_EQ(loaded.max_depth, 5);
+    EXPECT_TRUE(loaded.scene.light_tree);
+    EXPECT_EQ(loaded.sampler, SamplerKind::sobol);
+    EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(LoadFilm, CropWindows) {
+    const auto crop = [](const std::string& parameters, const LoadOverrides& overrides = {}) {
+        return load_text("", "Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 50 " + parameters,
+                         overrides)
+            .crop;
+    };
+    EXPECT_EQ(crop("\"float cropwindow\" [ 0.25 0.5 0 1 ]"), (PixelRect{{25, 0}, {50, 50}}));
+    EXPECT_EQ(crop("\"float cropwindow\" [ 0.5 0.25 0 1 ]"), (PixelRect{{25, 0}, {50, 50}}));
+    EXPECT_EQ(crop("\"integer pixelbounds\" [ 10 20 5 600 ]"), (PixelRect{{10, 5}, {20, 50}}));
+    EXPECT_EQ(crop("\"integer pixelbounds\" [ 10 20 5 600 ]", {Vec2i(200, 100)}), (PixelRect{{20, 10}, {40, 100}}));
+    EXPECT_PRED2(contains, message_of([&] { crop("\"float cropwindow\" [ 0.5 0.5 0 1 ]"); }), "cropwindow");
+    EXPECT_PRED2(contains, message_of([&] { crop("\"integer pixelbounds\" [ 200 300 0 9 ]"); }), "pixelbounds");
+}
+
+TEST(LoadFilm, ExposureFollowsSensitivityAndShutter) {
+    EXPECT_FLOAT_EQ(load_text("", "Film \"rgb\" \"float iso\" 150").exposure, 1.5f);
+    EXPECT_FLOAT_EQ(
+        load_text("", "Film \"rgb\" \"float iso\" 200 Camera \"perspective\" \"float shutterclose\" 0.25").exposure,
+        0.5f);
+}
+
+TEST(LoadFilm, NamesWhatItIgnores) {
+    const LoadedScene loaded =
+        load_text("",
+                  "Film \"gbuffer\" \"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 5000 "
+                  "\"float maxcomponentvalue\" 10 \"bool savefp16\" false \"float frob\" 3");
+    EXPECT_EQ(loaded.warnings.size(), 5u);
+    for (const char* text :
+         {"\"gbuffer\" is not implemented", "sensors", "\"whitebalance\"", "\"maxcomponentvalue\"", "\"frob\""}) {
+        EXPECT_EQ(warnings_with(loaded, text), 1) << text;
+    }
+}
+
+TEST(LoadFilm, RefusesAbsurdSizes) {
+    const auto message = [](const std::string& film) { return message_of([&] { load_text("", film); }); };
+    EXPECT_PRED2(contains, message("Film \"rgb\" \"integer xresolution\" 1000000000"),
+                 "test.pbrt:1:12: error: a picture of 1000000000 x 720");
+    EXPECT_PRED2(contains, message("Film \"rgb\" \"integer yresolution\" 0"), "must be at least 1");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "", {Vec2i(1 << 20, 1 << 20)}); }), "too large");
+}
+
+TEST(LoadFilter, WeightsAverageToOneWithinTheRadius) {
+    struct Case {
+        const char* text;
+        float radius;
+    };
+    for (const Case& c : {Case{"PixelFilter \"box\"", 0.5f},
+                          {"PixelFilter \"triangle\"", 2},
+                          {"PixelFilter \"gaussian\" \"float xradius\" 1 \"float yradius\" 1", 1},
+                          {"PixelFilter \"mitchell\"", 2},
+                          {"PixelFilter \"sinc\"", 2},
+                          {"", 1.5f}}) {
+        const LoadedScene loaded = load_text("", c.text);
+        float furthest = 0;
+        double sum = 0;
+        constexpr int side = 64;
+        for (int i = 0; i < side * side; ++i) {
+            const auto s = loaded.filter.sample(
+                {(static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side});
+            furthest = std::max(furthest, std::max(std::abs(s.offset.x), std::abs(s.offset.y)));
+            sum += static_cast<double>(s.weight);
+        }
+        EXPECT_LE(furthest, c.radius) << c.text;
+        EXPECT_GT(furthest, 0.5f * c.radius) << c.text;
+        EXPECT_NEAR(sum / (side * side), 1, 0.05) << c.text;
+    }
+    EXPECT_EQ(warnings_with(load_text("", "PixelFilter \"sinc\""), "\"sinc\""), 1);
+    EXPECT_PRED2(contains, message_of([] { load_text("", "PixelFilter \"box\" \"float xradius\" -1"); }), "above 0");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "PixelFilter \"box\" \"float xradius\" 1e9"); }),
+                 "must not exceed");
+}
+
+TEST(LoadSampler, KindsSamplesAndSeeds) {
+    const LoadedScene independent =
+        load_text("", "Sampler \"independent\" \"integer pixelsamples\" 7 \"integer seed\" 3");
+    EXPECT_EQ(independent.sampler, SamplerKind::independent);
+    EXPECT_EQ(independent.samples, 7);
+    EXPECT_EQ(independent.seed, 3u);
+    const LoadedScene stratified =
+        load_text("", "Option \"integer seed\" 5 Sampler \"stratified\" \"integer xsamples\" 3 \"bool jitter\" true");
+    EXPECT_EQ(stratified.sampler, SamplerKind::sobol);
+    EXPECT_EQ(stratified.samples, 12);
+    EXPECT_EQ(stratified.seed, 5u);
+    EXPECT_TRUE(stratified.warnings.empty());
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"random\""); }), "known are halton");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"halton\" \"integer pixelsamples\" 0"); }),
+                 "at least 1");
+}
+
+TEST(LoadIntegrator, DepthLightsAndSubstitutes) {
+    const LoadedScene loaded = load_text(
+        "", "Integrator \"bdpt\" \"integer maxdepth\" 9 \"string lightsampler\" \"uniform\" \"bool regularize\" true");
+    EXPECT_EQ(loaded.max_depth, 9);
+    EXPECT_FALSE(loaded.scene.light_tree);
+    EXPECT_EQ(loaded.warnings.size(), 3u);
+    EXPECT_FALSE(load_text("", "Integrator \"path\" \"string lightsampler\" \"power\"").scene.light_tree);
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Integrator \"volpath\" \"integer maxdepth\" -1"); }),
+                 "maxdepth");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Integrator \"magic\""); }), "known are");
+}
+
+}  // namespace
+}  // namespace wend

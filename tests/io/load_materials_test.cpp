@@ -1,0 +1,306 @@
+#include "load_support.h"
+#include "pbrt_support.h"
+
+#include <wend/io/image_file.h>
+#include <wend/io/load/subsurface.h>
+#include <wend/medium/fresnel.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <vector>
+
+namespace wend {
+namespace {
+
+using pbrt::contains;
+using pbrt::message_of;
+using test::load_text;
+using test::warnings_with;
+
+/// The material of the only shape.
+struct Loaded {
+    LoadedScene scene;
+
+    explicit Loaded(const std::string& world,
+                    const std::filesystem::path& directory = std::filesystem::temp_directory_path())
+        : scene(load_text(world + " Shape \"sphere\"", "", {}, directory)) {}
+
+    template <class Kind>
+    const Kind& as() const {
+        return std::get<Kind>(scene.scene.materials.at(static_cast<std::size_t>(scene.scene.surfaces.at(0).material)));
+    }
+    Rgb value(TextureId id, const Vec2& uv = {0.5f, 0.5f}, const Vec3& p = {0, 0, 0}) const {
+        return scene.scene.textures.evaluate(id, {uv, p});
+    }
+    Rgb reflectance(const Vec2& uv = {0.5f, 0.5f}, const Vec3& p = {0, 0, 0}) const {
+        return value(as<DiffuseMaterial>().reflectance, uv, p);
+    }
+};
+
+void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(a[c], b[c], tolerance);
+    }
+}
+
+TEST(LoadMaterials, Diffuse) {
+    expect_near(Loaded("").reflectance(), Rgb(0.5f));
+    expect_near(Loaded("Material \"diffuse\" \"rgb reflectance\" [ 0.1 0.2 0.3 ]").reflectance(), {0.1f, 0.2f, 0.3f});
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" [ 200 0.2 900 0.2 ]").reflectance(), Rgb(0.2f),
+                1e-3f);
+    expect_near(
+        Loaded("MakeNamedMaterial \"m\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] NamedMaterial \"m\"")
+            .reflectance(),
+        {1, 0, 0});
+}
+
+TEST(LoadMaterials, ColourSpaces) {
+    // White stays white, and a primary of the wider space is clamped to the narrower one's.
+    for (const std::string space : {"rec2020", "dci-p3", "aces2065-1"}) {
+        expect_near(Loaded("ColorSpace \"" + space + "\" Material \"diffuse\" \"rgb reflectance\" [ 0.5 0.5 0.5 ]")
+                        .reflectance(),
+                    Rgb(0.5f));
+        const Rgb green =
+            Loaded("ColorSpace \"" + space + "\" Material \"diffuse\" \"rgb reflectance\" [ 0 0.5 0 ]").reflectance();
+        EXPECT_EQ(green.r, 0) << space;
+        EXPECT_GT(green.g, 0.5f) << space;
+    }
+}
+
+TEST(LoadMaterials, SpectrumFiles) {
+    const auto directory = std::filesystem::temp_directory_path();
+    std::ofstream(directory / "wend_load.spd") << "# grey\n300 0.25\n900 0.25 # the end\n";
+    std::ofstream(directory / "wend_broken.spd") << "300 0.25\n900 x\n";
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" \"wend_load.spd\"").reflectance(), Rgb(0.25f),
+                1e-3f);
+    EXPECT_PRED2(contains,
+                 message_of([] { Loaded("Material \"diffuse\" \"spectrum reflectance\" \"wend_broken.spd\""); }),
+                 "wend_broken.spd:2:1: error: expected a number");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"spectrum reflectance\" \"metal-Xx\""); }),
+                 "test.pbrt:3:20: error: \"metal-Xx\" is neither");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"blackbody reflectance\" 3000"); }),
+                 "a black body is light");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"rgb reflectance\" [ -1 0 0 ]"); }),
+                 "not negative");
+}
+
+TEST(LoadMaterials, Conductors) {
+    const Loaded copper("Material \"conductor\"");
+    EXPECT_LT(copper.as<ConductorMaterial>().reflectance, 0);
+    EXPECT_GT(copper.value(copper.as<ConductorMaterial>().k).r, 2);
+    EXPECT_TRUE(copper.as<ConductorMaterial>().roughness.remap);
+    const Loaded silver(
+        "Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\" \"float roughness\" "
+        "0.2 \"float vroughness\" 0.4 \"bool remaproughness\" false");
+    EXPECT_LT(silver.value(silver.as<ConductorMaterial>().eta).g, 0.3f);
+    EXPECT_FLOAT_EQ(silver.value(silver.as<ConductorMaterial>().roughness.u).r, 0.2f);
+    EXPECT_FLOAT_EQ(silver.value(silver.as<ConductorMaterial>().roughness.v).r, 0.4f);
+    EXPECT_FALSE(silver.as<ConductorMaterial>().roughness.remap);
+    const Loaded grey("Material \"conductor\" \"rgb reflectance\" [ 0.8 0.8 0.8 ]");
+    expect_near(grey.value(grey.as<ConductorMaterial>().reflectance), Rgb(0.8f));
+    EXPECT_PRED2(contains,
+                 message_of([] { Loaded("Material \"conductor\" \"rgb reflectance\" [ 1 1 1 ] \"rgb k\" [ 1 1 1 ]"); }),
+                 "either");
+}
+
+TEST(LoadMaterials, Dielectrics) {
+    EXPECT_FLOAT_EQ(Loaded("Material \"dielectric\"").as<DielectricMaterial>().ior, 1.5f);
+    EXPECT_FLOAT_EQ(Loaded("Material \"dielectric\" \"float eta\" 1.33").as<DielectricMaterial>().ior, 1.33f);
+    EXPECT_NEAR(Loaded("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"").as<DielectricMaterial>().ior, 1.5168f,
+                1e-3f);
+    EXPECT_NEAR(Loaded("Material \"dielectric\" \"spectrum eta\" [ 300 1.4 900 1.4 ]").as<DielectricMaterial>().ior,
+                1.4f, 1e-3f);
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" 0"); }), "refractive index");
+}
+
+TEST(LoadMaterials, CoatedDiffuse) {
+    const Loaded loaded(
+        "Material \"coateddiffuse\" \"rgb reflectance\" [ 0.1 0.2 0.3 ] \"float roughness\" 0.1 \"float thickness\" "
+        "0.1 \"rgb albedo\" [ 0.5 0.5 0.5 ] \"integer nsamples\" 4");
+    const auto& material = loaded.as<CoatedDiffuseMaterial>();
+    expect_near(loaded.value(material.reflectance), {0.1f, 0.2f, 0.3f});
+    EXPECT_FLOAT_EQ(material.inner_reflectance, fresnel_diffuse_reflectance(1 / 1.5f));
+    EXPECT_EQ(loaded.scene.warnings.size(), 1u);
+    EXPECT_EQ(warnings_with(loaded.scene, "albedo"), 1);
+}
+
+TEST(LoadMaterials, InterfacesInAllTheirNames) {
+    for (const std::string name : {"interface", "none", ""}) {
+        EXPECT_NO_THROW(Loaded("Material \"" + name + "\"").as<InterfaceMaterial>());
+    }
+}
+
+TEST(LoadMaterials, SubsurfaceIsAMediumBehindADielectric) {
+    const auto inside = [](const std::string& parameters) {
+        const Loaded loaded("Material \"subsurface\" " + parameters);
+        EXPECT_FLOAT_EQ(loaded.as<DielectricMaterial>().ior, 1.33f);
+        const Surface& surface = loaded.scene.scene.surfaces.at(0);
+        EXPECT_EQ(surface.exterior, vacuum);
+        return std::get<HomogeneousMedium>(loaded.scene.scene.media.at(static_cast<std::size_t>(surface.interior)));
+    };
+    expect_near(inside("").scattering, {2.55f, 3.21f, 3.77f});
+    expect_near(inside("\"string name\" \"Skin1\" \"float scale\" 10").absorption, {0.32f, 1.7f, 4.8f});
+    const auto given = inside("\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 4 5 6 ] \"float scale\" 2 \"float g\" 0.5");
+    expect_near(given.absorption, {2, 4, 6});
+    expect_near(given.scattering, {8, 10, 12});
+    EXPECT_FLOAT_EQ(given.phase.mean_cosine(), 0.5f);
+    const auto coloured = inside("\"rgb reflectance\" [ 0 0.5 1 ] \"rgb mfp\" [ 2 2 2 ]");
+    expect_near(coloured.extinction(), Rgb(0.5f));
+    EXPECT_NEAR(coloured.scattering.r, 0, 1e-4f);
+    EXPECT_NEAR(coloured.scattering.g, 0.5f * albedo_of_reflectance(0.5f, 0), 1e-5f);
+    EXPECT_NEAR(coloured.scattering.b, 0.5f, 1e-4f);
+    EXPECT_PRED2(contains, message_of([&] { inside("\"rgb sigma_a\" [ 1 1 1 ]"); }), "both");
+    EXPECT_PRED2(contains, message_of([&] { inside("\"string name\" \"Gravel\""); }), "known are Apple");
+    EXPECT_PRED2(contains, message_of([&] { inside("\"float g\" 1"); }), "\"g\" must lie between");
+}
+
+/// Share of diffuse light that an isotropic half-space reflects: 1 - 2 sqrt(1 - c) times the first moment of the H
+/// function (chandrasekhar1960), whose equation is solved by iteration.
+float diffuse_reflectance(double albedo) {
+    constexpr int n = 200;
+    constexpr auto mu = [](int i) { return (i + 0.5) / n; };
+    std::vector<double> h(n, 1.0);
+    const double root = std::sqrt(1 - albedo);
+    for (int iteration = 0; iteration < 100; ++iteration) {
+        std::vector<double> next(n);
+        for (int i = 0; i < n; ++i) {
+            double sum = 0;
+            for (int j = 0; j < n; ++j) {
+                sum += mu(j) * h[static_cast<std::size_t>(j)] / (mu(i) + mu(j));
+            }
+            next[static_cast<std::size_t>(i)] = 1 / (root + 0.5 * albedo * sum / n);
+        }
+        h = next;
+    }
+    double moment = 0;
+    for (int i = 0; i < n; ++i) {
+        moment += mu(i) * h[static_cast<std::size_t>(i)] / n;
+    }
+    return static_cast<float>(1 - 2 * root * moment);
+}
+
+TEST(LoadMaterials, AlbedoOfReflectanceInvertsTheDiffuseReflectanceOfHalfSpaces) {
+    for (const float reflectance : {0.05f, 0.2f, 0.5f, 0.8f}) {
+        const float albedo = albedo_of_reflectance(reflectance, 0);
+        EXPECT_NEAR(diffuse_reflectance(static_cast<double>(albedo)), reflectance, 0.0025f);
+    }
+    EXPECT_NEAR(albedo_of_reflectance(0, 0.5f), 0, 1e-4f);
+    EXPECT_NEAR(albedo_of_reflectance(1, 0.5f), 1, 1e-4f);
+    // Forward scattering reflects less, so it takes a higher albedo: by similarity, (1 - g) c / (1 - g c) is kept.
+    const float c = albedo_of_reflectance(0.5f, 0.5f);
+    EXPECT_NEAR(0.5f * c / (1 - 0.5f * c), albedo_of_reflectance(0.5f, 0), 1e-5f);
+}
+
+TEST(LoadMaterials, SubstitutesAreNamedOnce) {
+    const Loaded loaded(
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] "
+        "MakeNamedMaterial \"blue\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 1 ] "
+        "Material \"coatedconductor\" \"float conductor.roughness\" 0.1 Material \"hair\" Material \"hair\" "
+        "Material \"thindielectric\" Material \"diffusetransmission\" Material \"mix\" \"string materials\" [ \"red\" "
+        "\"blue\" ]");
+    expect_near(loaded.reflectance(), {1, 0, 0});
+    EXPECT_EQ(loaded.scene.warnings.size(), 5u);
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"plaid\""); }), "known are");
+    EXPECT_PRED2(contains, message_of([] {
+                     Loaded("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"m\" \"m\" ]");
+                 }),
+                 "made of itself");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"mix\" \"string materials\" [ \"a\" \"b\" ]"); }),
+                 "not defined");
+}
+
+TEST(LoadTextures, ConstantScaleAndMix) {
+    const std::string textures =
+        "Texture \"half\" \"float\" \"constant\" \"float value\" 0.5 "
+        "Texture \"colour\" \"spectrum\" \"constant\" \"rgb value\" [ 0.2 0.4 0.8 ] "
+        "Texture \"scaled\" \"spectrum\" \"scale\" \"texture tex\" \"colour\" \"texture scale\" \"half\" "
+        "Texture \"mixed\" \"spectrum\" \"mix\" \"texture tex1\" \"colour\" \"rgb tex2\" [ 1 1 1 ] \"float amount\" "
+        "0.25 ";
+    expect_near(Loaded(textures + "Material \"diffuse\" \"texture reflectance\" \"scaled\"").reflectance(),
+                {0.1f, 0.2f, 0.4f});
+    expect_near(Loaded(textures + "Material \"diffuse\" \"texture reflectance\" \"mixed\"").reflectance(),
+                {0.4f, 0.55f, 0.85f});
+    EXPECT_PRED2(contains,
+                 message_of([&] { Loaded(textures + "Material \"diffuse\" \"texture reflectance\" \"half\""); }),
+                 "the texture \"half\" is not one of kind spectrum");
+}
+
+TEST(LoadTextures, Checkerboards) {
+    const std::string board = "\"rgb tex1\" [ 1 0 0 ] \"rgb tex2\" [ 0 0 1 ] ";
+    const Loaded flat("Texture \"b\" \"spectrum\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2 " + board +
+                      "Material \"diffuse\" \"texture reflectance\" \"b\"");
+    expect_near(flat.reflectance({0.25f, 0.25f}), {1, 0, 0});
+    expect_near(flat.reflectance({0.75f, 0.25f}), {0, 0, 1});
+    const Loaded solid("Translate 0 0 1 Texture \"b\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3 " + board +
+                       "Material \"diffuse\" \"texture reflectance\" \"b\"");
+    expect_near(solid.reflectance({0, 0}, {0.5f, 0.5f, 1.5f}), {1, 0, 0});
+    expect_near(solid.reflectance({0, 0}, {0.5f, 0.5f, 0.5f}), {0, 0, 1});
+    EXPECT_PRED2(contains,
+                 message_of([] { Loaded("Texture \"b\" \"spectrum\" \"checkerboard\" \"integer dimension\" 4"); }),
+                 "2 or 3");
+}
+
+TEST(LoadTextures, Pictures) {
+    const auto directory = std::filesystem::temp_directory_path();
+    Picture picture;
+    picture.image = Image(2, 2);
+    picture.full_size = {2, 2};
+    picture.image.pixels = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5f, 0.5f, 0.5f}};
+    write_picture(directory / "wend_load_texture.png", picture);
+    write_picture(directory / "wend_load_texture.exr", picture);
+    const auto loaded = [&](const std::string& parameters, const std::string& file = "wend_load_texture.png") {
+        return Loaded("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + file + "\" " + parameters +
+                          " Material \"diffuse\" \"texture reflectance\" \"t\"",
+                      directory);
+    };
+    // (0, 0) is the lower left corner.
+    expect_near(loaded("").reflectance({0.25f, 0.25f}), {0, 0, 1}, 1e-3f);
+    expect_near(loaded("").reflectance({0.25f, 0.75f}), {1, 0, 0}, 1e-3f);
+    expect_near(loaded("").reflectance({0.75f, 0.25f}), Rgb(0.5f), 0.01f);
+    const float encoded = 188 / 255.0f;
+    expect_near(loaded("\"string encoding\" \"linear\"").reflectance({0.75f, 0.25f}), Rgb(encoded), 0.01f);
+    expect_near(loaded("\"string encoding\" \"gamma 2\"").reflectance({0.75f, 0.25f}), Rgb(encoded * encoded), 0.01f);
+    expect_near(loaded("\"string encoding\" \"gamma 2\"", "wend_load_texture.exr").reflectance({0.75f, 0.25f}),
+                Rgb(0.5f), 1e-3f);
+    expect_near(loaded("\"float scale\" 0.5 \"bool invert\" true").reflectance({0.25f, 0.25f}), {1, 1, 0.5f}, 1e-3f);
+    expect_near(loaded("\"float udelta\" 0.5 \"string filter\" \"trilinear\"").reflectance({0.25f, 0.25f}), Rgb(0.5f),
+                0.01f);
+    expect_near(loaded("\"string wrap\" \"black\"").reflectance({1.75f, 0.25f}), Rgb(0.0f));
+    const Loaded twice(
+        "Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"wend_load_texture.png\" "
+        "Texture \"b\" \"spectrum\" \"imagemap\" \"string filename\" \"wend_load_texture.png\"",
+        directory);
+    EXPECT_TRUE(twice.scene.warnings.empty());
+    EXPECT_EQ(warnings_with(loaded("\"string mapping\" \"planar\"").scene, "\"planar\""), 1);
+    EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"frob\""); }),
+                 "the encoding \"frob\" is unknown");
+    EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"gamma -1\""); }), "the encoding");
+    EXPECT_PRED2(contains, message_of([&] { loaded("\"string wrap\" \"frob\""); }), "the wrap mode");
+    EXPECT_PRED2(contains, message_of([&] { loaded("", "none-such.png"); }), "there is no file");
+}
+
+TEST(LoadTextures, SubstitutesAreNamedOnce) {
+    const Loaded loaded(
+        "Texture \"f\" \"float\" \"fbm\" \"integer octaves\" 3 Texture \"d\" \"spectrum\" \"dots\" \"rgb outside\" [ 1 "
+        "0 0 ] "
+        "Texture \"w\" \"float\" \"wrinkled\" Material \"diffuse\" \"texture reflectance\" \"d\"");
+    expect_near(loaded.reflectance(), {1, 0, 0});
+    EXPECT_EQ(warnings_with(loaded.scene, "is not implemented"), 3);
+    EXPECT_EQ(warnings_with(loaded.scene, "the parameter \"octaves\""), 1);
+    EXPECT_PRED2(contains, message_of([] { Loaded("Texture \"x\" \"float\" \"frob\""); }), "known are bilerp");
+}
+
+TEST(LoadTextures, RefusesTexturesThatGrowExponentially) {
+    std::string world = "Texture \"t0\" \"float\" \"checkerboard\" ";
+    for (int i = 1; i < 40; ++i) {
+        const std::string before = " \"t" + std::to_string(i - 1) + "\" ";
+        world += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\"" + before +
+                 "\"texture scale\"" + before + "\n";
+    }
+    EXPECT_PRED2(contains, message_of([&] { load_text(world); }), "more than 10000 parts");
+}
+
+}  // namespace
+}  // namespace wend

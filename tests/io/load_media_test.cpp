@@ -1,0 +1,185 @@
+#include "load_support.h"
+#include "pbrt_support.h"
+
+#include <wend/io/load/cloud.h>
+#include <wend/io/spectrum/blackbody.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace wend {
+namespace {
+
+using pbrt::contains;
+using pbrt::message_of;
+using test::load_text;
+using test::warnings_with;
+
+std::string medium_text(const std::string& type, const std::string& parameters) {
+    return "MakeNamedMedium \"m\" \"string type\" \"" + type + "\" " + parameters;
+}
+
+template <class Kind>
+Kind load_one(const std::string& type, const std::string& parameters, const std::string& before = "") {
+    return std::get<Kind>(load_text(before + medium_text(type, parameters)).scene.media.at(0));
+}
+
+/// Density at a point in the world.
+float density_at(const GridMedium& medium, const Vec3& p) {
+    const Vec3 q = medium.to_index({p, {0, 0, 1}}).origin;
+    return medium.majorants().box().intersects(q) ? medium.density().interpolate(q) : 0.0f;
+}
+
+void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(a[c], b[c], tolerance * std::max(1.0f, std::abs(b[c])));
+    }
+}
+
+TEST(LoadMedia, Homogeneous) {
+    const auto plain = load_one<HomogeneousMedium>("homogeneous", "");
+    expect_near(plain.absorption, Rgb(1.0f));
+    expect_near(plain.scattering, Rgb(1.0f));
+    EXPECT_TRUE(is_black(plain.emission));
+    const auto full = load_one<HomogeneousMedium>("homogeneous",
+                                                  "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 4 5 6 ] \"float scale\" "
+                                                  "2 \"float g\" -0.5 \"rgb Le\" [ 1 1 2 ] \"float Lescale\" 3");
+    expect_near(full.absorption, {2, 4, 6});
+    expect_near(full.scattering, {8, 10, 12});
+    expect_near(full.emission, {6, 12, 36});
+    EXPECT_FLOAT_EQ(full.phase.mean_cosine(), -0.5f);
+    expect_near(load_one<HomogeneousMedium>("homogeneous", "\"string preset\" \"Cream\" \"float scale\" 10").scattering,
+                {73.8f, 54.7f, 31.5f});
+    expect_near(load_one<HomogeneousMedium>("homogeneous", "\"spectrum sigma_s\" [ 200 7 900 7 ]").scattering,
+                Rgb(7.0f), 1e-3f);
+    // A spectrum as light has luminance 1.
+    EXPECT_NEAR(
+        luminance(load_one<HomogeneousMedium>("homogeneous", "\"blackbody Le\" 2000 \"float LeScale\" 5").emission), 5,
+        1e-2f);
+}
+
+TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
+    const auto message = [](const std::string& type, const std::string& parameters) {
+        return message_of([&] { load_text(medium_text(type, parameters)); });
+    };
+    EXPECT_PRED2(contains, message("homogeneous", "\"rgb sigma_a\" [ -1 0 0 ]"),
+                 "test.pbrt:3:49: error: a colour must be finite and not negative");
+    EXPECT_PRED2(contains, message("homogeneous", "\"float g\" 1"),
+                 "test.pbrt:3:49: error: \"g\" must lie between -1 and 1");
+    EXPECT_PRED2(contains, message("homogeneous", "\"float scale\" -1"), "\"scale\" must not be below 0");
+    EXPECT_PRED2(contains, message("homogeneous", "\"string preset\" \"Gravel\""), "known are Apple");
+    EXPECT_PRED2(contains, message("gas", ""), "Medium \"gas\" is unknown; known are cloud");
+    EXPECT_PRED2(contains, message("uniformgrid", ""), "\"float density\"");
+    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ 1 1 ]"),
+                 "\"density\" has 2 values where nx * ny * nz = 1 * 1 * 1");
+    EXPECT_PRED2(contains,
+                 message("uniformgrid",
+                         "\"float density\" [ 1 ] \"integer nx\" 10000 \"integer ny\" 10000 \"integer nz\" 10000"),
+                 "10000 * 10000 * 10000");
+    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ 1 ] \"integer nx\" -1 \"integer ny\" -1"),
+                 "-1 * -1 * 1");
+    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ -1 ]"), "negative or not finite");
+    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ 1 ] \"point3 p1\" [ 1 0 1 ]"), "is empty");
+    EXPECT_PRED2(contains,
+                 message("uniformgrid", "\"float density\" [ 1 ] \"float temperature\" [ 1 ] \"rgb Le\" [ 1 1 1 ]"),
+                 "either");
+    EXPECT_PRED2(contains, message("rgbgrid", ""), "needs the parameter");
+    EXPECT_PRED2(contains, message("nanovdb", "\"string filename\" \"none-such.nvdb\""), "there is no file");
+    EXPECT_PRED2(contains, message("nanovdb", ""), "\"string filename\"");
+}
+
+TEST(LoadMedia, UniformGridSamplesAreInTheMiddleOfTheirCells) {
+    const auto medium = load_one<GridMedium>(
+        "uniformgrid",
+        "\"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 3 \"point3 p0\" [ 2 0 0 ] \"point3 p1\" [ 0 1 6 ] "
+        "\"float density\" [ 1 2  3 4  5 6 ] \"rgb sigma_a\" [ 0 0 0 ] \"float scale\" 3");
+    expect_near(medium.scattering(), Rgb(3.0f));
+    EXPECT_NEAR(density_at(medium, {0.5f, 0.5f, 1}), 1, 1e-5f);
+    EXPECT_NEAR(density_at(medium, {1.5f, 0.5f, 1}), 2, 1e-5f);
+    EXPECT_NEAR(density_at(medium, {1.5f, 0.5f, 3}), 4, 1e-5f);
+    EXPECT_NEAR(density_at(medium, {0.5f, 0.5f, 5}), 5, 1e-5f);
+    EXPECT_NEAR(density_at(medium, {1, 0.5f, 1}), 1.5f, 1e-5f);
+    // At the faces half of it is left, beyond there is nothing.
+    EXPECT_NEAR(density_at(medium, {0, 0.5f, 1}), 0.5f, 1e-5f);
+    EXPECT_EQ(density_at(medium, {-0.01f, 0.5f, 1}), 0);
+    EXPECT_EQ(density_at(medium, {0.5f, 0.5f, 6.01f}), 0);
+}
+
+TEST(LoadMedia, GridsFollowTheirTransform) {
+    const auto medium = load_one<GridMedium>("uniformgrid", "\"integer nx\" 2 \"float density\" [ 1 2 ]",
+                                             "Translate 10 0 0 Scale 4 1 1 ");
+    EXPECT_NEAR(density_at(medium, {11, 0.5f, 0.5f}), 1, 1e-5f);
+    EXPECT_NEAR(density_at(medium, {13, 0.5f, 0.5f}), 2, 1e-5f);
+    EXPECT_EQ(density_at(medium, {9.9f, 0.5f, 0.5f}), 0);
+}
+
+TEST(LoadMedia, GridEmission) {
+    const auto scaled = load_one<GridMedium>(
+        "uniformgrid", "\"integer nx\" 2 \"float density\" [ 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" [ 0 10 ]");
+    ASSERT_TRUE(scaled.emission());
+    expect_near(scaled.emission()->at({0.75f, 0.5f, 0.5f}), {10, 20, 30});
+    expect_near(scaled.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
+    const auto uniform =
+        load_one<GridMedium>("uniformgrid", "\"float density\" 1 \"rgb Le\" [ 1 2 3 ] \"float LeScale\" 2");
+    expect_near(uniform.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
+    EXPECT_FALSE(load_one<GridMedium>("uniformgrid", "\"float density\" 1").emission());
+    const auto hot =
+        load_one<GridMedium>("uniformgrid",
+                             "\"integer nx\" 2 \"float density\" [ 1 1 ] \"float temperature\" [ 5 25 ] \"float "
+                             "temperatureoffset\" 5 \"float temperaturescale\" 100 \"float Lescale\" 2");
+    expect_near(hot.emission()->at({0.75f, 0.5f, 0.5f}), blackbody_emission(2000) * 2.0f, 1e-3f);
+    expect_near(hot.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
+}
+
+TEST(LoadMedia, RgbGridKeepsItsMeanColour) {
+    const LoadedScene loaded = load_text(medium_text(
+        "rgbgrid",
+        "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 0 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2"));
+    EXPECT_EQ(warnings_with(loaded, "rgbgrid"), 1);
+    const auto& medium = std::get<GridMedium>(loaded.scene.media[0]);
+    expect_near(medium.scattering() * density_at(medium, {0.25f, 0.5f, 0.5f}), Rgb(4.0f));
+    const auto red = load_one<GridMedium>(
+        "rgbgrid", "\"rgb sigma_a\" [ 1 0 0 ] \"rgb sigma_s\" [ 2 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");
+    expect_near(red.absorption() * density_at(red, {0.5f, 0.5f, 0.5f}), {1, 0, 0});
+    expect_near(red.scattering() * density_at(red, {0.5f, 0.5f, 0.5f}), {2, 1, 1});
+    expect_near(red.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
+}
+
+TEST(LoadMedia, CloudFillsItsBoxFromBelow) {
+    const auto cloud = load_one<GridMedium>("cloud",
+                                            "\"point3 p0\" [ 0 0 0 ] \"point3 p1\" [ 1 1 1 ] \"float density\" 2 "
+                                            "\"float g\" 0.8 \"rgb sigma_s\" [ 10 10 10 ]");
+    EXPECT_FLOAT_EQ(cloud.phase().mean_cosine(), 0.8f);
+    EXPECT_NEAR(density_at(cloud, {0.5f, 0, 0.5f}), 1, 1e-5f);
+    EXPECT_NEAR(density_at(cloud, {0.5f, 1, 0.5f}), 0, 1e-5f);
+    const CloudShape shape{2, 1, 5};
+    for (const Vec3& p : {Vec3(0.25f, 0.5f, 0.75f), Vec3(0.5f, 0.625f, 0.125f)}) {  // points of the grid
+        EXPECT_NEAR(density_at(cloud, p), cloud_density(shape, p), 2e-3f);
+    }
+}
+
+TEST(Cloud, NoiseIsZeroOnTheLatticeSmoothAndWithoutBias) {
+    EXPECT_EQ(perlin_noise({3, -7, 12}), 0);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(-100, 100);
+    double sum = 0, squares = 0;
+    constexpr int count = 100000;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 p(uniform(random), uniform(random), uniform(random));
+        const float n = perlin_noise(p);
+        ASSERT_LE(std::abs(n), 1.0f);
+        ASSERT_NEAR(n, perlin_noise(p + Vec3(1e-3f, 0, 0)), 4e-3f);
+        sum += static_cast<double>(n);
+        squares += static_cast<double>(n) * static_cast<double>(n);
+    }
+    EXPECT_NEAR(sum / count, 0, 0.01);
+    EXPECT_GT(squares / count, 0.03);
+    // Continuous across the lattice's faces, and finite however far away.
+    EXPECT_NEAR(perlin_noise({1 - 1e-4f, 0.3f, 0.6f}), perlin_noise({1 + 1e-4f, 0.3f, 0.6f}), 1e-3f);
+    EXPECT_EQ(perlin_noise(Vec3(1e30f)), 0);
+}
+
+}  // namespace
+}  // namespace wend
