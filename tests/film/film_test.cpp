@@ -15,6 +15,12 @@ const Layer& layer(const Picture& picture, const std::string& name) {
     return *std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });
 }
 
+FilmSample sample_of(const Rgb& radiance) {
+    FilmSample sample;
+    sample.radiance = radiance;
+    return sample;
+}
+
 Film one_pixel() {
     return Film({1, 1}, {{0, 0}, {1, 1}});
 }
@@ -37,7 +43,7 @@ TEST(Film, AveragesItsSamples) {
 TEST(Film, VarianceIsThatOfTheMean) {
     Film film = one_pixel();
     for (const float v : {1.0f, 2.0f, 3.0f, 6.0f}) {
-        film.add({0, 0}, {Rgb(v)});
+        film.add({0, 0}, sample_of(Rgb(v)));
     }
     // Sample variance 14/3, over 4 samples.
     EXPECT_NEAR(layer(film.picture(), "variance").values[1], 14.0 / 3 / 4, 1e-6);
@@ -50,7 +56,7 @@ TEST(Film, MeansScatterAsTheVarianceSays) {
     Pcg32 random(1);
     for (int x = 0; x < pixels; ++x) {
         for (int s = 0; s < samples; ++s) {
-            film.add({x, 0}, {Rgb(random.uniform(), sqr(random.uniform()), 1)});
+            film.add({x, 0}, sample_of(Rgb(random.uniform(), sqr(random.uniform()), 1)));
         }
     }
     const Picture picture = film.picture();
@@ -70,7 +76,7 @@ TEST(Film, MeansScatterAsTheVarianceSays) {
 
 TEST(Film, RejectedSamplesCountAsBlack) {
     Film film = one_pixel();
-    film.add({0, 0}, {Rgb(4)});
+    film.add({0, 0}, sample_of(Rgb(4)));
     film.reject({0, 0});
     EXPECT_EQ(film.beauty().at(0, 0), Rgb(2));
     EXPECT_EQ(layer(film.picture(), "samples").values[0], 2);
@@ -78,7 +84,7 @@ TEST(Film, RejectedSamplesCountAsBlack) {
 
 TEST(Film, CropKeepsFullCoordinates) {
     Film film({100, 50}, {{10, 20}, {13, 22}});
-    film.add({12, 21}, {Rgb(1)});
+    film.add({12, 21}, sample_of(Rgb(1)));
     const Picture picture = film.picture();
     EXPECT_EQ(picture.image.width, 3);
     EXPECT_EQ(picture.image.height, 2);
@@ -91,7 +97,7 @@ TEST(Film, RelativeNoiseIsTheStandardErrorOverTheMean) {
     Film film = one_pixel();
     EXPECT_EQ(film.relative_noise(), 0);
     for (int i = 0; i < 100; ++i) {
-        film.add({0, 0}, {Rgb(i % 2 ? 3.0f : 1.0f)});
+        film.add({0, 0}, sample_of(Rgb(i % 2 ? 3.0f : 1.0f)));
     }
     EXPECT_NEAR(film.relative_noise(), 0.5 / std::sqrt(99), 1e-6);
 }

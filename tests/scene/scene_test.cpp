@@ -223,7 +223,7 @@ TEST(SceneVisibility, PartlyTransparentSurfacesPassTheirShare) {
     const Scene scene(std::move(description));
     Pcg32 random(2);
     Moments met, blocked;
-    for (int i = 0; i < 400000; ++i) {
+    for (int i = 0; i < 1500000; ++i) {
         const Vec3 target(1.8f * random.uniform() - 0.9f, 1.8f * random.uniform() - 0.9f, 0);
         const Vec3 origin(random.uniform(), random.uniform(), 2);
         const Ray ray{origin, normalize(target - origin)};
