@@ -163,10 +163,9 @@ std::vector<SurfacePoint> shining_hits(const Light& light, const Vec3& p, const 
     const auto& l = std::get<QuadricLight>(light);
     const Vec3 origin = l.quadric->object_from_world.point(p), direction = l.quadric->object_from_world.vector(w);
     std::vector<SurfacePoint> points;
-    QuadricHit hit{};
-    for (float t = 0; intersect(*l.quadric, origin, direction, t * 1.0001f, infinity, hit);) {
-        t = hit.t;
-        const auto point = project(*l.quadric, origin + direction * t);
+    for (auto t = intersect(*l.quadric, origin, direction, 0, infinity); t;
+         t = intersect(*l.quadric, origin, direction, *t * 1.0001f, infinity)) {
+        const auto point = project(*l.quadric, origin + direction * *t);
         const Vec3 normal = normalize(l.quadric->object_from_world.transposed_vector(point.normal)) * l.flip;
         if (!is_black(emitted_radiance(light, normal, -w))) {
             points.push_back({l.quadric->world_from_object.point(point.position), normal});
@@ -304,10 +303,8 @@ TEST(QuadricLights, ADensityThatIgnoresTheStretchIsRejected) {
     const auto wrong = [&](const Vec3& w) {
         const Vec3 origin = l.quadric->object_from_world.point(p), direction = l.quadric->object_from_world.vector(w);
         const Vec3 stretched = direction / length(direction);
-        QuadricHit hit{};
-        intersect(*l.quadric, origin, stretched, 0, infinity, hit);
-        const Vec3 q = origin + stretched * hit.t;
-        return hit.t * hit.t / (4 * pi * std::abs(dot(q, stretched)));
+        const float t = *intersect(*l.quadric, origin, stretched, 0, infinity);
+        return t * t / (4 * pi * std::abs(dot(origin + stretched * t, stretched)));
     };
     EXPECT_LT(direction_test(light, p, wrong).result.p_value, test::failing);
 }
