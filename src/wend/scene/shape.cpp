@@ -91,8 +91,10 @@ Box3 object_bounds(const Disk& s) {
 
 }  // namespace
 
-std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
-    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max); }, quadric.shape);
+std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
+                               float t_max) {
+    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max); },
+                      quadric.shape);
 }
 
 Vec2 parameters(const Quadric& quadric, const Vec3& p) {

@@ -54,7 +54,8 @@ struct Quadric {
 };
 
 /// Distance to the nearest hit in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
-std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max);
+std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
+                               float t_max);
 
 /// Surface parameters in [0,1]² of a point on the quadric (object space).
 Vec2 parameters(const Quadric& quadric, const Vec3& p);
