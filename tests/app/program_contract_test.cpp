@@ -123,7 +123,7 @@ TEST_F(Program, RefusesArgumentsThatMakeNoSense) {
         EXPECT_EQ(result.status, 2) << more[0] << ' ' << more.back();
         EXPECT_FALSE(result.err.empty());
         EXPECT_TRUE(result.out.empty()) << result.out;
-        EXPECT_EQ(folder_.names(), std::vector<std::string>{"room.pbrt"}) << "nothing may have been written";
+        EXPECT_FALSE(std::filesystem::remove(folder_.file("room.exr"))) << "nothing may have been written";
     }
 }
 
@@ -198,7 +198,8 @@ TEST_F(Program, ATimedRunKeepsToItsTimeAndCanBeRepeated) {
     std::string passes;
     int samples = 0;
     for (const int pass : report["settings"]["passes"]) {
-        passes += (passes.empty() ? "" : ",") + std::to_string(pass);
+        passes += passes.empty() ? "" : ",";
+        passes += std::to_string(pass);
         samples += pass;
     }
     EXPECT_EQ(samples, report["spp"]);
@@ -211,6 +212,7 @@ TEST_F(Program, LongTimesStillMakeLongPasses) {
     test::WendProcess process({"render", scene_, "-o", folder_.file("long.exr"), "--time", "1000000000", "--resolution",
                                "2x2", "--json", "-"},
                               folder_);
+    ASSERT_TRUE(process.wait_for_handler(SIGINT));
     EXPECT_EQ(process.wait(1).status, -1000) << "it renders on";
     process.signal(SIGINT);
     const auto result = process.wait(10);

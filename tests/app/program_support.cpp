@@ -115,8 +115,19 @@ ProgramResult WendProcess::wait(double seconds) {
     return result;
 }
 
-std::string WendProcess::output() const {
-    return read_text(out_) + read_text(err_);
+bool WendProcess::wait_for_handler(int number) const {
+    const std::string status = "/proc/" + std::to_string(pid_) + "/status";
+    const std::string key = "SigCgt:";
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        const std::string text = read_text(status);
+        const std::size_t caught = text.find(key);
+        if (caught != std::string::npos &&
+            (std::stoull(text.substr(caught + key.size()), nullptr, 16) >> (number - 1) & 1) != 0) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
 }
 
 std::string read_text(const std::filesystem::path& file) {

@@ -54,10 +54,10 @@ public:
     WendProcess& operator=(const WendProcess&) = delete;
 
     void signal(int number) const;
+    /// Waits until the process has a handler for this signal; false where it has none after ten seconds.
+    bool wait_for_handler(int number) const;
     /// Waits for the end. The status is minus the signal's number where one ended it; -1000 after `seconds` in vain.
     ProgramResult wait(double seconds);
-    /// What the process has written to its streams so far.
-    std::string output() const;
 
 private:
     pid_t pid_ = -1;

@@ -36,6 +36,13 @@ struct CommonOptions {
 /// Numbers as JSON has them: null where not finite.
 nlohmann::json json_number(double value);
 
+/// JSON as text; what is not UTF-8 in it (file names may be anything) is replaced. No line breaks if `indent` is
+/// negative.
+std::string json_text(const nlohmann::json& value, int indent = -1);
+
+/// What --time takes: a millisecond to a generation. (CLI::Range lets NaN pass.)
+CLI::Validator seconds_range();
+
 /// "320x180" and the like. Throws InputError.
 std::pair<int, int> parse_resolution(const std::string& text);
 
