@@ -33,8 +33,9 @@ const Loaded& scene_named(const std::string& name) {
 
 Ray camera_ray(const Loaded& loaded, Sampler& sampler) {
     const Vec2 u = sampler.uniform2();
-    return loaded.scene.camera().ray({u.x * static_cast<float>(loaded.resolution.x), u.y * static_cast<float>(loaded.resolution.y)},
-                                     sampler.uniform2());
+    return loaded.scene.camera().ray(
+        {u.x * static_cast<float>(loaded.resolution.x), u.y * static_cast<float>(loaded.resolution.y)},
+        sampler.uniform2());
 }
 
 void rays(benchmark::State& state, const char* name) {

@@ -160,7 +160,8 @@ TEST(Render, StopsBetweenPassesWhenAsked) {
     RenderSettings settings;
     settings.samples = 1000;
     int calls = 0;
-    const RenderStatistics statistics = render(scene, film, settings, [&](const RenderProgress&) { return ++calls < 3; });
+    const RenderStatistics statistics =
+        render(scene, film, settings, [&](const RenderProgress&) { return ++calls < 3; });
     EXPECT_TRUE(statistics.interrupted);
     EXPECT_EQ(statistics.passes.size(), 3u);
     EXPECT_EQ(film.picture().layers[3].values[0], static_cast<float>(statistics.samples));

@@ -3,7 +3,9 @@
 #include <wend/app/reference.h>
 #include <wend/core/error.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace wend {

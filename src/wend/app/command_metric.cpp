@@ -5,6 +5,8 @@
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -8,6 +8,7 @@
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>

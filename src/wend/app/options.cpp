@@ -2,8 +2,10 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace wend {

@@ -3,6 +3,7 @@
 #include <wend/core/error.h>
 #include <wend/integrator/preset.h>
 
+#include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
 #include <ostream>

@@ -4,6 +4,8 @@
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>

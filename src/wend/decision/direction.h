@@ -18,6 +18,7 @@ struct DirectionSample {
     Rgb value;              ///< the scattering function there, cosine included
     float density = 0;      ///< per steradian; a probability if specular
     bool specular = false;  ///< drawn from a discrete set of directions
+    float boost = 1;        ///< density over what the scattering function's own sampling would have had
 
     Rgb weight() const { return value * (1 / density); }
 };
@@ -92,14 +93,17 @@ public:
                 s = *classical;
                 if (s.specular) {
                     s.density *= classical_share_;
+                    s.boost = classical_share_;
                     return s;
                 }
-                s.density = mixed(s.density, s.direction);
             } else {
                 s.direction = incident_->sample(u2);
                 s.value = f_.evaluate(s.direction);
-                s.density = density(s.direction);
+                s.density = f_.density(s.direction);
             }
+            const float own = s.density;
+            s.density = mixed(own, s.direction);
+            s.boost = own > 0 ? s.density / own : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
         float density(const Vec3& w) const { return mixed(f_.density(w), w); }

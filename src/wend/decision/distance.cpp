@@ -57,44 +57,45 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
     // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the
     // majorant is then the same in all channels and cancels. Which of them are real is decided for the mixture of
     // channels.
-    medium.majorants().walk(
-        index_ray.origin, index_ray.direction, 0, length, [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-            const float rate = largest * cell.maximum;
-            if (!(rate > 0)) {
+    const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        const float rate = largest * cell.maximum;
+        if (!(rate > 0)) {
+            return true;
+        }
+        // Double: steps in a very dense cell can be below the spacing of floats.
+        for (double t_exact = t_in;;) {
+            t_exact += to_exponential(random.uniform(), rate);
+            if (t_exact >= t_out) {
                 return true;
             }
-            for (float t = t_in;;) {
-                t += to_exponential(random.uniform(), rate);
-                if (t >= t_out) {
-                    return true;
+            const auto t = static_cast<float>(t_exact);
+            const float u = random.uniform() * cell.maximum;
+            const float acceptance = grey ? 1.0f : dot(probability, relative);
+            if (grey && !emission && u < cell.minimum) {
+                // Certainly real: no need to look.
+            } else {
+                const Vec3 p = index_ray.at(t);
+                const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+                const float density = medium.density().sample_nearest(p, corner);
+                if (emission) {
+                    flight.emitted += flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
                 }
-                const float u = random.uniform() * cell.maximum;
-                const float acceptance = grey ? 1.0f : dot(probability, relative);
-                if (grey && !emission && u < cell.minimum) {
-                    // Certainly real: no need to look.
-                } else {
-                    const Vec3 p = index_ray.at(t);
-                    const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
-                    const float density = medium.density().sample_nearest(p, corner);
-                    if (emission) {
-                        flight.emitted +=
-                            flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
+                if (!(u < acceptance * density)) {
+                    if (!grey) {
+                        const float none = 1 / (cell.maximum - acceptance * density);
+                        flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
+                        probability = channel_probabilities(throughput * flight.weight);
                     }
-                    if (!(u < acceptance * density)) {
-                        if (!grey) {
-                            const float none = 1 / (cell.maximum - acceptance * density);
-                            flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
-                            probability = channel_probabilities(throughput * flight.weight);
-                        }
-                        continue;
-                    }
+                    continue;
                 }
-                flight.scatters = true;
-                flight.distance = t;
-                flight.weight *= medium.scattering() * (1 / (largest * acceptance));
-                return false;
             }
-        });
+            flight.scatters = true;
+            flight.distance = t;
+            flight.weight *= medium.scattering() * (1 / (largest * acceptance));
+            return false;
+        }
+    };
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, length, cross);
     return flight;
 }
 

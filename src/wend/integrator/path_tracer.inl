@@ -103,6 +103,7 @@ private:
             return false;
         }
         throughput_ *= s->weight();
+        boost_ *= s->boost;
         index_scale_ *= sqr(f.index_ratio(s->direction));
         specular_ = s->specular;
         density_ = s->density;
@@ -113,7 +114,7 @@ private:
             vertices_->push_back({position, s->direction, density_, infinity, in_volume, throughput_, radiance_});
             open_vertex_ = true;
         }
-        const float expected = d_.survival.expected_continuations({throughput_, index_scale_, depth_});
+        const float expected = d_.survival.expected_continuations({throughput_, boost_, index_scale_, depth_});
         if (expected < 1) {
             if (!(sampler_.uniform() < expected)) {
                 return false;
@@ -265,6 +266,7 @@ private:
     MediumId medium_ = vacuum;
     Rgb throughput_{1.0f};
     Rgb radiance_;
+    float boost_ = 1;
     float index_scale_ = 1;
     int depth_ = 0;
     int interfaces_ = 0;

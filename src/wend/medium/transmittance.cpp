@@ -32,32 +32,33 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
         estimate *= roulette_threshold / size;
         return true;
     };
-    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, distance,
-                            [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-                                if (cell.minimum > 0) {
-                                    const float control = -largest * cell.minimum * (t_out - t_in);
-                                    estimate *= grey ? Rgb(std::exp(control)) : exp(relative * control);
-                                    if (!survives()) {
-                                        return false;
-                                    }
-                                }
-                                const float range = cell.maximum - cell.minimum;
-                                const float rate = largest * range;
-                                for (float t = t_in; rate > 0;) {
-                                    t += to_exponential(random.uniform(), rate);
-                                    if (t >= t_out) {
-                                        break;
-                                    }
-                                    const Vec3 u(random.uniform(), random.uniform(), random.uniform());
-                                    const float excess =
-                                        (medium.density().sample_nearest(index_ray.at(t), u) - cell.minimum) / range;
-                                    estimate *= grey ? Rgb(1 - excess) : Rgb(1.0f) - relative * excess;
-                                    if (!survives()) {
-                                        return false;
-                                    }
-                                }
-                                return true;
-                            });
+    const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        if (cell.minimum > 0) {
+            const float control = -largest * cell.minimum * (t_out - t_in);
+            estimate *= grey ? Rgb(std::exp(control)) : exp(relative * control);
+            if (!survives()) {
+                return false;
+            }
+        }
+        const float range = cell.maximum - cell.minimum;
+        const float rate = largest * range;
+        // Double: steps in a very dense cell can be below the spacing of floats.
+        for (double t = t_in; rate > 0;) {
+            t += to_exponential(random.uniform(), rate);
+            if (t >= t_out) {
+                break;
+            }
+            const Vec3 u(random.uniform(), random.uniform(), random.uniform());
+            const float excess =
+                (medium.density().sample_nearest(index_ray.at(static_cast<float>(t)), u) - cell.minimum) / range;
+            estimate *= grey ? Rgb(1 - excess) : Rgb(1.0f) - relative * excess;
+            if (!survives()) {
+                return false;
+            }
+        }
+        return true;
+    };
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, distance, cross);
     return estimate;
 }
 

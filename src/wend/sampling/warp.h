@@ -58,9 +58,10 @@ inline Vec2 to_triangle(const Vec2& u) {
     return u.y > u.x ? Vec2(u.x * 0.5f, u.y - u.x * 0.5f) : Vec2(u.x - u.y * 0.5f, u.y * 0.5f);
 }
 
-/// A distance with density rate * exp(-rate * t); u in [0,1).
+/// A distance with density rate * exp(-rate * t); u in [0,1). Uniform numbers are multiples of 2^-24, so 1 - u is
+/// exact.
 inline float to_exponential(float u, float rate) {
-    return -std::log1p(-u) / rate;
+    return -std::log(1 - u) / rate;
 }
 
 }  // namespace wend

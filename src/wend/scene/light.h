@@ -2,8 +2,8 @@
 #pragma once
 
 #include <wend/core/colour.h>
-#include <wend/core/transform.h>
 #include <wend/core/image.h>
+#include <wend/core/transform.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/shape.h>
 

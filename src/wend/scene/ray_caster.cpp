@@ -17,12 +17,11 @@ void bound_quadric(const RTCBoundsFunctionArguments* arguments) {
                             box.max.x + margin.x, box.max.y + margin.y, box.max.z + margin.z, 0};
 }
 
-std::optional<QuadricHit> intersect_quadric(const void* user, const RTCRay& ray) {
+std::optional<float> intersect_quadric(const void* user, const RTCRay& ray) {
     const auto& quadric = std::get<Quadric>(static_cast<const Surface*>(user)->shape);
     const Vec3 origin = quadric.object_from_world.point({ray.org_x, ray.org_y, ray.org_z});
     const Vec3 direction = quadric.object_from_world.vector({ray.dir_x, ray.dir_y, ray.dir_z});
-    QuadricHit hit{};
-    return intersect(quadric, origin, direction, ray.tnear, ray.tfar, hit) ? std::optional(hit) : std::nullopt;
+    return intersect(quadric, origin, direction, ray.tnear, ray.tfar);
 }
 
 void intersect_quadric_callback(const RTCIntersectFunctionNArguments* arguments) {
@@ -30,10 +29,10 @@ void intersect_quadric_callback(const RTCIntersectFunctionNArguments* arguments)
         return;
     }
     auto* rayhit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    if (const auto hit = intersect_quadric(arguments->geometryUserPtr, rayhit->ray)) {
-        rayhit->ray.tfar = hit->t;
-        rayhit->hit.u = hit->uv.x;
-        rayhit->hit.v = hit->uv.y;
+    if (const std::optional<float> hit = intersect_quadric(arguments->geometryUserPtr, rayhit->ray)) {
+        rayhit->ray.tfar = *hit;
+        rayhit->hit.u = 0;
+        rayhit->hit.v = 0;
         rayhit->hit.geomID = arguments->geomID;
         rayhit->hit.primID = arguments->primID;
         rayhit->hit.instID[0] = arguments->context->instID[0];
@@ -229,7 +228,10 @@ Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
         normal = quadric.object_from_world.transposed_vector(point.normal);
         normal = hit.surface->flip_normal ? -normal : normal;
         shading = normal;
-        hit.uv = {raw.u, raw.v};
+        const Material& material = d_.materials[static_cast<std::size_t>(hit.surface->material)];
+        if (!std::holds_alternative<InterfaceMaterial>(material)) {
+            hit.uv = parameters(quadric, point.position);
+        }
         t = {quadric.world_from_object.vector(point.dpdu), length_squared(point.dpdu) > 0};
     }
     if (raw.instance >= 0) {

@@ -69,7 +69,7 @@ struct Hit {
     Vec3 position;
     Vec3 normal;    ///< geometric, unit length, towards the exterior
     Frame shading;  ///< z: interpolated normal on the geometric normal's side; x along dp/du
-    Vec2 uv;
+    Vec2 uv;        ///< surface parameters; not computed for interfaces
     const Surface* surface = nullptr;
     std::uint32_t primitive = 0;
     int light = -1;  ///< area light, if any

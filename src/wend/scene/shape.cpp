@@ -13,28 +13,23 @@ float azimuth(const Vec3& p) {
     return phi < 0 ? phi + two_pi : phi;
 }
 
-bool hit_sphere_at(const Sphere& s, const Vec3& origin, const Vec3& direction, float t, QuadricHit& hit) {
-    Vec3 p = origin + direction * t;
-    p *= s.radius / length(p);
-    const float phi = azimuth(p);
-    if ((s.z_min > -s.radius && p.z < s.z_min) || (s.z_max < s.radius && p.z > s.z_max) || phi > s.phi_max) {
-        return false;
+/// Whether a point of the whole sphere belongs to the part that is there.
+bool is_kept(const Sphere& s, const Vec3& p) {
+    if (s.is_full()) {
+        return true;
     }
-    const float theta = std::acos(std::clamp(p.z / s.radius, -1.0f, 1.0f));
-    const float theta_min = std::acos(std::clamp(s.z_min / s.radius, -1.0f, 1.0f));
-    const float theta_max = std::acos(std::clamp(s.z_max / s.radius, -1.0f, 1.0f));
-    hit = {t, {phi / s.phi_max, (theta - theta_min) / (theta_max - theta_min)}};
-    return true;
+    const float z = p.z * (s.radius / length(p));
+    return !((s.z_min > -s.radius && z < s.z_min) || (s.z_max < s.radius && z > s.z_max) || azimuth(p) > s.phi_max);
 }
 
-bool intersect_shape(const Sphere& s, const Vec3& o, const Vec3& d, float t_min, float t_max, QuadricHit& hit) {
+std::optional<float> intersect_shape(const Sphere& s, const Vec3& o, const Vec3& d, float t_min, float t_max) {
     // The quadratic about the point of the ray nearest to the centre: no cancellation for far origins (haines2019).
     const float a = length_squared(d);
     const float b = -dot(o, d);
     const Vec3 nearest = o + d * (b / a);
     const float discriminant = s.radius * s.radius - length_squared(nearest);
     if (!(discriminant >= 0)) {
-        return false;
+        return std::nullopt;
     }
     const float c = length_squared(o) - s.radius * s.radius;
     const float q = b + std::copysign(std::sqrt(a * discriminant), b);
@@ -44,33 +39,37 @@ bool intersect_shape(const Sphere& s, const Vec3& o, const Vec3& d, float t_min,
         std::swap(t0, t1);
     }
     for (const float t : {t0, t1}) {
-        if (t > t_min && t < t_max && hit_sphere_at(s, o, d, t, hit)) {
-            return true;
+        if (t > t_min && t < t_max && is_kept(s, o + d * t)) {
+            return t;
         }
     }
-    return false;
+    return std::nullopt;
 }
 
-bool intersect_shape(const Disk& s, const Vec3& o, const Vec3& d, float t_min, float t_max, QuadricHit& hit) {
+std::optional<float> intersect_shape(const Disk& s, const Vec3& o, const Vec3& d, float t_min, float t_max) {
     if (d.z == 0) {
-        return false;
+        return std::nullopt;
     }
     const float t = (s.height - o.z) / d.z;
     if (!(t > t_min && t < t_max)) {
-        return false;
+        return std::nullopt;
     }
-    Vec3 p = o + d * t;
-    p.z = s.height;
+    const Vec3 p = o + d * t;
     const float r2 = p.x * p.x + p.y * p.y;
     if (r2 > sqr(s.radius) || r2 < sqr(s.inner_radius)) {
-        return false;
+        return std::nullopt;
     }
-    const float phi = azimuth(p);
-    if (phi > s.phi_max) {
-        return false;
-    }
-    hit = {t, {phi / s.phi_max, (s.radius - std::sqrt(r2)) / (s.radius - s.inner_radius)}};
-    return true;
+    return azimuth(p) > s.phi_max ? std::nullopt : std::optional(t);
+}
+
+Vec2 parameters_of(const Sphere& s, const Vec3& p) {
+    const auto theta = [&](float z) { return std::acos(std::clamp(z / s.radius, -1.0f, 1.0f)); };
+    const float theta_min = theta(s.z_min);
+    return {azimuth(p) / s.phi_max, (theta(p.z) - theta_min) / (theta(s.z_max) - theta_min)};
+}
+
+Vec2 parameters_of(const Disk& s, const Vec3& p) {
+    return {azimuth(p) / s.phi_max, (s.radius - std::sqrt(p.x * p.x + p.y * p.y)) / (s.radius - s.inner_radius)};
 }
 
 QuadricPoint project_onto(const Sphere& s, const Vec3& p) {
@@ -92,10 +91,14 @@ Box3 object_bounds(const Disk& s) {
 
 }  // namespace
 
-bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max,
-               QuadricHit& hit) {
-    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max, hit); },
+std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
+                               float t_max) {
+    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max); },
                       quadric.shape);
+}
+
+Vec2 parameters(const Quadric& quadric, const Vec3& p) {
+    return std::visit([&](const auto& s) { return parameters_of(s, p); }, quadric.shape);
 }
 
 QuadricPoint project(const Quadric& quadric, const Vec3& p) {

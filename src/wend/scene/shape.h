@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -52,15 +53,12 @@ struct Quadric {
         : shape(std::move(s)), world_from_object(to_world), object_from_world(to_world.inverse()) {}
 };
 
-/// Distance and parameters of a hit on a quadric.
-struct QuadricHit {
-    float t;
-    Vec2 uv;
-};
+/// Distance to the nearest hit in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
+std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
+                               float t_max);
 
-/// The nearest hit with t in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
-bool intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min, float t_max,
-               QuadricHit& hit);
+/// Surface parameters in [0,1]² of a point on the quadric (object space).
+Vec2 parameters(const Quadric& quadric, const Vec3& p);
 
 /// A point near the surface moved onto it, its normal (outward; disk: +z) and its tangent along u; object space, not
 /// normalized.

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <wend/core/colour.h>
-#include <wend/core/transform.h>
 #include <wend/core/image.h>
+#include <wend/core/transform.h>
 
 #include <memory>
 #include <variant>

@@ -1,0 +1,240 @@
+#include <tests/sampling/verdicts.h>
+#include <tests/support/chi_square_sphere.h>
+#include <wend/decision/direction.h>
+#include <wend/medium/phase.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// A phase function in a medium.
+struct Volume {
+    Vec3 before = normalize(Vec3(0.2f, -0.5f, 0.7f));
+    HenyeyGreenstein phase{0.6f};
+
+    float density(const Vec3& w) const { return phase.evaluate(dot(before, w)); }
+    Rgb evaluate(const Vec3& w) const { return Rgb(density(w)); }
+    std::optional<DirectionSample> sample(float, const Vec2& u) const {
+        const Vec3 w = PhaseFunction(phase).sample(before, u);
+        return DirectionSample{w, evaluate(w), density(w)};
+    }
+    std::optional<Vmf> lobe() const { return Vmf::with_mean_cosine(before, phase.g); }
+    bool is_specular() const { return false; }
+};
+
+/// A coloured Lambertian surface.
+struct Wall {
+    Vec3 normal = normalize(Vec3(-0.3f, 0.4f, 0.8f));
+    Rgb reflectance{0.8f, 0.5f, 0.2f};
+
+    float density(const Vec3& w) const { return cosine_hemisphere_density(dot(normal, w)); }
+    Rgb evaluate(const Vec3& w) const { return reflectance * density(w); }
+    std::optional<DirectionSample> sample(float, const Vec2& u) const {
+        const Vec3 w = Frame::from_z(normal).to_world(to_cosine_hemisphere(u));
+        return density(w) > 0 ? std::optional(DirectionSample{w, evaluate(w), density(w)}) : std::nullopt;
+    }
+    std::optional<Vmf> lobe() const { return std::nullopt; }
+    bool is_specular() const { return false; }
+};
+
+/// A mirror with probability 0.4 over a Lambertian base, like a smooth coat.
+struct Coat {
+    Wall base;
+
+    float density(const Vec3& w) const { return 0.6f * base.density(w); }
+    Rgb evaluate(const Vec3& w) const { return base.evaluate(w); }
+    std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
+        if (u < 0.4f) {
+            return DirectionSample{base.normal, Rgb(0.3f), 0.4f, true};
+        }
+        auto s = base.sample(0, u2);
+        if (s) {
+            s->density *= 0.6f;
+        }
+        return s;
+    }
+    std::optional<Vmf> lobe() const { return std::nullopt; }
+    bool is_specular() const { return false; }
+};
+
+/// What a field would have learned: one lobe, wrong on purpose where the test says so.
+struct LobeAdjoint {
+    Vmf lobe;
+    Vmf incident(const Vec3&) const { return lobe; }
+    float fluence() const { return 1; }
+};
+
+struct LobeField {
+    std::optional<LobeAdjoint> adjoint;
+    const LobeAdjoint* find(const Vec3&) const { return adjoint ? &*adjoint : nullptr; }
+};
+
+const Vec3 here(1, 2, 3);
+const LobeField wrong{LobeAdjoint{{normalize(Vec3(-1, 0.5f, 0.2f)), 6}}};
+const LobeField nothing{};
+constexpr float classical_share = 0.3f;
+
+/// An incident radiance with which nothing above is in proportion.
+double radiance(const Vec3& w) {
+    return 1 + 0.8 * w.x + 2 * std::max(0.0f, w.y) * w.z * w.z;
+}
+
+/// ∫ f L over the sphere, by midpoints in cosine and azimuth.
+template <class F>
+Rgb integral_of(const F& f) {
+    constexpr int n = 1500;
+    std::array<double, 3> sum{};
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const Vec3 w = to_sphere({(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n});
+            const Rgb value = f.evaluate(w);
+            for (int c = 0; c < 3; ++c) {
+                sum[static_cast<std::size_t>(c)] += value[c] * radiance(w);
+            }
+        }
+    }
+    const double scale = 4 * pi / (static_cast<double>(n) * n);
+    return {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale), static_cast<float>(sum[2] * scale)};
+}
+
+/// Means of weight · L; specular samples are left out.
+template <class Distribution>
+std::array<Moments, 3> estimate(const Distribution& distribution, int samples = 2500000) {
+    std::array<Moments, 3> moments;
+    Pcg32 random(1);
+    for (int i = 0; i < samples; ++i) {
+        const float u = random.uniform();
+        const auto s = distribution.sample(u, random.uniform2());
+        for (std::size_t c = 0; c < 3; ++c) {
+            moments[c].add(s && !s->specular ? s->weight()[static_cast<int>(c)] * radiance(s->direction) : 0);
+        }
+    }
+    return moments;
+}
+
+template <class F>
+void expect_unbiased(const F& f, bool in_volume) {
+    const Rgb expected = integral_of(f);
+    const auto classical = estimate(ClassicalDirection().at(here, in_volume, f));
+    const auto guided = estimate(GuidedDirection(&wrong, &wrong, classical_share).at(here, in_volume, f));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_TRUE(test::is_within_one_percent(classical[static_cast<std::size_t>(c)], expected[c], 1e-4));
+        EXPECT_TRUE(test::is_within_one_percent(guided[static_cast<std::size_t>(c)], expected[c], 1e-4));
+    }
+}
+
+TEST(Direction, GuidedAndClassicalHaveTheSameMean) {
+    expect_unbiased(Volume{}, true);
+    expect_unbiased(Wall{}, false);
+    expect_unbiased(Coat{}, false);
+}
+
+TEST(Direction, AWeightByTheWrongDensityIsRejected) {
+    const Volume f;
+    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    Pcg32 random(1);
+    Moments moments;
+    for (int i = 0; i < 100000; ++i) {
+        const float u = random.uniform();
+        const auto s = guided.sample(u, random.uniform2());
+        moments.add(s ? s->value.r / f.density(s->direction) * radiance(s->direction) : 0);
+    }
+    EXPECT_FALSE(agrees(moments, integral_of(f).r, 4, 1e-4));
+}
+
+template <class Distribution>
+test::SphereTest direction_test(const Distribution& distribution, const test::DirectionDensity& density) {
+    return test::chi_square_sphere(
+        [&](Pcg32& random) -> std::optional<Vec3> {
+            const float u = random.uniform();
+            const auto s = distribution.sample(u, random.uniform2());
+            return s && !s->specular ? std::optional(s->direction) : std::nullopt;
+        },
+        density);
+}
+
+TEST(Direction, GuidedSamplesFollowTheirDensity) {
+    const GuidedDirection guided(&wrong, &wrong, classical_share);
+    const Volume volume;
+    const auto in_volume = guided.at(here, true, volume);
+    EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
+                                      "guided_volume", 3));
+    // Directions below a wall are drawn by the lobe, but are no samples.
+    const Wall wall;
+    const auto on_wall = guided.at(here, false, wall);
+    const auto above = [&](const auto& d, const Vec3& w) { return dot(wall.normal, w) > 0 ? d.density(w) : 0.0f; };
+    EXPECT_TRUE(test::follows_density(direction_test(on_wall, [&](const Vec3& w) { return above(on_wall, w); }),
+                                      "guided_wall", 3));
+    const Coat coat;
+    const auto on_coat = guided.at(here, false, coat);
+    EXPECT_TRUE(test::follows_density(direction_test(on_coat, [&](const Vec3& w) { return above(on_coat, w); }),
+                                      "guided_coat", 3));
+}
+
+TEST(Direction, AnotherClassicalShareIsRejected) {
+    const Volume f;
+    const auto actual = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    const auto claimed = GuidedDirection(&wrong, &wrong, 0.33f).at(here, true, f);
+    EXPECT_LT(direction_test(actual, [&](const Vec3& w) { return claimed.density(w); }).result.p_value, test::failing);
+}
+
+TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
+    const GuidedDirection guided(&wrong, &wrong, classical_share);
+    const auto check = [&](const auto& f) {
+        const auto distribution = guided.at(here, false, f);
+        Pcg32 random(2);
+        for (int i = 0; i < 2000; ++i) {
+            const float u = random.uniform();
+            const auto s = distribution.sample(u, random.uniform2());
+            if (s && !s->specular) {
+                EXPECT_FLOAT_EQ(s->density, distribution.density(s->direction));
+                EXPECT_FLOAT_EQ(s->value.g, f.evaluate(s->direction).g);
+                EXPECT_LE(s->weight().g * classical_share * f.density(s->direction),
+                          f.evaluate(s->direction).g * 1.0001f);
+            }
+        }
+    };
+    check(Volume{});
+    check(Wall{});
+    check(Coat{});
+}
+
+TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {
+    const Coat coat;
+    const auto distribution = GuidedDirection(&wrong, &wrong, classical_share).at(here, false, coat);
+    Pcg32 random(3);
+    Moments mirror;
+    for (int i = 0; i < 4000000; ++i) {
+        const float u = random.uniform();
+        const auto s = distribution.sample(u, random.uniform2());
+        mirror.add(s && s->specular ? s->weight().r : 0);
+    }
+    EXPECT_TRUE(test::is_within_one_percent(mirror, 0.3));
+}
+
+TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
+    const Volume f;
+    const auto guided = GuidedDirection(&nothing, &nothing, classical_share).at(here, true, f);
+    const auto classical = ClassicalDirection().at(here, true, f);
+    Pcg32 random(4);
+    for (int i = 0; i < 100; ++i) {
+        const float u = random.uniform();
+        const Vec2 u2 = random.uniform2();
+        EXPECT_EQ(guided.sample(u, u2)->direction, classical.sample(u, u2)->direction);
+        EXPECT_EQ(guided.sample(u, u2)->density, classical.sample(u, u2)->density);
+    }
+}
+
+TEST(Direction, SurfacesAndVolumesHaveAFieldEach) {
+    const Wall f;
+    const Vec3 w = f.normal;
+    EXPECT_EQ(GuidedDirection(&nothing, &wrong, 0.5f).at(here, false, f).density(w), f.density(w));
+    EXPECT_NE(GuidedDirection(&nothing, &wrong, 0.5f).at(here, true, f).density(w), f.density(w));
+}
+
+}  // namespace
+}  // namespace wend

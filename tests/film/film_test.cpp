@@ -1,0 +1,115 @@
+#include <tests/sampling/verdicts.h>
+#include <wend/core/error.h>
+#include <wend/core/random.h>
+#include <wend/film/film.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+const Layer& layer(const Picture& picture, const std::string& name) {
+    return *std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });
+}
+
+FilmSample sample_of(const Rgb& radiance) {
+    FilmSample sample;
+    sample.radiance = radiance;
+    return sample;
+}
+
+Film one_pixel() {
+    return Film({1, 1}, {{0, 0}, {1, 1}});
+}
+
+TEST(Film, AveragesItsSamples) {
+    Film film({4, 3}, {{0, 0}, {4, 3}});
+    film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.5f), {0, 0, 1}, 4});
+    film.add({1, 2}, {Rgb(3, 2, 1), Rgb(0.1f), {0, 1, 0}, 2});
+    const Picture picture = film.picture();
+    EXPECT_EQ(picture.image.at(1, 2), Rgb(2));
+    EXPECT_EQ(picture.image.at(0, 0), Rgb(0));
+    const std::size_t i = 2 * 4 + 1;
+    EXPECT_FLOAT_EQ(layer(picture, "albedo").values[3 * i], 0.3f);
+    EXPECT_FLOAT_EQ(layer(picture, "normal").values[3 * i + 2], 0.5f);
+    EXPECT_FLOAT_EQ(layer(picture, "depth").values[i], 3);
+    EXPECT_EQ(layer(picture, "samples").values[i], 2);
+    EXPECT_EQ(layer(picture, "samples").values[0], 0);
+}
+
+TEST(Film, VarianceIsThatOfTheMean) {
+    Film film = one_pixel();
+    for (const float v : {1.0f, 2.0f, 3.0f, 6.0f}) {
+        film.add({0, 0}, sample_of(Rgb(v)));
+    }
+    // Sample variance 14/3, over 4 samples.
+    EXPECT_NEAR(layer(film.picture(), "variance").values[1], 14.0 / 3 / 4, 1e-6);
+}
+
+TEST(Film, MeansScatterAsTheVarianceSays) {
+    // Many pixels of 16 skewed samples each: the mean of the variances against the scatter of the means.
+    constexpr int pixels = 100000, samples = 16;
+    Film film({pixels, 1}, {{0, 0}, {pixels, 1}});
+    Pcg32 random(1);
+    for (int x = 0; x < pixels; ++x) {
+        for (int s = 0; s < samples; ++s) {
+            film.add({x, 0}, sample_of(Rgb(random.uniform(), sqr(random.uniform()), 1)));
+        }
+    }
+    const Picture picture = film.picture();
+    const auto& variance = layer(picture, "variance").values;
+    Moments red, green, squared_deviation;
+    for (int x = 0; x < pixels; ++x) {
+        red.add(variance[3 * static_cast<std::size_t>(x)]);
+        green.add(variance[3 * static_cast<std::size_t>(x) + 1]);
+        squared_deviation.add(std::pow(picture.image.at(x, 0).g - 1.0 / 3, 2));
+        EXPECT_EQ(variance[3 * static_cast<std::size_t>(x) + 2], 0);
+    }
+    EXPECT_TRUE(test::is_within_one_percent(red, 1.0 / 12 / samples));
+    EXPECT_TRUE(test::is_within_one_percent(green, (1.0 / 5 - 1.0 / 9) / samples));
+    EXPECT_TRUE(agrees(squared_deviation, green.mean(), 5));
+    EXPECT_FALSE(agrees(squared_deviation, green.mean() * samples / (samples - 1.0), 5));
+}
+
+TEST(Film, RejectedSamplesCountAsBlack) {
+    Film film = one_pixel();
+    film.add({0, 0}, sample_of(Rgb(4)));
+    film.reject({0, 0});
+    EXPECT_EQ(film.beauty().at(0, 0), Rgb(2));
+    EXPECT_EQ(layer(film.picture(), "samples").values[0], 2);
+}
+
+TEST(Film, CropKeepsFullCoordinates) {
+    Film film({100, 50}, {{10, 20}, {13, 22}});
+    film.add({12, 21}, sample_of(Rgb(1)));
+    const Picture picture = film.picture();
+    EXPECT_EQ(picture.image.width, 3);
+    EXPECT_EQ(picture.image.height, 2);
+    EXPECT_EQ(picture.offset, Vec2i(10, 20));
+    EXPECT_EQ(picture.full_size, Vec2i(100, 50));
+    EXPECT_EQ(picture.image.at(2, 1), Rgb(1));
+}
+
+TEST(Film, RelativeNoiseIsTheStandardErrorOverTheMean) {
+    Film film = one_pixel();
+    EXPECT_EQ(film.relative_noise(), 0);
+    for (int i = 0; i < 100; ++i) {
+        film.add({0, 0}, sample_of(Rgb(i % 2 ? 3.0f : 1.0f)));
+    }
+    EXPECT_NEAR(film.relative_noise(), 0.5 / std::sqrt(99), 1e-6);
+}
+
+TEST(Film, RefusesWindowsItCannotHold) {
+    const auto make = [](const Vec2i& size, const PixelRect& crop) { Film film(size, crop); };
+    EXPECT_THROW(make({0, 5}, {{0, 0}, {0, 5}}), InputError);
+    EXPECT_THROW(make({5, 5}, {{2, 2}, {2, 4}}), InputError);
+    EXPECT_THROW(make({5, 5}, {{0, 0}, {6, 5}}), InputError);
+    EXPECT_THROW(make({5, 5}, {{-1, 0}, {5, 5}}), InputError);
+    EXPECT_THROW(make({2000000000, 2000000000}, {{0, 0}, {2000000000, 2000000000}}), InputError);
+}
+
+}  // namespace
+}  // namespace wend

@@ -1,0 +1,276 @@
+#include <tests/sampling/verdicts.h>
+#include <tests/support/chi_square_sphere.h>
+#include <wend/medium/fresnel.h>
+#include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/bsdf/microfacet.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace wend {
+namespace {
+
+struct Model {
+    std::string name;
+    Bsdf bsdf;
+};
+
+CoatedDiffuseBsdf coated(const Rgb& reflectance, float ior, float alpha_x, float alpha_y) {
+    return {reflectance, ior, alpha_x, alpha_y, fresnel_diffuse_reflectance(1 / ior)};
+}
+
+const std::vector<Model>& models() {
+    static const std::vector<Model> all = {
+        {"lambert", LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}},
+        {"conductor", ConductorBsdf{Rgb(0.2f, 0.9f, 1.5f), Rgb(3.9f, 2.4f, 1.9f), 0.3f, 0.3f}},
+        {"conductor_brushed", ConductorBsdf{Rgb(0.2f), Rgb(3.9f), 0.6f, 0.2f}},
+        {"conductor_mirror", ConductorBsdf{Rgb(0.2f), Rgb(3.9f), 0, 0}},
+        {"dielectric", DielectricBsdf{1.5f, 0.4f, 0.4f}},
+        {"dielectric_brushed", DielectricBsdf{1.33f, 0.5f, 0.25f}},
+        {"dielectric_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.4f}},
+        {"dielectric_smooth", DielectricBsdf{1.5f, 0, 0}},
+        {"coated", coated(Rgb(0.7f, 0.4f, 0.1f), 1.5f, 0.3f, 0.3f)},
+        {"coated_smooth", coated(Rgb(0.7f, 0.4f, 0.1f), 1.5f, 0, 0)}};
+    return all;
+}
+
+/// Steep, oblique and grazing, from both sides.
+const std::vector<Vec3>& incidences() {
+    static const std::vector<Vec3> all = {normalize(Vec3(0.1f, 0.05f, 1)), normalize(Vec3(-0.8f, 0.3f, 0.7f)),
+                                          normalize(Vec3(0.3f, -1, 0.25f)), normalize(Vec3(0.4f, 0.2f, -1)),
+                                          normalize(Vec3(-0.9f, 0.5f, -0.4f))};
+    return all;
+}
+
+Rgb evaluate(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
+    return std::visit([&](const auto& b) { return b.evaluate(wo, wi); }, bsdf);
+}
+float density(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
+    return std::visit([&](const auto& b) { return b.density(wo, wi); }, bsdf);
+}
+std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, Pcg32& random) {
+    const float u = random.uniform();
+    const Vec2 u2 = random.uniform2();
+    return std::visit([&](const auto& b) { return b.sample(wo, u, u2); }, bsdf);
+}
+bool is_specular(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.is_specular(); }, bsdf);
+}
+
+/// Samples against the density; specular ones count as "no sample", whose share is what the density lacks to 1.
+test::SphereTest sphere_test(const Bsdf& drawn, const Bsdf& claimed, const Vec3& wo, std::uint64_t seed = 1) {
+    test::SphereTestOptions options;
+    options.seed = seed;
+    options.cosine_cells = 16;
+    options.azimuth_cells = 24;
+    return test::chi_square_sphere(
+        [&](Pcg32& random) -> std::optional<Vec3> {
+            const auto s = sample(drawn, wo, random);
+            return s && !s->specular ? std::optional(s->direction) : std::nullopt;
+        },
+        [&](const Vec3& wi) { return density(claimed, wo, wi); }, options);
+}
+
+TEST(Bsdf, SamplesFollowTheDensity) {
+    std::uint64_t seed = 0;
+    for (const Model& model : models()) {
+        for (const Vec3& wo : incidences()) {
+            if (is_specular(model.bsdf)) {
+                continue;
+            }
+            const auto result = sphere_test(model.bsdf, model.bsdf, wo, ++seed);
+            EXPECT_TRUE(test::follows_density(result, model.name, 40)) << model.name << ' ' << wo;
+            const double integral =
+                std::accumulate(result.expected.begin(), result.expected.end() - 1, 0.0) / result.options.samples;
+            EXPECT_LT(integral, 1.001) << model.name << ' ' << wo;
+        }
+    }
+}
+
+TEST(Bsdf, AnotherRoughnessIsRejected) {
+    const Vec3 wo = incidences()[1];
+    EXPECT_LT(
+        sphere_test(ConductorBsdf{Rgb(0.2f), Rgb(3), 0.3f, 0.3f}, ConductorBsdf{Rgb(0.2f), Rgb(3), 0.31f, 0.3f}, wo)
+            .result.p_value,
+        test::failing);
+    EXPECT_LT(sphere_test(DielectricBsdf{1.5f, 0.4f, 0.4f}, DielectricBsdf{1.55f, 0.4f, 0.4f}, wo).result.p_value,
+              test::failing);
+}
+
+TEST(Bsdf, SampleReportsValueAndDensityOfItsDirection) {
+    Pcg32 random(1);
+    for (const Model& model : models()) {
+        for (const Vec3& wo : incidences()) {
+            for (int i = 0; i < 500; ++i) {
+                const auto s = sample(model.bsdf, wo, random);
+                if (!s) {
+                    continue;
+                }
+                EXPECT_NEAR(length(s->direction), 1, 1e-4f);
+                EXPECT_GT(s->density, 0);
+                EXPECT_TRUE(is_finite(s->value));
+                EXPECT_GE(min_value(s->value), 0);
+                if (!s->specular) {
+                    EXPECT_FLOAT_EQ(s->density, density(model.bsdf, wo, s->direction));
+                    EXPECT_FLOAT_EQ(s->value.g, evaluate(model.bsdf, wo, s->direction).g);
+                }
+            }
+        }
+    }
+}
+
+/// Means over samples of the share of energy that goes on: radiance in a medium of index n is scaled by n².
+std::vector<Moments> energy(const Bsdf& bsdf, const Vec3& wo, int samples) {
+    std::vector<Moments> moments(3);
+    Pcg32 random(2);
+    for (int i = 0; i < samples; ++i) {
+        const auto s = sample(bsdf, wo, random);
+        const float scale = s ? sqr(index_ratio(bsdf, wo, s->direction)) / s->density : 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            moments[c].add(s ? s->value[static_cast<int>(c)] * scale : 0);
+        }
+    }
+    return moments;
+}
+
+TEST(Bsdf, NoneGainsEnergy) {
+    for (const Model& model : models()) {
+        for (const Vec3& wo : incidences()) {
+            for (const Moments& share : energy(model.bsdf, wo, 20000)) {
+                EXPECT_LE(share.mean(), 1 + 4 * share.standard_error() + 1e-5) << model.name << ' ' << wo;
+                EXPECT_GT(share.mean(), 0.05) << model.name << ' ' << wo;
+            }
+        }
+    }
+}
+
+TEST(Lambert, AlbedoIsTheReflectance) {
+    for (const Vec3& wo : incidences()) {
+        const auto shares = energy(LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}, wo, 1000);
+        EXPECT_TRUE(test::is_within_one_percent(shares[0], 0.8));
+        EXPECT_TRUE(test::is_within_one_percent(shares[2], 0.2));
+    }
+}
+
+TEST(Dielectric, SmoothLosesNothingOnAnyPath) {
+    const DielectricBsdf bsdf{1.5f, 0, 0};
+    for (const Vec3& wo : incidences()) {
+        const Moments share = energy(bsdf, wo, 2000)[0];
+        EXPECT_NEAR(share.mean(), 1, 1e-5);
+        EXPECT_LT(share.standard_error(), 1e-6);
+    }
+}
+
+TEST(Dielectric, RoughReflectanceTendsToFresnels) {
+    const DielectricBsdf bsdf{1.5f, 0.02f, 0.02f};
+    for (const Vec3& wo : {incidences()[0], incidences()[1], incidences()[3]}) {
+        Moments reflected, transmitted;
+        Pcg32 random(3);
+        for (int i = 0; i < 400000; ++i) {
+            const auto s = sample(bsdf, wo, random);
+            const bool passes = s && s->direction.z * wo.z < 0;
+            reflected.add(s && !passes ? s->value.r / s->density : 0);
+            transmitted.add(passes ? s->value.r / s->density * sqr(index_ratio(bsdf, wo, s->direction)) : 0);
+        }
+        const double expected = fresnel_dielectric(wo.z, 1.5f);
+        EXPECT_NEAR(reflected.mean(), expected, 0.02 * expected + 4 * reflected.standard_error());
+        EXPECT_NEAR(transmitted.mean(), 1 - expected, 0.02 + 4 * transmitted.standard_error());
+    }
+}
+
+TEST(CoatedDiffuse, AWhiteSmoothCoatLosesNothing) {
+    for (const float ior : {1.3f, 1.5f, 2.0f}) {
+        const auto white = coated(Rgb(1), ior, 0, 0);
+        for (const Vec3& wo : incidences()) {
+            EXPECT_TRUE(test::is_within_one_percent(energy(white, wo, 100000)[0], 1, 1e-3)) << ior << ' ' << wo;
+        }
+    }
+    // Without reflections between base and coat a good part is lost.
+    auto wrong = coated(Rgb(1), 1.5f, 0, 0);
+    wrong.inner_reflectance = 0;
+    EXPECT_FALSE(agrees(energy(wrong, incidences()[0], 100000)[0], 1, 4, 1e-3));
+}
+
+TEST(CoatedDiffuse, ABlackBaseReflectsFresnelsShareAlone) {
+    const Vec3 wo = incidences()[1];
+    Pcg32 random(4);
+    const auto s = sample(coated(Rgb(0), 1.5f, 0, 0), wo, random);
+    ASSERT_TRUE(s && s->specular);
+    EXPECT_NEAR(s->value.r / s->density, fresnel_dielectric(wo.z, 1.5f), 1e-6f);
+}
+
+TEST(Bsdf, IsReciprocal) {
+    // f(o, i) = f(i, o), with the squared ratio of indices where radiance is refracted.
+    Pcg32 random(5);
+    for (const Model& model : models()) {
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 wo = to_sphere(random.uniform2()), wi = to_sphere(random.uniform2());
+            if (std::min(std::abs(wo.z), std::abs(wi.z)) < 0.05f) {
+                continue;
+            }
+            const Rgb there = evaluate(model.bsdf, wo, wi) * (sqr(index_ratio(model.bsdf, wo, wi)) / std::abs(wi.z));
+            const Rgb back = evaluate(model.bsdf, wi, wo) / std::abs(wo.z);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(there[c], back[c], 2e-3f * std::max(back[c], 1e-3f)) << model.name << ' ' << wo << wi;
+            }
+        }
+    }
+}
+
+TEST(Bsdf, SpecularOnesHaveNoDensity) {
+    const Vec3 wo = incidences()[1], mirror(-wo.x, -wo.y, wo.z);
+    for (const Bsdf& bsdf : {Bsdf(ConductorBsdf{Rgb(0.2f), Rgb(3.9f), 0, 0}), Bsdf(DielectricBsdf{1.5f, 0, 0}),
+                             Bsdf(DielectricBsdf{1, 0.5f, 0.5f})}) {
+        EXPECT_TRUE(is_specular(bsdf));
+        EXPECT_EQ(density(bsdf, wo, mirror), 0);
+        EXPECT_TRUE(is_black(evaluate(bsdf, wo, mirror)));
+        Pcg32 random(6);
+        for (int i = 0; i < 100; ++i) {
+            const auto s = sample(bsdf, wo, random);
+            ASSERT_TRUE(s);
+            EXPECT_TRUE(s->specular);
+            if (s->direction.z > 0) {
+                EXPECT_LT(length(s->direction - mirror), 1e-6f);
+            }
+        }
+    }
+}
+
+TEST(Bsdf, AnIndexOfOneIsNotThere) {
+    Pcg32 random(7);
+    const Vec3 wo = incidences()[1];
+    const auto s = sample(DielectricBsdf{1, 0.5f, 0.5f}, wo, random);
+    ASSERT_TRUE(s);
+    EXPECT_LT(length(s->direction + wo), 1e-6f);
+    EXPECT_FLOAT_EQ(s->value.r / s->density, 1);
+}
+
+TEST(Microfacets, ProjectedAreaOfTheNormalsIsOne) {
+    for (const auto& [ax, ay] : {std::pair{0.5f, 0.5f}, {0.8f, 0.3f}}) {
+        const Microfacets facets(ax, ay);
+        double projected = 0;
+        constexpr int n = 1000;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
+                projected += facets.d(m) * m.z * 2 * pi / (n * n);
+            }
+        }
+        EXPECT_NEAR(projected, 1, 1e-3);
+    }
+}
+
+TEST(DirectionalAlbedo, IsExactForSmoothSurfaces) {
+    for (const Vec3& wo : incidences()) {
+        EXPECT_EQ(directional_albedo(LambertBsdf{Rgb(0.3f)}, wo), Rgb(0.3f));
+        EXPECT_EQ(directional_albedo(DielectricBsdf{1.5f, 0, 0}, wo), Rgb(1));
+        EXPECT_FLOAT_EQ(directional_albedo(ConductorBsdf{Rgb(0.2f), Rgb(3.9f), 0, 0}, wo).g,
+                        fresnel_conductor(std::abs(wo.z), 0.2f, 3.9f));
+    }
+}
+
+}  // namespace
+}  // namespace wend
