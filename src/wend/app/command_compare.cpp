@@ -54,7 +54,7 @@ Action add_compare_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("compare", "compare ways of sampling in equal time");
     options->scene.add_to(command);
     command.add_option("--time", options->seconds, "seconds for each render, training included")
-        ->check(seconds_range())
+        ->check(seconds_problem)
         ->capture_default_str();
     command.add_option("--sampling", options->sampling, "ways to compare, separated by commas")->capture_default_str();
     command.add_option("--reference", options->reference,

@@ -65,7 +65,7 @@ Action add_demo_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("demo", "render a built-in scene classically and guided, in equal time");
     command.add_option("--time", options->seconds, "seconds for each render")
-        ->check(seconds_range())
+        ->check(seconds_problem)
         ->capture_default_str();
     command.add_option("--out", options->folder, "folder for pictures, error map and index.html")
         ->capture_default_str();

@@ -120,7 +120,7 @@ Action add_render_command(CLI::App& program) {
     CLI::Option* passes = command.add_option("--passes", options->passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
     samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
-    seconds->check(seconds_range())->excludes(passes);
+    seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options->sampling,
         "classical, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");

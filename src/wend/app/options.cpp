@@ -62,13 +62,10 @@ std::string json_text(const nlohmann::json& value, int indent) {
     return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-CLI::Validator seconds_range() {
-    const auto problem = [](const std::string& text) -> std::string {
-        double seconds = 0;
-        const bool fits = CLI::detail::lexical_cast(text, seconds) && seconds >= 1e-3 && seconds <= 1e9;
-        return fits ? "" : "'" + text + "' is not a number of seconds from 0.001 to 1e9";
-    };
-    return CLI::Validator(problem, "SECONDS");
+std::string seconds_problem(const std::string& text) {
+    double seconds = 0;
+    const bool fits = CLI::detail::lexical_cast(text, seconds) && seconds >= 1e-3 && seconds <= 1e9;
+    return fits ? "" : "'" + text + "' is not a number of seconds from 0.001 to 1e9";
 }
 
 std::pair<int, int> parse_resolution(const std::string& text) {

@@ -44,8 +44,8 @@ nlohmann::json json_number(double value);
 /// negative.
 std::string json_text(const nlohmann::json& value, int indent = -1);
 
-/// What --time takes: a millisecond to a generation. (CLI::Range lets NaN pass.)
-CLI::Validator seconds_range();
+/// What is wrong with a number of seconds after --time; empty: nothing. CLI::Range would let NaN pass.
+std::string seconds_problem(const std::string& text);
 
 /// "320x180" and the like. Throws InputError.
 std::pair<int, int> parse_resolution(const std::string& text);
