@@ -29,6 +29,9 @@ void compare_scene(const CompareOptions& options, const Streams& streams) {
     const std::filesystem::path scene = options.scene.file;
     const Reference reference = read_reference(options.reference.empty() ? scene.parent_path() / scene.stem()
                                                                          : std::filesystem::path(options.reference));
+    if (!options.folder.empty()) {
+        make_report_folder(options.folder);
+    }
     const Session session(options.scene, options.common, streams);
     const auto rows =
         compare_presets(session, presets, options.seconds, options.seeds, reference, options.common, streams);
@@ -51,7 +54,7 @@ Action add_compare_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("compare", "compare ways of sampling in equal time");
     options->scene.add_to(command);
     command.add_option("--time", options->seconds, "seconds for each render, training included")
-        ->check(CLI::Range(1e-3, 1e9))
+        ->check(seconds_problem)
         ->capture_default_str();
     command.add_option("--sampling", options->sampling, "ways to compare, separated by commas")->capture_default_str();
     command.add_option("--reference", options->reference,

@@ -41,6 +41,7 @@ void run_demo(const DemoOptions& options, const Streams& streams) {
     SceneOptions scene;
     scene.file = (scenes / "demo.pbrt").string();
     const Reference reference = read_reference(scenes / "demo");
+    make_report_folder(options.folder);
     const Session session(scene, options.common, streams);
     constexpr int seeds = 3;
     options.common.note(streams, fmt::format("rendering {} for {:g} s classically and {:g} s guided, {} times",
@@ -64,7 +65,7 @@ Action add_demo_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("demo", "render a built-in scene classically and guided, in equal time");
     command.add_option("--time", options->seconds, "seconds for each render")
-        ->check(CLI::Range(1e-3, 1e9))
+        ->check(seconds_problem)
         ->capture_default_str();
     command.add_option("--out", options->folder, "folder for pictures, error map and index.html")
         ->capture_default_str();

@@ -15,6 +15,8 @@
 namespace wend {
 namespace {
 
+constexpr int most_samples = 1 << 30;
+
 struct RenderOptions {
     CommonOptions common;
     SceneOptions scene;
@@ -22,11 +24,12 @@ struct RenderOptions {
     int samples = 0;
     double seconds = 0;
     std::string sampling = "classical";
-    std::string passes;
+    std::optional<std::string> passes;
 };
 
 std::vector<int> parse_passes(const std::string& text) {
     std::vector<int> passes;
+    std::int64_t total = 0;
     for (const std::string& part : split_list(text)) {
         int n = 0;
         const auto result = std::from_chars(part.data(), part.data() + part.size(), n);
@@ -35,22 +38,29 @@ std::vector<int> parse_passes(const std::string& text) {
                              ": expected positive numbers of samples per pixel, separated by commas");
         }
         passes.push_back(n);
+        total += n;
+    }
+    if (total > most_samples) {
+        throw InputError(fmt::format("--passes {}: more than {} samples per pixel", text, most_samples));
     }
     return passes;
 }
 
-/// Where the picture goes if nobody says: the scene's own file name, in the current folder.
+/// Where the picture goes if nobody says: the scene's own file name, in the current folder. Throws InputError where
+/// that cannot be written.
 std::filesystem::path default_output(const Session& session) {
     std::filesystem::path name = std::filesystem::path(session.film_file()).filename();
     if (name.empty() || !is_known_picture_extension(name)) {
         name = std::filesystem::path(session.scene_file()).stem();
         name += ".exr";
     }
+    require_writable_picture(name);
     return name;
 }
 
 void render_scene(const RenderOptions& options, const Streams& streams) {
     const Preset preset = parse_preset(options.sampling);
+    const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
     if (!options.output.empty()) {
         require_writable_picture(options.output);
     }
@@ -62,7 +72,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     settings.preset = preset;
     settings.samples = options.samples > 0 ? options.samples : settings.samples;
     settings.seconds = options.seconds;
-    settings.passes = options.passes.empty() ? std::vector<int>() : parse_passes(options.passes);
+    settings.passes = passes;
 
     Film film = session.new_film();
     const InterruptGuard interrupt;
@@ -109,8 +119,8 @@ Action add_render_command(CLI::App& program) {
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
     CLI::Option* passes = command.add_option("--passes", options->passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
-    samples->check(CLI::Range(1, 1 << 30))->excludes(seconds)->excludes(passes);
-    seconds->check(CLI::Range(1e-3, 1e9))->excludes(passes);
+    samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
+    seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options->sampling,
         "classical, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");

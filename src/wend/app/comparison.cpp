@@ -138,9 +138,17 @@ nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows) {
     return list;
 }
 
+void make_report_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw InputError(Place{folder.string()}, "the folder cannot be made: " + error.message());
+    }
+    require_writable(folder / "index.html");
+}
+
 void write_comparison(const std::filesystem::path& folder, const Session& session,
                       const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds) {
-    std::filesystem::create_directories(folder);
     Report report;
     report.scene = std::filesystem::path(session.scene_file()).filename().string();
     report.title = fmt::format("{}: {:g} seconds each", report.scene, seconds);

@@ -34,7 +34,10 @@ std::string comparison_table(const std::vector<ComparisonRow>& rows);
 /// The rows as the contract's JSON.
 nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows);
 
-/// Writes pictures, error maps and index.html into a folder, which is made.
+/// Makes the folder for write_comparison(). Throws InputError where that cannot be.
+void make_report_folder(const std::filesystem::path& folder);
+
+/// Writes pictures, error maps and index.html into a folder that exists.
 void write_comparison(const std::filesystem::path& folder, const Session& session,
                       const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds);
 

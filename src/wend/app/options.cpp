@@ -10,9 +10,27 @@
 
 namespace wend {
 
+namespace {
+
+/// What is wrong with a name after --json; empty: nothing.
+std::string json_target_problem(const std::string& name) {
+    try {
+        if (name != "-") {
+            require_writable(name);
+        }
+        return {};
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
 void CommonOptions::add_to(CLI::App& command) {
-    command.add_option("--json", json, "write the results as JSON to this file ('-': standard output)");
-    command.add_option("--seed", seed, "seed of the random numbers (default: the scene's, or 0)");
+    command.add_option("--json", json, "write the results as JSON to this file ('-': standard output)")
+        ->check(json_target_problem);
+    command.add_option("--seed", seed, "seed of the random numbers (default: the scene's, or 0)")
+        ->check(CLI::NonNegativeNumber);
     command.add_option("--threads", threads, "number of threads (0: all); the picture does not depend on it")
         ->check(CLI::Range(0, 4096));
     command.add_flag("--quiet", quiet, "no progress and no notes");
@@ -28,7 +46,7 @@ void CommonOptions::write_json(const Streams& streams, const nlohmann::json& res
     if (json.empty()) {
         return;
     }
-    const std::string text = results.dump(2) + "\n";
+    const std::string text = json_text(results, 2) + "\n";
     if (json == "-") {
         streams.out << text << std::flush;
     } else {
@@ -38,6 +56,16 @@ void CommonOptions::write_json(const Streams& streams, const nlohmann::json& res
 
 nlohmann::json json_number(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+std::string json_text(const nlohmann::json& value, int indent) {
+    return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string seconds_problem(const std::string& text) {
+    double seconds = 0;
+    const bool fits = CLI::detail::lexical_cast(text, seconds) && seconds >= 1e-3 && seconds <= 1e9;
+    return fits ? "" : "'" + text + "' is not a number of seconds from 0.001 to 1e9";
 }
 
 std::pair<int, int> parse_resolution(const std::string& text) {

@@ -40,6 +40,13 @@ struct CommonOptions {
 /// Numbers as JSON has them: null where not finite.
 nlohmann::json json_number(double value);
 
+/// JSON as text; what is not UTF-8 in it (file names may be anything) is replaced. No line breaks if `indent` is
+/// negative.
+std::string json_text(const nlohmann::json& value, int indent = -1);
+
+/// What is wrong with a number of seconds after --time; empty: nothing. CLI::Range would let NaN pass.
+std::string seconds_problem(const std::string& text);
+
 /// "320x180" and the like. Throws InputError.
 std::pair<int, int> parse_resolution(const std::string& text);
 

@@ -20,6 +20,21 @@ std::string guidable_decisions_text() {
     return text;
 }
 
+namespace {
+
+/// What to say where no subcommand was recognized.
+InputError unknown_subcommand(const CLI::App& program) {
+    const std::vector<std::string> given = program.remaining();
+    std::string names;
+    for (const CLI::App* command : program.get_subcommands({})) {
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    return InputError((given.empty() ? "a subcommand is missing" : "unknown subcommand '" + given.front() + "'") +
+                      ": expected one of " + names + " (--help says more)");
+}
+
+}  // namespace
+
 int run_program(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
     const Streams streams{out, err};
     try {
@@ -34,6 +49,9 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
         try {
             program.parse(argc, argv);
         } catch (const CLI::ParseError& e) {
+            if (e.get_exit_code() != 0 && program.get_subcommands().empty()) {
+                throw unknown_subcommand(program);
+            }
             return program.exit(e, out, err) == 0 ? 0 : 2;
         }
         for (const auto& [command, action] : actions) {

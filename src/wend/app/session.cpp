@@ -1,5 +1,6 @@
 #include <wend/app/session.h>
 #include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ nlohmann::json Session::describe(const RenderSettings& settings) const {
 Picture Session::picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const {
     Picture picture = film.picture();
     picture.metadata = {{"wend:scene", scene_file_},
-                        {"wend:settings", describe(settings).dump()},
+                        {"wend:settings", json_text(describe(settings))},
                         {"wend:seed", std::to_string(settings.seed)},
                         {"wend:version", WEND_VERSION},
                         {"wend:seconds", fmt::format("{:.3f}", statistics.seconds)},
@@ -106,10 +107,7 @@ Picture Session::picture(const Film& film, const RenderSettings& settings, const
 
 void require_writable_picture(const std::filesystem::path& file) {
     require_known_picture_extension(file);
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
-        throw InputError(folder.string() + ": no such folder to write " + file.filename().string() + " into");
-    }
+    require_writable(file);
 }
 
 }  // namespace wend

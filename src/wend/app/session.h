@@ -53,7 +53,7 @@ private:
     Scene scene_;
 };
 
-/// Throws InputError unless a picture of this name can be written: a known extension, in a folder that exists.
+/// Throws InputError unless a picture of this name can be written: a known extension, in a folder that takes it.
 void require_writable_picture(const std::filesystem::path& file);
 
 }  // namespace wend

@@ -127,7 +127,7 @@ public:
         // What fits into the time that is left, at the pace so far; a last pass may be up to a third short of one
         // sample.
         const double left = (settings_.seconds - elapsed) * done / elapsed;
-        return left < 0.67 ? 0 : std::min(wanted, std::max(1, static_cast<int>(left)));
+        return left < 0.67 ? 0 : static_cast<int>(std::clamp(left, 1.0, static_cast<double>(wanted)));
     }
 
     double fraction(int done, double elapsed) const {

@@ -1,3 +1,4 @@
+#include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 
 #include <fmt/format.h>
@@ -47,6 +48,25 @@ void write_atomically(const std::filesystem::path& target, std::string_view cont
             throw std::runtime_error(target.string() + ": cannot write: " + std::strerror(errno));
         }
     });
+}
+
+void require_writable(const std::filesystem::path& target) {
+    std::error_code error;
+    if (std::filesystem::is_directory(target, error)) {
+        throw InputError(Place{target.string()}, "cannot be written: it is a folder");
+    }
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error)) {
+        throw InputError(Place{target.string()}, "cannot be written: there is no folder " + folder.string());
+    }
+    const std::filesystem::path temporary = temporary_beside(target);
+    errno = 0;
+    const bool opened = std::ofstream(temporary, std::ios::binary).is_open();
+    const int reason = errno;
+    std::filesystem::remove(temporary, error);
+    if (!opened) {
+        throw InputError(Place{target.string()}, std::string("cannot be written: ") + std::strerror(reason));
+    }
 }
 
 }  // namespace wend

@@ -15,4 +15,7 @@ void write_atomically(const std::filesystem::path& target,
 /// The same for content that is in memory.
 void write_atomically(const std::filesystem::path& target, std::string_view content);
 
+/// Tries whether write_atomically() can succeed, to ask before long work. Throws InputError, naming the reason, if not.
+void require_writable(const std::filesystem::path& target);
+
 }  // namespace wend

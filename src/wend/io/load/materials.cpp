@@ -95,7 +95,7 @@ private:
     HomogeneousMedium load_inside(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
         HomogeneousMedium medium;
-        float g = load_mean_cosine(p);
+        float g = load_mean_cosine(context_, p);
         const float scale = non_negative_float(p, "scale", 1);
         const auto absorption = textures_.find_colour(p, "sigma_a", SpectrumKind::unbounded);
         const auto scattering = textures_.find_colour(p, "sigma_s", SpectrumKind::unbounded);

@@ -27,8 +27,8 @@ std::string_view emission_scale_name(const pbrt::ParameterSet& p) {
     return p.has("LeScale") ? "LeScale" : "Lescale";
 }
 
-PhaseFunction load_phase(const pbrt::ParameterSet& p) {
-    return PhaseFunction(HenyeyGreenstein{load_mean_cosine(p)});
+PhaseFunction load_phase(LoadContext& context, const pbrt::ParameterSet& p) {
+    return PhaseFunction(HenyeyGreenstein{load_mean_cosine(context, p)});
 }
 
 struct Coefficients {
@@ -55,7 +55,7 @@ Medium load_homogeneous(LoadContext& context, const pbrt::MediumEntity& entity) 
         medium.scattering = coefficients.scattering;
     }
     medium.emission = medium.absorption * load_emitted(context, p) * non_negative_float(p, emission_scale_name(p), 1);
-    medium.phase = load_phase(p);
+    medium.phase = load_phase(context, p);
     return medium;
 }
 
@@ -191,7 +191,7 @@ Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity)
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
     const Coefficients c = load_coefficients(context, p);
     return GridMedium(make_grid(density, size, p.place_of("density"), "density"), index_from_world, all_cells(size),
-                      c.absorption, c.scattering, load_phase(p),
+                      c.absorption, c.scattering, load_phase(context, p),
                       load_grid_emission(context, p, size, index_from_world));
 }
 
@@ -250,7 +250,7 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
         emission->field_from_world = AffineMap(index_from_world);
     }
     return GridMedium(make_grid(density, size, entity.place, "sigma_a"), index_from_world, all_cells(size),
-                      total_absorption * scale, total_scattering * scale, load_phase(p), std::move(emission));
+                      total_absorption * scale, total_scattering * scale, load_phase(context, p), std::move(emission));
 }
 
 Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) {
@@ -270,7 +270,7 @@ Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) 
     const Coefficients c = load_coefficients(context, p);
     return GridMedium(std::make_shared<const Grid>(std::move(density.grid)),
                       density.world_from_index.inverse() * medium_from_world, Box3(Vec3(first), Vec3(last)),
-                      c.absorption, c.scattering, load_phase(p), std::move(emission));
+                      c.absorption, c.scattering, load_phase(context, p), std::move(emission));
 }
 
 Medium load_cloud(LoadContext& context, const pbrt::MediumEntity& entity) {
@@ -287,7 +287,7 @@ Medium load_cloud(LoadContext& context, const pbrt::MediumEntity& entity) {
     const Rgb scattering = load_coefficient(context, p, "sigma_s");
     return GridMedium(std::make_shared<const Grid>(bake_cloud(shape, box, cloud_cells)),
                       index_from_medium * entity.world_from_medium.inverse(), Box3(Vec3(0.0f), Vec3(cloud_cells)),
-                      absorption, scattering, load_phase(p));
+                      absorption, scattering, load_phase(context, p));
 }
 
 }  // namespace
@@ -316,12 +316,16 @@ Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium) {
     return result;
 }
 
-float load_mean_cosine(const pbrt::ParameterSet& parameters) {
+float load_mean_cosine(LoadContext& context, const pbrt::ParameterSet& parameters) {
+    constexpr float sharpest = 0.99f;
     const float g = parameters.get_float("g", 0);
     if (!(std::abs(g) < 1)) {
         throw InputError(parameters.place_of("g"), fmt::format("\"g\" must lie between -1 and 1, not {}", g));
     }
-    return g;
+    if (std::abs(g) > sharpest) {
+        context.warnings.add(parameters.place_of("g"), fmt::format("\"g\" is limited to {} either way", sharpest));
+    }
+    return std::clamp(g, -sharpest, sharpest);
 }
 
 MediumPreset required_preset(const pbrt::ParameterSet& parameters, std::string_view name) {

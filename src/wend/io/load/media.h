@@ -12,8 +12,9 @@ namespace wend {
 /// absurd size, and values out of range: negative or not finite coefficients or densities, |g| >= 1.
 Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium);
 
-/// The parameter "g"; InputError unless it lies within (-1, 1).
-float load_mean_cosine(const pbrt::ParameterSet& parameters);
+/// The parameter "g"; InputError unless it lies within (-1, 1). Beyond 0.99 either way, where the phase function is too
+/// sharp for single precision, 0.99 takes its place as in pbrt, with a warning.
+float load_mean_cosine(LoadContext& context, const pbrt::ParameterSet& parameters);
 
 /// The measured medium that a string parameter names. Throws InputError for an unknown name.
 MediumPreset required_preset(const pbrt::ParameterSet& parameters, std::string_view name);

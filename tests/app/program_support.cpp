@@ -1,0 +1,167 @@
+#include "program_support.h"
+
+#include <wend/app/program.h>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace wend::test {
+namespace {
+
+std::vector<const char*> with_program_name(const std::vector<std::string>& arguments) {
+    std::vector<const char*> pointers{"wend"};
+    for (const std::string& argument : arguments) {
+        pointers.push_back(argument.c_str());
+    }
+    return pointers;
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "wend-test-XXXXXX").string();
+    if (!mkdtemp(name.data())) {
+        throw std::runtime_error("no scratch folder can be made");
+    }
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string ScratchFolder::write(const std::string& name, std::string_view content) const {
+    std::ofstream(path_ / name, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+    return file(name);
+}
+
+std::vector<std::string> ScratchFolder::names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+nlohmann::json ProgramResult::json() const {
+    const nlohmann::json parsed = nlohmann::json::parse(out, nullptr, false);
+    EXPECT_FALSE(parsed.is_discarded()) << "standard output is not JSON: " << out << err;
+    return parsed;
+}
+
+ProgramResult run_wend(const std::vector<std::string>& arguments) {
+    const std::vector<const char*> argv = with_program_name(arguments);
+    std::ostringstream out, err;
+    ProgramResult result;
+    result.status = run_program(static_cast<int>(argv.size()), argv.data(), out, err);
+    result.out = out.str();
+    result.err = err.str();
+    return result;
+}
+
+WendProcess::WendProcess(const std::vector<std::string>& arguments, const ScratchFolder& folder)
+    : out_(folder.path() / "stdout.txt"), err_(folder.path() / "stderr.txt") {
+    std::vector<const char*> argv = with_program_name(arguments);
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t streams;
+    posix_spawn_file_actions_init(&streams);
+    posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int failed =
+        posix_spawn(&pid_, WEND_PROGRAM, &streams, nullptr, const_cast<char* const*>(argv.data()), environ);
+    posix_spawn_file_actions_destroy(&streams);
+    if (failed != 0) {
+        throw std::runtime_error("the program does not start: " WEND_PROGRAM);
+    }
+}
+
+WendProcess::~WendProcess() {
+    if (!ended_) {
+        signal(SIGKILL);
+        wait(10);
+    }
+}
+
+void WendProcess::signal(int number) const {
+    kill(pid_, number);
+}
+
+ProgramResult WendProcess::wait(double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    int status = 0;
+    while (!ended_ && std::chrono::steady_clock::now() < end) {
+        ended_ = waitpid(pid_, &status, WNOHANG) == pid_;
+        if (!ended_) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    ProgramResult result;
+    result.status = !ended_ ? -1000 : WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    result.out = read_text(out_);
+    result.err = read_text(err_);
+    return result;
+}
+
+bool WendProcess::wait_for_handler(int number) const {
+    const std::string status = "/proc/" + std::to_string(pid_) + "/status";
+    const std::string key = "SigCgt:";
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        const std::string text = read_text(status);
+        const std::size_t caught = text.find(key);
+        if (caught != std::string::npos &&
+            (std::stoull(text.substr(caught + key.size()), nullptr, 16) >> (number - 1) & 1) != 0) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string small_scene(const std::string& world) {
+    return R"(# A foggy room with a lamp.
+Integrator "volpath" "integer maxdepth" [ 8 ]
+LookAt 0 1 5.2  0 1 0  0 1 0
+Camera "perspective" "float fov" [ 32 ]
+Sampler "sobol" "integer pixelsamples" [ 4 ]
+PixelFilter "gaussian" "float xradius" [ 1.5 ] "float yradius" [ 1.5 ]
+Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 12 ] "string filename" "room.exr"
+MakeNamedMedium "fog" "string type" "homogeneous"
+  "rgb sigma_a" [ 0.06 0.06 0.06 ] "rgb sigma_s" [ 0.5 0.4 0.3 ] "float g" [ 0.5 ]
+MediumInterface "" "fog"
+WorldBegin
+MediumInterface "fog" "fog"
+Material "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]
+Shape "trianglemesh" "point3 P" [ -1 0 -1  -1 0 1  1 0 1  1 0 -1 ] "integer indices" [ 0 1 2 0 2 3 ]
+Shape "trianglemesh" "point3 P" [ -1 0 -1  1 0 -1  1 2 -1  -1 2 -1 ] "integer indices" [ 0 1 2 0 2 3 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 12 12 12 ] "bool twosided" [ true ]
+  Shape "trianglemesh" "point3 P" [ -0.5 1.9 -0.5  -0.5 1.9 0.5  0.5 1.9 0.5  0.5 1.9 -0.5 ]
+    "integer indices" [ 0 2 1 0 3 2 ]
+AttributeEnd
+AttributeBegin
+  Translate 0.4 0.4 0.2
+  Material "conductor" "rgb reflectance" [ 0.8 0.5 0.3 ] "float roughness" [ 0.3 ]
+  Shape "sphere" "float radius" [ 0.4 ]
+AttributeEnd
+)" + world;
+}
+
+}  // namespace wend::test
