@@ -145,8 +145,8 @@ TEST_P(PbrtReference, AgreesBlockByBlock) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PbrtReference,
                          testing::Values(Case{"fog-box", "fog-box/fog-box.pbrt", "classical", 600},
-                                         Case{"fog-box", "fog-box/fog-box.pbrt", "direction", 600},
-                                         Case{"cloud-grey", "cloud/cloud-grey.pbrt", "classical", 256}),
+                                         Case{"fog-box", "fog-box/fog-box.pbrt", "direction", 300},
+                                         Case{"cloud-grey", "cloud/cloud-grey.pbrt", "classical", 224}),
                          [](const auto& parameter) {
                              std::string name = std::string(parameter.param.name) + "_" + parameter.param.preset;
                              std::replace(name.begin(), name.end(), '-', '_');
