@@ -43,6 +43,7 @@ public:
     }
     std::optional<wend::Vmf> lobe() const { return wend::Vmf::with_mean_cosine(before_, phase_.mean_cosine()); }
     bool is_specular() const { return false; }
+    bool is_guidable() const { return true; }
 
 private:
     Vec3 before_;

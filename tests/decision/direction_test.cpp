@@ -24,6 +24,7 @@ struct Volume {
     }
     std::optional<Vmf> lobe() const { return Vmf::with_mean_cosine(before, phase.g); }
     bool is_specular() const { return false; }
+    bool is_guidable() const { return true; }
 };
 
 /// A coloured Lambertian surface.
@@ -39,6 +40,7 @@ struct Wall {
     }
     std::optional<Vmf> lobe() const { return std::nullopt; }
     bool is_specular() const { return false; }
+    bool is_guidable() const { return true; }
 };
 
 /// A mirror with probability 0.4 over a Lambertian base, like a smooth coat.
@@ -59,6 +61,7 @@ struct Coat {
     }
     std::optional<Vmf> lobe() const { return std::nullopt; }
     bool is_specular() const { return false; }
+    bool is_guidable() const { return true; }
 };
 
 /// What a field would have learned: one lobe, wrong on purpose where the test says so.

@@ -25,7 +25,8 @@ struct DirectionSample {
 
 /// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobe` is its
 /// shape as one von Mises-Fisher lobe that an estimate of incident radiance can be multiplied with, where that is a
-/// fair picture of it.
+/// fair picture of it. A function that is specular, or so peaked that a guide would rather disturb its sampling, is not
+/// guidable.
 template <class F>
 concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const Vec2& u2) {
     { f.evaluate(w) } -> std::same_as<Rgb>;
@@ -33,6 +34,7 @@ concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const 
     { f.sample(u, u2) } -> std::same_as<std::optional<DirectionSample>>;
     { f.lobe() } -> std::same_as<std::optional<Vmf>>;
     { f.is_specular() } -> std::same_as<bool>;
+    { f.is_guidable() } -> std::same_as<bool>;
 };
 
 /// Directions in proportion to the scattering function alone.
@@ -51,7 +53,7 @@ public:
 
     /// The distribution at a vertex; `f` must outlive it.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f) const {
+    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f, float /*boost*/ = 1) const {
         return Distribution<F>(f);
     }
 };
@@ -119,10 +121,14 @@ public:
         float classical_share_;
     };
 
+    /// `boost` is the product of the walk's boosts so far. Each direction that the guide did not foresee multiplies the
+    /// weight by up to 1/classical_share, which over a long walk would give it a heavy tail: a walk that has lost this
+    /// much trust goes on unguided.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& position, bool in_volume, const F& f) const {
+    Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
+        constexpr float least_boost = 0.25f;
         std::optional<Incident> incident;
-        if (!f.is_specular()) {
+        if (f.is_guidable() && boost >= least_boost) {
             if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
                 incident = adjoint->incident(position);
                 if (const std::optional<Vmf> lobe = f.lobe()) {

@@ -93,7 +93,7 @@ private:
     /// Connects a vertex to a light, draws a direction, and decides on survival. `normal` is zero in a volume.
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
-        const auto directions = d_.direction.at(position, in_volume, f);
+        const auto directions = d_.direction.at(position, in_volume, f, boost_);
         if (!f.is_specular()) {
             radiance_ += throughput_ * connect(f, directions, position, normal, in_volume);
         }

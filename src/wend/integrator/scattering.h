@@ -23,6 +23,9 @@ public:
     }
     std::optional<Vmf> lobe() const;
     bool is_specular() const { return false; }
+    /// One lobe is no picture of a strongly peaked Henyey-Greenstein function with its long tail: over the dozens of
+    /// events of a dense medium the mismatch would cost more than the guide brings.
+    bool is_guidable() const { return std::abs(phase_.mean_cosine()) <= 0.7f; }
     float index_ratio(const Vec3&) const { return 1; }
 
 private:
@@ -53,6 +56,7 @@ public:
     bool is_specular() const {
         return std::visit([](const auto& b) { return b.is_specular(); }, bsdf_);
     }
+    bool is_guidable() const { return !is_specular(); }
     float index_ratio(const Vec3& w) const { return wend::index_ratio(bsdf_, wo_, shading_.to_local(w)); }
     Rgb albedo() const { return directional_albedo(bsdf_, wo_); }
 
