@@ -49,7 +49,7 @@ public:
     /// the mean.
     double relative_noise() const;
 
-    static constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
+    static constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
 
 private:
     struct Pixel {

@@ -146,12 +146,6 @@ private:
     const RenderSettings& settings_;
 };
 
-/// The box that fields divide: what is visible of the scene, without far-away ground planes deciding the scale more
-/// than they must.
-Box3 field_bounds(const Scene& scene) {
-    return scene.bounds();
-}
-
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
         throw std::runtime_error(std::to_string(counts.rejected) + " of " + std::to_string(counts.paths) +
@@ -167,7 +161,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     RenderStatistics statistics;
     std::vector<Tile> tiles = tiles_of(film.crop());
     const Schedule schedule(settings);
-    GuidingFields fields{guide::Field::empty(field_bounds(scene)), guide::Field::empty(field_bounds(scene))};
+    GuidingFields fields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
