@@ -20,4 +20,6 @@ install(FILES ${PROJECT_BINARY_DIR}/wend-config.cmake ${PROJECT_BINARY_DIR}/wend
 
 if(WEND_BUILD_RENDERER)
   install(TARGETS wend RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  # What `wend demo` renders; it looks for them beside the installed program.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/wend COMPONENT program)
 endif()
