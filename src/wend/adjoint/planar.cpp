@@ -23,8 +23,8 @@ double legendre_sum(const std::vector<double>& coefficients, double mu) {
     double sum = 0, before = 0, p = 1;
     for (std::size_t l = 0; l < coefficients.size(); ++l) {
         sum += coefficients[l] * p;
-        const double next = (static_cast<double>(2 * l + 1) * mu * p - static_cast<double>(l) * before) /
-                            static_cast<double>(l + 1);
+        const double next =
+            (static_cast<double>(2 * l + 1) * mu * p - static_cast<double>(l) * before) / static_cast<double>(l + 1);
         before = p;
         p = next;
     }
@@ -273,8 +273,8 @@ double PlanarAdjoint::smooth_arrival(bool at_far, double t) const {
     trace(ends_[at_far ? 0 : 1], at_far ? t : -t, back);
     const double there_reflectance = there.reflectance(t);
     const double there_leaving = there.illumination_inside(t);
-    const double once = leaving + reflectance * (inward.scattered +
-                                                 inward.pass * (there_leaving + there_reflectance * back.scattered));
+    const double once =
+        leaving + reflectance * (inward.scattered + inward.pass * (there_leaving + there_reflectance * back.scattered));
     return once / (1 - reflectance * there_reflectance * inward.pass * inward.pass);
 }
 

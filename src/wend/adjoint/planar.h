@@ -63,13 +63,13 @@ public:
 
     /// A ray from a site to the boundary ahead.
     struct Ray {
-        double cosine = 1;      ///< |mu|
-        bool deeper = true;     ///< towards the far boundary
-        double length = 0;      ///< optical distance to the boundary ahead
-        double pass = 0;        ///< exp(-length)
-        double arrival = 0;     ///< value of arriving there, B
-        double scattered = 0;   ///< integral of transmittance times source
-        double positive = 0;    ///< the same of the positive terms alone
+        double cosine = 1;                   ///< |mu|
+        bool deeper = true;                  ///< towards the far boundary
+        double length = 0;                   ///< optical distance to the boundary ahead
+        double pass = 0;                     ///< exp(-length)
+        double arrival = 0;                  ///< value of arriving there, B
+        double scattered = 0;                ///< integral of transmittance times source
+        double positive = 0;                 ///< the same of the positive terms alone
         std::array<double, max_modes> near;  ///< contribution of each term to `scattered`
         std::array<double, max_modes> far;
 
@@ -119,11 +119,11 @@ private:
     bool all_positive_ = true;
     std::array<Site, 2> ends_;
     std::array<std::vector<double>, 2> rough_arrival_;  // of a rough boundary, at equal steps of the cosine
-    std::array<double, max_modes> rate_{};     // 1/v_k
-    std::array<double, max_modes> through_{};  // exp(-T/v_k)
-    int rows_ = 1;                             // of the table below; one suffices where no q_k depends on mu
-    std::vector<double> near_;                 // a_k q_k(mu) by row (equal angles) and mode
-    std::vector<double> far_;                  // b_k q_k(-mu)
+    std::array<double, max_modes> rate_{};              // 1/v_k
+    std::array<double, max_modes> through_{};           // exp(-T/v_k)
+    int rows_ = 1;                                      // of the table below; one suffices where no q_k depends on mu
+    std::vector<double> near_;                          // a_k q_k(mu) by row (equal angles) and mode
+    std::vector<double> far_;                           // b_k q_k(-mu)
 };
 
 }  // namespace wend

@@ -41,7 +41,8 @@ private:
     double g_;
 };
 
-/// Cosines of isotropic scattering in proportion to Case's discrete mode alone, 1 / (nu - m) (dwivedi1982; krivanek2014).
+/// Cosines of isotropic scattering in proportion to Case's discrete mode alone, 1 / (nu - m) (dwivedi1982;
+/// krivanek2014).
 class DwivediDirection {
 public:
     /// `gap` is 1 - 1/nu, in (0,1]; below 1e-9, where all walks would go straight ahead, it is taken as that.

@@ -26,14 +26,13 @@ struct PlanarDirection {
 /// the place of a collision into `to`; boost() tells the same ratio for any outcome, where `to` is the place of the
 /// collision and not looked at for a flight that reaches the boundary.
 template <class D>
-concept PlanarFlightDecision =
-    requires(const D& d, typename D::Site& to, const typename D::Site& from, double mu, const PlanarFlight& outcome,
-             Pcg32& random) {
-        { d.at(1.0, to) } -> std::same_as<void>;
-        { from.depth } -> std::convertible_to<double>;
-        { d.sample(from, mu, random, to) } -> std::same_as<PlanarFlight>;
-        { d.boost(from, mu, outcome, to) } -> std::same_as<double>;
-    };
+concept PlanarFlightDecision = requires(const D& d, typename D::Site& to, const typename D::Site& from, double mu,
+                                        const PlanarFlight& outcome, Pcg32& random) {
+    { d.at(1.0, to) } -> std::same_as<void>;
+    { from.depth } -> std::convertible_to<double>;
+    { d.sample(from, mu, random, to) } -> std::same_as<PlanarFlight>;
+    { d.boost(from, mu, outcome, to) } -> std::same_as<double>;
+};
 
 /// Draws the cosine after a collision at a depth, given the one before; boost() tells the ratio for any.
 template <class D>

@@ -12,7 +12,8 @@ const PlanarBoundary& boundary_of(const PlanarSlab& slab, bool at_far) {
 }
 
 double cosine_outside(const PlanarBoundary& boundary, double cosine) {
-    return boundary.ior == 1 ? cosine : std::sqrt(std::max(0.0, 1 - (1 - cosine * cosine) * boundary.ior * boundary.ior));
+    return boundary.ior == 1 ? cosine
+                             : std::sqrt(std::max(0.0, 1 - (1 - cosine * cosine) * boundary.ior * boundary.ior));
 }
 
 /// Draws the outcome of a smooth boundary, given the probability of leaving.

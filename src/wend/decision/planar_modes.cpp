@@ -53,12 +53,12 @@ ModalFlight::Stop ModalFlight::draw(const PlanarAdjoint::Ray& ray, double depth,
     if (adjoint_->has_far()) {
         choose(ray.far, true);
     }
-    // Its exponential over the way to the boundary. Where it grows, it is drawn as a falling one from the boundary back.
+    // Its exponential over the way to the boundary. Where it grows, it is drawn as a falling one from the boundary
+    // back.
     const double rate = 1 + (from_far != ray.deeper ? ray.cosine : -ray.cosine) * adjoint_->rate(chosen);
     const double v = random.uniform_double();
     const double z = std::abs(rate) * ray.length;
-    const double s = z < 1e-8 ? v * ray.length
-                              : std::min(-std::log1p(v * std::expm1(-z)) / std::abs(rate), ray.length);
+    const double s = z < 1e-8 ? v * ray.length : std::min(-std::log1p(v * std::expm1(-z)) / std::abs(rate), ray.length);
     const double signed_cosine = ray.deeper ? ray.cosine : -ray.cosine;
     const double boundary = ray.deeper ? adjoint_->slab().thickness : 0;
     if (rate < 0) {
@@ -110,7 +110,8 @@ ModalDirection::ModalDirection(double thickness, int depth_rows, std::vector<dou
       thickness_(thickness),
       depth_rows_(depth_rows),
       cosine_rows_(g == 0 ? 1 : anisotropic_cosine_rows),
-      table_(std::move(breaks), cells, depth_rows_ * cosine_rows_) {}
+      table_(std::move(breaks), cells, depth_rows_ * cosine_rows_) {
+}
 
 ModalDirection::ModalDirection(const PlanarAdjoint& adjoint, double g)
     : ModalDirection(adjoint.slab().thickness, g == 0 ? isotropic_depth_rows : anisotropic_depth_rows,

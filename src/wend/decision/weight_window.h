@@ -13,6 +13,7 @@ namespace wend {
 struct WeightWindow {
     double low = 1.0 / 3;   ///< in (0,1]
     double high = 5.0 / 3;  ///< >= 1
+    double least = 1e-3;    ///< probability of survival: an adjoint may be wrong about what it calls worthless
     int most = 64;          ///< continuations at one vertex; more only lowers the splitting
 
     /// Number of continuations, 1 or more with the given expectation when it splits; each one's weight is divided by
@@ -25,7 +26,7 @@ struct WeightWindow {
         if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
             return {};
         }
-        const double expected = std::min(ratio, static_cast<double>(most));
+        const double expected = std::clamp(ratio, least, static_cast<double>(most));
         const int whole = static_cast<int>(expected);
         return {whole + (random.uniform_double() < expected - whole ? 1 : 0), expected};
     }

@@ -155,7 +155,8 @@ void QuantileTable::set_piece(int row, int piece, std::span<const double> densit
             s = j == 0 ? 0 : 1;
         }
         quantile[j] = begin + width * place_of((static_cast<double>(cell) + s) * step);
-        const double density = std::max(value(local_cubic(densities, cell), s), 0.1 * std::min(densities[cell], densities[cell + 1]));
+        const double density =
+            std::max(value(local_cubic(densities, cell), s), 0.1 * std::min(densities[cell], densities[cell + 1]));
         slope[j] = total * step * width / density;
     }
     quantile.front() = begin;

@@ -225,9 +225,8 @@ std::vector<double> henyey_greenstein_moments(double g, int count) {
 
 PlanarModes solve_planar(const PlanarProblem& problem) {
     const int count = problem.transients + 1;
-    if (!(problem.albedo >= 0 && problem.albedo <= 1) || problem.transients < 0 ||
-        count > PlanarAdjoint::max_modes || problem.moments.empty() || problem.moments[0] != 1 ||
-        !(problem.slab.thickness > 0)) {
+    if (!(problem.albedo >= 0 && problem.albedo <= 1) || problem.transients < 0 || count > PlanarAdjoint::max_modes ||
+        problem.moments.empty() || problem.moments[0] != 1 || !(problem.slab.thickness > 0)) {
         throw std::invalid_argument("a planar problem with values out of range");
     }
     const Nodes nodes = choose_nodes(problem, count);

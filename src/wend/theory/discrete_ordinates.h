@@ -21,9 +21,9 @@ std::vector<double> henyey_greenstein_moments(double g, int count);
 
 /// Solves for the modes with transients + 1 nodes a half range. The symmetric eigenproblem is that of chandrasekhar1960
 /// in the form of stamnes1988. Nodes are Gauss-Legendre's in a variable that is dense at grazing directions, where the
-/// radiance at a boundary has its singularity (the error then falls with the fourth power of their number instead of the
-/// second; docs/theory/planar.md), less so the more the phase function needs its moments integrated, and split at the
-/// critical angle of a refractive boundary. A slab of albedo 1 is solved for an albedo below by what exponentials
+/// radiance at a boundary has its singularity (the error then falls with the fourth power of their number instead of
+/// the second; docs/theory/planar.md), less so the more the phase function needs its moments integrated, and split at
+/// the critical angle of a refractive boundary. A slab of albedo 1 is solved for an albedo below by what exponentials
 /// need. Throws std::invalid_argument for values outside their ranges.
 PlanarModes solve_planar(const PlanarProblem& problem);
 
