@@ -104,8 +104,8 @@ TEST(DiscreteEigenvalueByMoments, IsDefinedForTheSharpestPeaks) {
 }
 
 TEST(DiscreteEigenvalueByMoments, IsOneWhereBackscatteringLeavesNoRoot) {
-    // Near nu = 1 the dispersion relation grows like -(1 + 3 f (1 - albedo)) ln(nu - 1), f the mean cosine: a root needs
-    // the bracket to be positive.
+    // Near nu = 1 the dispersion relation grows like -(1 + 3 f (1 - albedo)) ln(nu - 1), f the mean cosine: a root
+    // needs the bracket to be positive.
     EXPECT_EQ(discrete_eigenvalue(0.5, std::vector<double>{1, -0.9}).nu(), 1);
     EXPECT_GT(discrete_eigenvalue(0.5, std::vector<double>{1, -0.5}).nu(), 1);
 }
