@@ -154,11 +154,11 @@ std::string variance_svg(const std::vector<HalfspaceRow>& rows) {
         {"classical", "classical"}, {"dwivedi", "dwivedi"}, {"boundary, moments 0 and 1", "boundary"}};
     PlotPanel left, right;
     left.width = 260;
-    left.title = "samplers of at most one mode";
+    left.title = "other samplers";
     left.x = {"sampler"};
     left.x.low = 0.5;
     left.x.high = 3.5;
-    right.title = "modes";
+    right.title = "modes, by their number";
     right.x = {"transients beside the discrete mode", PlotAxis::Scale::logarithmic};
     for (std::size_t i = 0; i < others.size(); ++i) {
         left.x.ticks.push_back({static_cast<double>(i + 1), others[i].second});

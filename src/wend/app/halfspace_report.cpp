@@ -64,20 +64,25 @@ std::vector<Figure> figures(const PlanarExperiment& base, const PlanarRun& run, 
          direction_svg(histograms)}};
 }
 
+std::string html_row(const std::vector<std::string>& cells, const char* scope, const char* element) {
+    std::string html = fmt::format("<tr><th scope=\"{}\">{}</th>", scope, escape_markup(cells[1]));
+    for (std::size_t i = 2; i < cells.size(); ++i) {
+        html += fmt::format("<{0}>{1}</{0}>", element, escape_markup(cells[i]));
+    }
+    return html + "</tr>\n";
+}
+
+/// The cells of halfspace_cells() with a group of rows for each albedo.
 std::string html_table(const std::vector<std::vector<std::string>>& cells) {
-    std::string html = "<thead><tr>";
-    for (const std::string& cell : cells.front()) {
-        html += "<th scope=\"col\">" + escape_markup(cell) + "</th>";
-    }
-    html += "</tr></thead>\n<tbody>\n";
+    std::string html = "<thead>" + html_row(cells.front(), "col", "th") + "</thead>\n";
     for (std::size_t row = 1; row < cells.size(); ++row) {
-        html += "<tr><th scope=\"row\">" + escape_markup(cells[row].front()) + "</th>";
-        for (std::size_t i = 1; i < cells[row].size(); ++i) {
-            html += "<td>" + escape_markup(cells[row][i]) + "</td>";
+        if (cells[row].front() != cells[row - 1].front()) {
+            html += fmt::format("<tbody><tr class=\"best\"><th scope=\"rowgroup\" colspan=\"{}\">albedo {}</th></tr>\n",
+                                cells[row].size() - 1, escape_markup(cells[row].front()));
         }
-        html += "</tr>\n";
+        html += html_row(cells[row], "row", "td");
     }
-    return html + "</tbody>\n";
+    return html;
 }
 
 constexpr std::string_view page_template = R"html(<!doctype html>

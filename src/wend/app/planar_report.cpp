@@ -52,7 +52,11 @@ std::string title(const PlanarExperiment& e) {
 std::string mean_text(const Moments& moments) {
     const double error = moments.relative_error();
     const double digits = error > 0 && std::isfinite(error) ? std::ceil(-std::log10(error)) + 2 : 10;
-    return fmt::format("{:.{}g}", moments.mean(), static_cast<int>(std::clamp(digits, 3.0, 15.0)));
+    return fmt::format("{:.{}g}", moments.mean(), static_cast<int>(std::clamp(digits, 3.0, 12.0)));
+}
+
+std::string exact_text(double exact) {
+    return std::isfinite(exact) ? fmt::format("{:.10g}", exact) : "–";
 }
 
 std::string deviation_text(const Moments& moments, double exact) {
@@ -95,7 +99,7 @@ std::string planar_text(const PlanarExperiment& experiment, const PlanarRun& run
         const double exact = result.exact[i];
         const std::string column[] = {mean_text(m),
                                       fmt::format("{:.2g}", m.standard_error()),
-                                      std::isfinite(exact) ? fmt::format("{:.10g}", exact) : "–",
+                                      exact_text(exact),
                                       deviation_text(m, exact),
                                       fmt::format("{:.4g}", m.variance()),
                                       merit_text(figure_of_merit(m, result.seconds))};

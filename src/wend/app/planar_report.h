@@ -19,6 +19,8 @@ std::string planar_text(const PlanarExperiment& experiment, const PlanarRun& run
 
 /// A mean with the digits that its standard error leaves.
 std::string mean_text(const Moments& moments);
+/// An exact value; a dash where there is none.
+std::string exact_text(double exact);
 /// How many standard errors the mean lies from the exact value; a dash where that cannot be said.
 std::string deviation_text(const Moments& moments, double exact);
 /// A figure of merit or a ratio of two; a dash where there is none.

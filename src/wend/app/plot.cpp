@@ -31,7 +31,7 @@ constexpr std::array<Pen, 6> pens = {{
 
 // Colour as an attribute: a page's own rules come before it, and a file that is looked at alone still has one.
 constexpr const char* opening =
-    R"(<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" color="#767676" role="img" aria-label="{}">
+    R"(<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" color="#767676" role="img" aria-label="{2}">
 <style>.plot text{{font:13px system-ui,sans-serif;fill:currentColor;text-anchor:middle}}.plot .end{{text-anchor:end}}.plot .start{{text-anchor:start}}.plot .grid{{stroke:currentColor;stroke-opacity:.13}}.plot .axis{{stroke:currentColor;stroke-opacity:.6;fill:none}}.plot .line{{fill:none;stroke-linejoin:round}}</style>
 )";
 

@@ -75,8 +75,8 @@ std::vector<PlotScale::Tick> PlotScale::ticks() const {
 }
 
 std::vector<PlotScale::Tick> PlotScale::linear_ticks() const {
-    // One, two or five times a power of ten, for about one tick in 70 pixels.
-    const double wanted = std::clamp(std::abs(last_ - first_) / 70, 2.0, 10.0);
+    // One, two or five times a power of ten, for about one tick in 55 pixels.
+    const double wanted = std::clamp(std::abs(last_ - first_) / 55, 2.0, 10.0);
     const double rough = (high_ - low_) / wanted;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     const double ratio = rough / power;

@@ -149,7 +149,8 @@ tbody th { font-weight: 500; }
 .best th, .best td { font-weight: 700; }
 .best .ratio { color: var(--accent); }
 
-.plot { display: block; width: 100%; max-width: 46rem; margin: 0 auto; color: inherit; }
+.plot { display: block; max-width: 100%; height: auto; margin: 0 auto; color: inherit; }
+section > .plot { width: 100%; max-width: 46rem; }
 
 #gallery { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr)); }
 figure { margin: 0; }
