@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace wend {
@@ -65,6 +66,31 @@ TEST(Pcg32, SlightlySkewedNumbersAreRejected) {
         numbers.add(std::pow(random.uniform(), 1.03f));
     }
     EXPECT_LT(numbers.p_value(), test::failing);
+}
+
+TEST(Pcg32, DoublesAreUniformInTheirHighAndTheirLowBits) {
+    Pcg32 random(3);
+    test::Uniformity whole;
+    test::Uniformity low;
+    for (int i = 0; i < 100000; ++i) {
+        const double u = random.uniform_double();
+        ASSERT_GE(u, 0);
+        ASSERT_LT(u, 1);
+        EXPECT_EQ(u * 0x1p53, std::floor(u * 0x1p53));
+        whole.add(u);
+        low.add(std::fmod(u * 0x1p47, 1.0));
+    }
+    EXPECT_GE(whole.p_value(), test::passing);
+    EXPECT_GE(low.p_value(), test::passing);
+}
+
+TEST(Pcg32, TheLowBitsOfAFloatAreRejectedAsADouble) {
+    Pcg32 random(3);
+    test::Uniformity low;
+    for (int i = 0; i < 100000; ++i) {
+        low.add(std::fmod(random.uniform() * 0x1p47, 1.0));
+    }
+    EXPECT_LT(low.p_value(), test::failing);
 }
 
 }  // namespace

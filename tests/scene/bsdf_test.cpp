@@ -2,7 +2,7 @@
 #include <tests/support/chi_square_sphere.h>
 #include <wend/medium/fresnel.h>
 #include <wend/scene/bsdf/bsdf.h>
-#include <wend/scene/bsdf/microfacet.h>
+#include <wend/medium/microfacet.h>
 
 #include <gtest/gtest.h>
 

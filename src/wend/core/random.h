@@ -47,6 +47,12 @@ public:
 
     /// Uniform in [0, 1).
     constexpr float uniform() { return to_unit_float(next()); }
+    /// Uniform in [0, 1) with 53 random bits, from two draws. The 24 bits of a float cannot draw an event rarer than
+    /// 6e-8, nor place a sample between its steps.
+    constexpr double uniform_double() {
+        const auto high = static_cast<std::uint64_t>(next());
+        return static_cast<double>((high << 32 | next()) >> 11) * 0x1p-53;
+    }
     Vec2 uniform2() {
         const float x = uniform();
         return {x, uniform()};

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <wend/stats/moments.h>
+#include <wend/theory/half_space.h>
+#include <wend/theory/moment_match.h>
 
 #include <cstdint>
 #include <limits>
@@ -17,12 +19,6 @@ enum class Tally { reflectance, transmittance };
 /// What ends walks early or splits them: nothing beyond the sampler's own rule; a window around the expected
 /// contribution, weight times adjoint; or roulette by the weight alone, for comparison.
 enum class PlanarWindow { none, adjoint, weight };
-
-/// Whether Dwivedi's walk stretches its first flight or leaves it classical.
-enum class FirstFlight { classical, stretched };
-
-/// Which moments of the true fluence `boundary` gives its exponential: the zeroth and first, or the first and second.
-enum class MatchedMoments { zeroth_first, first_second };
 
 /// An experiment. Lengths are in mean free paths of the first channel.
 struct PlanarExperiment {

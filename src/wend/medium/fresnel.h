@@ -5,25 +5,27 @@
 #include <wend/core/vector.h>
 
 #include <complex>
+#include <concepts>
 #include <optional>
 
 namespace wend {
 
 /// Unpolarized reflectance of a smooth dielectric; `cosine` is signed (positive: outside), `ior` = inside over outside.
-inline float fresnel_dielectric(float cosine, float ior) {
-    cosine = std::clamp(cosine, -1.0f, 1.0f);
+template <std::floating_point T>
+T fresnel_dielectric(T cosine, T ior) {
+    cosine = std::clamp(cosine, T(-1), T(1));
     if (cosine < 0) {
         ior = 1 / ior;
         cosine = -cosine;
     }
-    const float sin2_t = (1 - cosine * cosine) / (ior * ior);
+    const T sin2_t = (1 - cosine * cosine) / (ior * ior);
     if (sin2_t >= 1) {
         return 1;
     }
-    const float cosine_t = safe_sqrt(1 - sin2_t);
-    const float parallel = (ior * cosine - cosine_t) / (ior * cosine + cosine_t);
-    const float perpendicular = (cosine - ior * cosine_t) / (cosine + ior * cosine_t);
-    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+    const T cosine_t = std::sqrt(1 - sin2_t);
+    const T parallel = (ior * cosine - cosine_t) / (ior * cosine + cosine_t);
+    const T perpendicular = (cosine - ior * cosine_t) / (cosine + ior * cosine_t);
+    return T(0.5) * (parallel * parallel + perpendicular * perpendicular);
 }
 
 /// Reflectance of a smooth conductor with complex index eta + i k relative to the outside; cosine >= 0.

@@ -1,0 +1,61 @@
+#include <wend/core/vector.h>
+#include <wend/decision/path_stretching.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wend {
+
+PlanarFlight PathStretching::sample(const Site& from, double mu, Pcg32& random, Site& to) const {
+    const double boundary = mu >= 0 ? (thickness_ - from.depth) / mu : from.depth / -mu;
+    const double rate = 1 - stretch_ * mu;
+    const double s = -std::log1p(-random.uniform_double()) / rate;
+    if (!(s < boundary)) {
+        return {false, boundary, std::exp((1 - rate) * boundary)};
+    }
+    to.depth = from.depth + s * mu;
+    return {true, s, rate * std::exp((1 - rate) * s)};
+}
+
+double PathStretching::boost(const Site& /*from*/, double mu, const PlanarFlight& outcome, const Site& /*to*/) const {
+    const double rate = 1 - stretch_ * mu;
+    return (outcome.scatters ? rate : 1) * std::exp((1 - rate) * outcome.length);
+}
+
+PlanarDirection PhaseDirection::sample(double /*depth*/, double before, Pcg32& random) const {
+    const double t = 2 * random.uniform_double() - 1;
+    if (g_ == 0) {
+        return {t, 1};
+    }
+    // Either form inverts the distribution exactly; the first is accurate near g = 0, the second near |g| = 1.
+    double cosine;
+    if (std::abs(g_) < 0.5) {
+        const double numerator = t + g_ * (0.5 * (3 + t * t) + g_ * (t + g_ * 0.5 * (t * t - 1)));
+        cosine = numerator / ((1 + g_ * t) * (1 + g_ * t));
+    } else {
+        const double s = (1 - g_ * g_) / (1 + g_ * t);
+        cosine = (1 + g_ * g_ - s * s) / (2 * g_);
+    }
+    cosine = std::clamp(cosine, -1.0, 1.0);
+    const double azimuth = std::numbers::pi * random.uniform_double();
+    const double sines = std::sqrt((1 - cosine * cosine) * std::max(0.0, 1 - before * before));
+    return {std::clamp(before * cosine + sines * std::cos(azimuth), -1.0, 1.0), 1};
+}
+
+DwivediDirection::DwivediDirection(double gap, Heading heading) : sign_(heading == Heading::far ? 1 : -1) {
+    const double d = std::clamp(gap, 1e-9, 1.0);
+    nu_ = 1 / (1 - std::min(d, 1 - 1e-12));
+    logarithm_ = std::log((2 - d) / d);
+}
+
+PlanarDirection DwivediDirection::sample(double /*depth*/, double /*before*/, Pcg32& random) const {
+    const double distance = (nu_ + 1) * std::exp(-logarithm_ * random.uniform_double());  // nu - m
+    return {sign_ * std::clamp(nu_ - distance, -1.0, 1.0), 2 / (logarithm_ * distance)};
+}
+
+double DwivediDirection::boost(double /*depth*/, double /*before*/, double after) const {
+    return 2 / (logarithm_ * (nu_ - sign_ * after));
+}
+
+}  // namespace wend

@@ -1,0 +1,35 @@
+// Decision 3 by expected contribution: roulette and splitting that keep a walk near what it should bring.
+#pragma once
+
+#include <wend/core/random.h>
+
+#include <algorithm>
+
+namespace wend {
+
+/// A window around the ratio of a walk's expected contribution (weight times adjoint) to the value it is estimating
+/// (vorba2016). Inside it a walk goes on; below, it survives with the ratio as its probability; above, it is split into
+/// as many. Never by weight alone: a good guide lets weights vary on purpose, and roulette on them undoes it.
+struct WeightWindow {
+    double low = 1.0 / 3;   ///< in (0,1]
+    double high = 5.0 / 3;  ///< >= 1
+    double least = 1e-3;    ///< probability of survival: an adjoint may be wrong about what it calls worthless
+    int most = 64;          ///< continuations at one vertex; more only lowers the splitting
+
+    /// Number of continuations, 1 or more with the given expectation when it splits; each one's weight is divided by
+    /// `expected`.
+    struct Outcome {
+        int copies = 1;
+        double expected = 1;
+    };
+    Outcome sample(double ratio, Pcg32& random) const {
+        if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
+            return {};
+        }
+        const double expected = std::clamp(ratio, least, static_cast<double>(most));
+        const int whole = static_cast<int>(expected);
+        return {whole + (random.uniform_double() < expected - whole ? 1 : 0), expected};
+    }
+};
+
+}  // namespace wend

@@ -1,0 +1,85 @@
+#include <wend/medium/fresnel.h>
+#include <wend/medium/microfacet.h>
+#include <wend/medium/rough_boundary.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace wend {
+namespace {
+
+/// Of the quadratures: strata over microfacets a side, and azimuths.
+constexpr int strata = 64;
+constexpr int azimuths = 256;
+
+/// Calls use(u) for the middle of every stratum, and returns the mean of what it gives.
+double stratified_mean(const auto& use) {
+    double sum = 0;
+    for (int i = 0; i < strata; ++i) {
+        for (int j = 0; j < strata; ++j) {
+            sum += use(Vec2((static_cast<float>(i) + 0.5f) / strata, (static_cast<float>(j) + 0.5f) / strata));
+        }
+    }
+    return sum / (strata * strata);
+}
+
+Vec3 at_cosine(double cosine, double azimuth = 0) {
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    return {static_cast<float>(sine * std::cos(azimuth)), static_cast<float>(sine * std::sin(azimuth)),
+            static_cast<float>(cosine)};
+}
+
+}  // namespace
+
+RoughBoundary::Encounter RoughBoundary::encounter(double cosine, const Vec2& u, bool outside) const {
+    const auto alpha = static_cast<float>(alpha_);
+    const Microfacets facets(alpha, alpha);
+    // The normal points to the side the walk is on; `ior` is the index beyond over the index here.
+    const auto ior = static_cast<float>(outside ? ior_ : 1 / ior_);
+    const Vec3 w = at_cosine(std::max(cosine, 1e-6));
+    const Vec3 m = facets.sample_visible(w, u);
+    const float c = dot(w, m);
+    Encounter encounter;
+    if (c <= 0) {
+        return encounter;
+    }
+    const float reflectance = fresnel_dielectric(c, ior);
+    const Vec3 reflected = m * (2 * c) - w;
+    if (reflected.z > 0) {
+        encounter.reflected_cosine = static_cast<double>(reflected.z);
+        encounter.reflected_weight = static_cast<double>(reflectance * facets.g(w, reflected) / facets.g1(w));
+    }
+    if (const auto refracted = refract(w, m, ior); refracted && refracted->direction.z < 0) {
+        encounter.transmitted_cosine = static_cast<double>(-refracted->direction.z);
+        encounter.transmitted_weight =
+            static_cast<double>((1 - reflectance) * facets.g(w, refracted->direction) / facets.g1(w));
+    }
+    return encounter;
+}
+
+double RoughBoundary::mean_transmitted(double cosine, const std::function<double(double)>& value, bool outside) const {
+    return stratified_mean([&](const Vec2& u) {
+        const Encounter e = encounter(cosine, u, outside);
+        return e.transmitted_weight > 0 ? e.transmitted_weight * value(e.transmitted_cosine) : 0;
+    });
+}
+
+double RoughBoundary::reflectance_from_outside(double cosine) const {
+    return stratified_mean([&](const Vec2& u) { return encounter(cosine, u, true).reflected_weight; });
+}
+
+double RoughBoundary::reflection(double from, double to) const {
+    const auto alpha = static_cast<float>(alpha_);
+    const Microfacets facets(alpha, alpha);
+    const Vec3 w = at_cosine(from);
+    double sum = 0;
+    for (int i = 0; i < azimuths; ++i) {
+        const Vec3 other = at_cosine(to, 2 * std::numbers::pi * (i + 0.5) / azimuths);
+        const Vec3 m = normalize(w + other);
+        const float reflectance = fresnel_dielectric(-dot(w, m), static_cast<float>(ior_));
+        sum += static_cast<double>(reflectance * facets.d(m) * facets.g(w, other));
+    }
+    return sum / azimuths * 2 * std::numbers::pi / (4 * from);
+}
+
+}  // namespace wend
