@@ -9,6 +9,8 @@ Action add_render_command(CLI::App& program);
 Action add_compare_command(CLI::App& program);
 Action add_metric_command(CLI::App& program);
 Action add_demo_command(CLI::App& program);
+Action add_halfspace_command(CLI::App& program);
+Action add_slab_command(CLI::App& program);
 
 /// The names that --sampling takes, for help texts.
 std::string guidable_decisions_text();

@@ -29,9 +29,9 @@ std::string json_target_problem(const std::string& name) {
 void CommonOptions::add_to(CLI::App& command) {
     command.add_option("--json", json, "write the results as JSON to this file ('-': standard output)")
         ->check(json_target_problem);
-    command.add_option("--seed", seed, "seed of the random numbers (default: the scene's, or 0)")
+    command.add_option("--seed", seed, "seed of the random numbers (default: the scene's if there is one, or 0)")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--threads", threads, "number of threads (0: all); the picture does not depend on it")
+    command.add_option("--threads", threads, "number of threads (0: all); the result does not depend on it")
         ->check(CLI::Range(0, 4096));
     command.add_flag("--quiet", quiet, "no progress and no notes");
 }

@@ -24,18 +24,21 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::update(const RenderProgress& p) {
+    update(p.fraction, p.seconds, fmt::format("{} spp  noise {:.1f} %", p.samples, 100 * p.relative_noise));
+}
+
+void ProgressBar::update(double fraction, double seconds, const std::string& detail) {
     const auto now = std::chrono::steady_clock::now();
     const auto interval = std::chrono::milliseconds(terminal_ ? 100 : 10000);
-    if (!enabled_ || (now - last_ < interval && p.fraction < 1)) {
+    if (!enabled_ || (now - last_ < interval && fraction < 1)) {
         return;
     }
     last_ = now;
-    const double left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : 0;
-    const std::string state = fmt::format("{:3.0f} %  {} spp  {} left  noise {:.1f} %", 100 * p.fraction, p.samples,
-                                          format_duration(left), 100 * p.relative_noise);
+    const double left = fraction > 0 ? seconds * (1 - fraction) / fraction : 0;
+    const std::string state = fmt::format("{:3.0f} %  {} left  {}", 100 * fraction, format_duration(left), detail);
     if (terminal_) {
         constexpr int width = 30;
-        const int full = std::clamp(static_cast<int>(std::lround(width * p.fraction)), 0, width);
+        const int full = std::clamp(static_cast<int>(std::lround(width * fraction)), 0, width);
         stream_ << fmt::format("\r{} [{}{}] {}\x1b[K", label_, std::string(static_cast<std::size_t>(full), '='),
                                std::string(static_cast<std::size_t>(width - full), ' '), state);
         drawn_ = true;

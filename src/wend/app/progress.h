@@ -8,7 +8,7 @@
 
 namespace wend {
 
-/// Shows how far a render is: a bar that redraws itself on a terminal, a line now and then elsewhere, nothing where
+/// Shows how far long work is: a bar that redraws itself on a terminal, a line now and then elsewhere, nothing where
 /// disabled.
 class ProgressBar {
 public:
@@ -17,6 +17,8 @@ public:
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
+    /// `fraction` of the work took `seconds`; `detail` follows the time left.
+    void update(double fraction, double seconds, const std::string& detail);
     void update(const RenderProgress& progress);
 
 private:

@@ -149,7 +149,8 @@ tbody th { font-weight: 500; }
 .best th, .best td { font-weight: 700; }
 .best .ratio { color: var(--accent); }
 
-.convergence { display: block; width: 100%; max-width: 46rem; margin: 0 auto; }
+.plot { display: block; max-width: 100%; height: auto; margin: 0 auto; color: inherit; }
+section > .plot { width: 100%; max-width: 46rem; }
 
 #gallery { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr)); }
 figure { margin: 0; }
@@ -168,7 +169,7 @@ dd { margin: 0; overflow-wrap: anywhere; text-align: right; font-variant-numeric
   .controls fieldset { grid-row: 2; grid-column: 1 / -1; justify-self: center; }
   select { max-width: none; }
   th, td { padding: .45rem .5rem; }
-  section .convergence text { font-size: 16px; }
+  section .plot text { font-size: 16px; }
 }
 )css";
 
