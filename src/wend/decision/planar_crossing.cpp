@@ -97,7 +97,8 @@ PlanarCrossing GuidedCrossing::sample_rough(bool at_far, double cosine, Pcg32& r
     std::array<Candidate, 2 * candidates> all;
     double total = 0;
     for (std::size_t i = 0; i < candidates; ++i) {
-        const RoughBoundary::Encounter e = boundary.rough->encounter_from_inside(cosine, golden_lattice_point(static_cast<int>(i), candidates, shift));
+        const RoughBoundary::Encounter e =
+            boundary.rough->encounter_from_inside(cosine, golden_lattice_point(static_cast<int>(i), candidates, shift));
         Candidate& leaving = all[2 * i];
         leaving.crossing = {true, e.transmitted_cosine, e.transmitted_weight};
         if (e.transmitted_weight > 0 && boundary.illumination) {
@@ -106,8 +107,7 @@ PlanarCrossing GuidedCrossing::sample_rough(bool at_far, double cosine, Pcg32& r
         Candidate& staying = all[2 * i + 1];
         staying.crossing = {false, e.reflected_cosine, e.reflected_weight};
         if (e.reflected_weight > 0) {
-            staying.value = e.reflected_weight *
-                            interpolate(inward, e.reflected_cosine);
+            staying.value = e.reflected_weight * interpolate(inward, e.reflected_cosine);
         }
         total += leaving.value + staying.value;
     }

@@ -23,7 +23,8 @@ PlanarEntry::PlanarEntry(const PlanarSlab& slab, const PlanarAdjoint* adjoint) :
         table_.emplace(std::vector<double>{0, 1}, cells, 1);
         std::vector<double> density = table_->places(0, resolution);
         for (double& squared : density) {
-            squared = value(*adjoint, std::sqrt(std::max(squared, 1e-18)));
+            const double outside = std::sqrt(std::max(squared, 1e-18));
+            squared = value(*adjoint, outside) + reflection(outside);
         }
         table_->set_row(0, density, resolution);
     }
@@ -98,23 +99,23 @@ double PlanarEntry::expected(const PlanarAdjoint& adjoint) const {
     return sum;
 }
 
-double PlanarEntry::expected_reflection() const {
+double PlanarEntry::reflection(double outside) const {
     const PlanarBoundary& near = slab_->near;
     if (!near.illumination || near.ior == 1) {
         return 0;
     }
-    // The sky is uniform wherever this is asked: a constant may be taken out.
-    const auto reflected = [&](double outside) {
-        return near.rough ? near.rough->reflectance_from_outside(outside) * near.illumination(outside)
-                          : fresnel_dielectric(outside, near.ior) * near.illumination(outside);
-    };
+    return near.rough ? near.rough->reflected_from_outside(outside, near.illumination)
+                      : fresnel_dielectric(outside, near.ior) * near.illumination(outside);
+}
+
+double PlanarEntry::expected_reflection() const {
     if (cosine_) {
-        return reflected(*cosine_);
+        return reflection(*cosine_);
     }
-    const Quadrature rule = gauss_legendre(near.rough ? 24 : 96);
+    const Quadrature rule = gauss_legendre(slab_->near.rough ? 24 : 96);
     double sum = 0;
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-        sum += rule.weights[i] * 2 * rule.nodes[i] * reflected(rule.nodes[i]);
+        sum += rule.weights[i] * 2 * rule.nodes[i] * reflection(rule.nodes[i]);
     }
     return sum;
 }

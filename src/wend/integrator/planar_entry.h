@@ -39,6 +39,7 @@ public:
 private:
     Outcome enter(double outside, Pcg32& random) const;
     double value(const PlanarAdjoint& adjoint, double outside) const;
+    double reflection(double outside) const;
 
     const PlanarSlab* slab_;
     std::optional<double> cosine_;

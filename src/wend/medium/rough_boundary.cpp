@@ -64,8 +64,11 @@ double RoughBoundary::mean_transmitted(double cosine, const std::function<double
     });
 }
 
-double RoughBoundary::reflectance_from_outside(double cosine) const {
-    return lattice_mean([&](const Vec2& u) { return encounter(cosine, u, true).reflected_weight; });
+double RoughBoundary::reflected_from_outside(double cosine, const std::function<double(double)>& value) const {
+    return lattice_mean([&](const Vec2& u) {
+        const Encounter e = encounter(cosine, u, true);
+        return e.reflected_weight > 0 ? e.reflected_weight * value(e.reflected_cosine) : 0;
+    });
 }
 
 double RoughBoundary::reflection(double from, double to) const {

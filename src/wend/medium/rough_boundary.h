@@ -31,8 +31,8 @@ public:
     double transmitted_from_outside(double cosine, const std::function<double(double)>& value) const {
         return mean_transmitted(cosine, value, true);
     }
-    /// The same of the reflected weight seen from outside, without a function: the directional reflectance.
-    double reflectance_from_outside(double cosine) const;
+    /// Mean of reflected weight times a function of the reflected cosine.
+    double reflected_from_outside(double cosine, const std::function<double(double)>& value) const;
 
     /// Density, by the new cosine, of being reflected from inside cosine `from` to inside cosine `to`; its integral is
     /// the probability of being reflected.

@@ -65,8 +65,8 @@ inline float to_exponential(float u, float rate) {
     return -std::log(1 - u) / rate;
 }
 
-/// Point i of n in a lattice of the unit square by the golden ratio, moved by a shift in [0,1)² around its edges. With a
-/// uniformly random shift each point is uniform.
+/// Point i of n in a lattice of the unit square by the golden ratio, moved by a shift in [0,1)² around its edges. With
+/// a uniformly random shift each point is uniform.
 inline Vec2 golden_lattice_point(int i, int n, const Vec2& shift) {
     constexpr double golden = 0.6180339887498949;
     const double x = (i + 0.5) / n + static_cast<double>(shift.x);

@@ -1,7 +1,7 @@
 #include <wend/medium/fresnel.h>
+#include <wend/medium/microfacet.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/bsdf.h>
-#include <wend/medium/microfacet.h>
 
 namespace wend {
 

@@ -1,6 +1,6 @@
 #include <wend/medium/fresnel.h>
-#include <wend/scene/bsdf/bsdf.h>
 #include <wend/medium/microfacet.h>
+#include <wend/scene/bsdf/bsdf.h>
 
 namespace wend {
 namespace {
