@@ -68,7 +68,7 @@ double sample_azimuth(double g, double mu, double mu_new, Pcg32& random) {
         const double tangent = std::tan(std::numbers::pi * (random.uniform_double() - 0.5));
         const double tangent2 = tangent * tangent;
         const double u = random.uniform_double();
-        if (u * u * (1 + tangent2) <= 1 + ratio * tangent2) {
+        if (!(u * u * (1 + tangent2) > 1 + ratio * tangent2)) {  // accepts what is not a number, too
             const double phi = 2 * std::atan(std::sqrt(ratio) * tangent);
             return d.aligned <= d.opposed ? phi : phi - std::copysign(std::numbers::pi, phi);
         }

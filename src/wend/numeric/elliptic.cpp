@@ -18,7 +18,7 @@ double elliptic_e(double m) {
         const double difference = (arithmetic - geometric) / 2;
         const double mean = (arithmetic + geometric) / 2;
         rest -= weight * difference * difference;
-        if (difference < 1e-6 * mean) {
+        if (!(difference >= 1e-6 * mean)) {  // also where m is not a number
             // The next difference is this one's square, and the next mean differs from this one by its half.
             return std::numbers::pi / 2 / (mean - difference * difference / (4 * mean)) * rest;
         }

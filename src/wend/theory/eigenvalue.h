@@ -12,12 +12,15 @@ struct DiscreteEigenvalue {
     double k = 1;    ///< 1/nu: 0 without absorption, 1 without scattering
     double gap = 0;  ///< 1 - 1/nu
 
+    /// A decay of any other length nu in [1, infinity]: for guides that were made for another medium.
+    static DiscreteEigenvalue of_length(double nu) { return {1 / nu, 1 - 1 / nu}; }
+
     /// Decay length in mean free paths; infinite without absorption.
     double nu() const { return 1 / k; }
 };
 
 /// Isotropic scattering, 1 = albedo nu atanh(1/nu), for an albedo in [0, 1]. The relative error of k, nu and gap is
-/// below 1e-12. Below an albedo of 0.0027 the gap, about 2 exp(-2/albedo), is less than any double: it is 0, and nu
+/// below 1e-12. Below an albedo of 0.0028 the gap, about 2 exp(-2/albedo), is less than any double: it is 0, and nu
 /// is 1.
 DiscreteEigenvalue discrete_eigenvalue(double albedo);
 

@@ -3,7 +3,6 @@
 #include <wend/theory/h_function.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace wend {
@@ -66,7 +65,7 @@ double HFunction::logarithm(double mu) const {
     double sum = limit / 2;
     for (const Node& node : nodes_) {
         const double x = mu * node.t;
-        sum += (node.weight - limit_weight) * x / (1 + x * x);
+        sum += (node.weight - limit_weight) / (x + 1 / x);  // both ends are reached without overflow
     }
     return std::log1p(mu * eigenvalue_.gap / (1 + eigenvalue_.k * mu)) - sum;
 }
@@ -77,12 +76,12 @@ double HFunction::operator()(double mu) const {
 
 double HFunction::moment(int degree) const {
     // H has a term mu ln mu at 0, which the substitution mu = t³ smooths.
-    static const Quadrature rule = gauss_legendre(64);
+    const Quadrature rule = gauss_legendre(64);
     double sum = 0;
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
         const double t = rule.nodes[i];
         const double mu = t * t * t;
-        sum += rule.weights[i] * 3 * t * t * (*this)(mu)*std::pow(mu, degree);
+        sum += rule.weights[i] * 3 * t * t * std::pow(mu, degree) * (*this)(mu);
     }
     return sum;
 }

@@ -20,7 +20,7 @@ public:
     /// ln H(mu), accurate in relative terms also where H is close to 1.
     double logarithm(double mu) const;
 
-    /// ∫_0^1 H(mu) mu^degree dmu; relative error below 1e-13. Costs 64 values.
+    /// ∫_0^1 H(mu) mu^degree dmu; relative error below 1e-13. Costs about 0.1 ms.
     double moment(int degree) const;
 
     double albedo() const { return albedo_; }

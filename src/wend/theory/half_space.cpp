@@ -49,17 +49,14 @@ double dwivedi_variance(double albedo, double mu0, FirstFlight first) {
     return second_moment(h, h.eigenvalue().k, mu0, first) - mean * mean;
 }
 
-double stretched_second_moment(double albedo, double nu, double mu0, FirstFlight first) {
-    const double effective = effective_albedo(albedo, nu);
-    return effective <= 1 ? second_moment(HFunction(effective), 1 / nu, mu0, first) : infinity;
+double stretched_second_moment(double albedo, const DiscreteEigenvalue& guide, double mu0, FirstFlight first) {
+    const double effective = effective_albedo(albedo, guide);
+    return effective <= 1 ? second_moment(HFunction(effective), guide.k, mu0, first) : infinity;
 }
 
-double effective_albedo(double albedo, double nu) {
-    WEND_EXPECT(albedo >= 0 && albedo <= 1 && nu >= 1);
-    if (albedo == 0 || std::isinf(nu)) {
-        return albedo * albedo;
-    }
-    return albedo * albedo * nu * std::log1p(2 / (nu - 1)) / 2;
+double effective_albedo(double albedo, const DiscreteEigenvalue& guide) {
+    const double nu_atanh = guide.k > 0 ? std::log1p(2 * guide.k / guide.gap) / (2 * guide.k) : 1;
+    return albedo > 0 ? albedo * albedo * nu_atanh : 0;
 }
 
 double extrapolation_distance(double albedo) {

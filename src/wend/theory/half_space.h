@@ -4,6 +4,8 @@
 // finds, so the mean is the reflectance for light that comes from there.
 #pragma once
 
+#include <wend/theory/eigenvalue.h>
+
 namespace wend {
 
 /// The part of a beam along mu0 that is reflected (chandrasekhar1960): 1 - sqrt(1 - albedo) H(mu0).
@@ -27,13 +29,13 @@ enum class FirstFlight { classical, stretched };
 /// nu the discrete eigenvalue.
 double dwivedi_variance(double albedo, double mu0, FirstFlight first);
 
-/// Second moment of such a walk made for any decay length nu in [1, infinity], in a medium of the given albedo. Squared
-/// weights multiply as in a half-space of effective_albedo(), and beyond 1 the moment is infinite.
-double stretched_second_moment(double albedo, double nu, double mu0, FirstFlight first);
+/// Second moment of such a walk made for any decay, in a medium of the given albedo. Squared weights multiply as in a
+/// half-space of effective_albedo(), and beyond 1 the moment is infinite.
+double stretched_second_moment(double albedo, const DiscreteEigenvalue& guide, double mu0, FirstFlight first);
 
-/// albedo² nu atanh(1/nu); infinite for nu = 1. If nu is the eigenvalue of albedo a, it is at most 1 if and only if
-/// a >= albedo²: no colour may be guided by one so much darker.
-double effective_albedo(double albedo, double nu);
+/// albedo² nu atanh(1/nu) with the guide's nu; infinite for nu = 1. If nu is the eigenvalue of albedo a, this is
+/// albedo²/a: at most 1 if and only if a >= albedo², so that no colour may be guided by one so much darker.
+double effective_albedo(double albedo, const DiscreteEigenvalue& guide);
 
 /// Milne's problem: a source at infinite depth, no incident radiance. Deep inside the fluence follows
 /// sinh((x + distance) / nu), or x + distance without absorption; continued beyond the surface it vanishes at this
