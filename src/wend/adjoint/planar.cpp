@@ -1,6 +1,7 @@
 #include <wend/adjoint/planar.h>
 #include <wend/core/vector.h>
 #include <wend/medium/fresnel.h>
+#include <wend/numeric/interpolation.h>
 #include <wend/numeric/quadrature.h>
 
 #include <algorithm>
@@ -241,15 +242,7 @@ PlanarAdjoint::Source PlanarAdjoint::source(const Site& site, double mu) const {
 
 double PlanarAdjoint::arrival(bool at_far, double t) const {
     const std::vector<double>& table = rough_arrival_[at_far ? 1 : 0];
-    if (table.empty()) {
-        return smooth_arrival(at_far, t);
-    }
-    const auto last = static_cast<double>(table.size() - 1);
-    const double position = std::clamp(t, 0.0, 1.0) * last;
-    const double below = std::min(std::floor(position), last - 1);
-    const auto i = static_cast<std::size_t>(below);
-    const double f = position - below;
-    return (1 - f) * table[i] + f * table[i + 1];
+    return table.empty() ? smooth_arrival(at_far, t) : interpolate(table, t);
 }
 
 double PlanarAdjoint::smooth_arrival(bool at_far, double t) const {

@@ -1,4 +1,6 @@
 #include <wend/decision/planar_crossing.h>
+#include <wend/numeric/interpolation.h>
+#include <wend/sampling/warp.h>
 
 #include <algorithm>
 #include <array>
@@ -44,6 +46,17 @@ PlanarCrossing ClassicalCrossing::sample(bool at_far, double cosine, Pcg32& rand
     return {false, e.reflected_cosine, total};
 }
 
+GuidedCrossing::GuidedCrossing(const PlanarAdjoint& adjoint) : adjoint_(&adjoint) {
+    constexpr int steps = 256;
+    for (const bool at_far : {false, true}) {
+        if (boundary_of(adjoint.slab(), at_far).rough && !(at_far && std::isinf(adjoint.slab().thickness))) {
+            for (int i = 0; i <= steps; ++i) {
+                inward_[at_far ? 1 : 0].push_back(radiance_inward(at_far, std::max(i, 1) / static_cast<double>(steps)));
+            }
+        }
+    }
+}
+
 double GuidedCrossing::radiance_inward(bool at_far, double cosine) const {
     return std::max(0.0, adjoint_->radiance(at_far ? adjoint_->slab().thickness : 0, at_far ? -cosine : cosine));
 }
@@ -74,7 +87,9 @@ PlanarCrossing GuidedCrossing::sample(bool at_far, double cosine, Pcg32& random)
 
 PlanarCrossing GuidedCrossing::sample_rough(bool at_far, double cosine, Pcg32& random) const {
     const PlanarBoundary& boundary = boundary_of(adjoint_->slab(), at_far);
-    constexpr int candidates = 4;
+    constexpr int candidates = 16;
+    const std::vector<double>& inward = inward_[at_far ? 1 : 0];
+    const Vec2 shift = random.uniform2();
     struct Candidate {
         PlanarCrossing crossing;
         double value = 0;  // expected contribution
@@ -82,7 +97,7 @@ PlanarCrossing GuidedCrossing::sample_rough(bool at_far, double cosine, Pcg32& r
     std::array<Candidate, 2 * candidates> all;
     double total = 0;
     for (std::size_t i = 0; i < candidates; ++i) {
-        const RoughBoundary::Encounter e = boundary.rough->encounter_from_inside(cosine, random.uniform2());
+        const RoughBoundary::Encounter e = boundary.rough->encounter_from_inside(cosine, golden_lattice_point(static_cast<int>(i), candidates, shift));
         Candidate& leaving = all[2 * i];
         leaving.crossing = {true, e.transmitted_cosine, e.transmitted_weight};
         if (e.transmitted_weight > 0 && boundary.illumination) {
@@ -91,7 +106,8 @@ PlanarCrossing GuidedCrossing::sample_rough(bool at_far, double cosine, Pcg32& r
         Candidate& staying = all[2 * i + 1];
         staying.crossing = {false, e.reflected_cosine, e.reflected_weight};
         if (e.reflected_weight > 0) {
-            staying.value = e.reflected_weight * radiance_inward(at_far, e.reflected_cosine);
+            staying.value = e.reflected_weight *
+                            interpolate(inward, e.reflected_cosine);
         }
         total += leaving.value + staying.value;
     }

@@ -4,6 +4,9 @@
 #include <wend/adjoint/planar.h>
 #include <wend/core/random.h>
 
+#include <array>
+#include <vector>
+
 namespace wend {
 
 /// Outcome at a boundary. The walk multiplies its weight by `weight`, probability by physics over the one drawn with; a
@@ -30,12 +33,12 @@ private:
 };
 
 /// By what either outcome brings: reflectance times radiance inside against transmittance times illumination outside. A
-/// rough boundary has no closed form for that: of several microfacets one is chosen in proportion to what the better
-/// known rest of the walk makes of it, and the weight is their mean (talbot2005).
+/// rough boundary has no closed form for that: of several microfacets, and both ways to leave each, one is chosen in
+/// proportion to what it would bring, and the weight is the mean of all (talbot2005).
 class GuidedCrossing {
 public:
     /// The adjoint is not owned.
-    explicit GuidedCrossing(const PlanarAdjoint& adjoint) : adjoint_(&adjoint) {}
+    explicit GuidedCrossing(const PlanarAdjoint& adjoint);
 
     PlanarCrossing sample(bool at_far, double cosine, Pcg32& random) const;
 
@@ -47,6 +50,9 @@ private:
     double radiance_inward(bool at_far, double cosine) const;
 
     const PlanarAdjoint* adjoint_;
+    // Radiance from inside at either boundary, at equal steps of the cosine: for rough boundaries, where it only weighs
+    // candidates against each other.
+    std::array<std::vector<double>, 2> inward_;
 };
 
 }  // namespace wend

@@ -22,8 +22,8 @@ PlanarEntry::PlanarEntry(const PlanarSlab& slab, const PlanarAdjoint* adjoint) :
         constexpr int cells = 128, resolution = 256;
         table_.emplace(std::vector<double>{0, 1}, cells, 1);
         std::vector<double> density = table_->places(0, resolution);
-        for (double& place : density) {
-            place *= value(*adjoint, std::max(place, 1e-9));
+        for (double& squared : density) {
+            squared = value(*adjoint, std::sqrt(std::max(squared, 1e-18)));
         }
         table_->set_row(0, density, resolution);
     }
@@ -72,16 +72,16 @@ PlanarEntry::Outcome PlanarEntry::sample(Pcg32& random) const {
     if (!table_) {
         return enter(std::sqrt(u), random);
     }
-    const QuantileTable::Sample drawn = table_->sample({}, u);
-    Outcome entry = enter(std::max(drawn.value, 1e-12), random);
-    entry.boost = drawn.density / (2 * entry.outside);
+    const QuantileTable::Sample squared = table_->sample({}, u);
+    Outcome entry = enter(std::sqrt(std::max(squared.value, 1e-24)), random);
+    entry.boost = squared.density;
     entry.reflected /= entry.boost;
     entry.weight /= entry.boost;
     return entry;
 }
 
 double PlanarEntry::boost(double outside) const {
-    return table_ ? table_->density({}, outside) / (2 * outside) : 1;
+    return table_ ? table_->density({}, outside * outside) : 1;
 }
 
 double PlanarEntry::expected(const PlanarAdjoint& adjoint) const {

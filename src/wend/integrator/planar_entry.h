@@ -42,7 +42,7 @@ private:
 
     const PlanarSlab* slab_;
     std::optional<double> cosine_;
-    std::optional<QuantileTable> table_;
+    std::optional<QuantileTable> table_;  // over the squared cosine, of which Lambertian light has equal parts
 };
 
 }  // namespace wend

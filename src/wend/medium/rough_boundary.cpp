@@ -1,6 +1,7 @@
 #include <wend/medium/fresnel.h>
 #include <wend/medium/microfacet.h>
 #include <wend/medium/rough_boundary.h>
+#include <wend/sampling/warp.h>
 
 #include <cmath>
 #include <numbers>
@@ -8,19 +9,18 @@
 namespace wend {
 namespace {
 
-/// Of the quadratures: strata over microfacets a side, and azimuths.
-constexpr int strata = 64;
+/// Of the quadratures: points over microfacets, and azimuths.
+constexpr int points = 8192;
 constexpr int azimuths = 256;
 
-/// Calls use(u) for the middle of every stratum, and returns the mean of what it gives.
-double stratified_mean(const auto& use) {
+/// The mean of use(u) over a lattice in the unit square. (On a grid the disk of visible normals would have few radii,
+/// and transmission ends at one.)
+double lattice_mean(const auto& use) {
     double sum = 0;
-    for (int i = 0; i < strata; ++i) {
-        for (int j = 0; j < strata; ++j) {
-            sum += use(Vec2((static_cast<float>(i) + 0.5f) / strata, (static_cast<float>(j) + 0.5f) / strata));
-        }
+    for (int i = 0; i < points; ++i) {
+        sum += use(golden_lattice_point(i, points, Vec2(0, 0)));
     }
-    return sum / (strata * strata);
+    return sum / points;
 }
 
 Vec3 at_cosine(double cosine, double azimuth = 0) {
@@ -58,14 +58,14 @@ RoughBoundary::Encounter RoughBoundary::encounter(double cosine, const Vec2& u, 
 }
 
 double RoughBoundary::mean_transmitted(double cosine, const std::function<double(double)>& value, bool outside) const {
-    return stratified_mean([&](const Vec2& u) {
+    return lattice_mean([&](const Vec2& u) {
         const Encounter e = encounter(cosine, u, outside);
         return e.transmitted_weight > 0 ? e.transmitted_weight * value(e.transmitted_cosine) : 0;
     });
 }
 
 double RoughBoundary::reflectance_from_outside(double cosine) const {
-    return stratified_mean([&](const Vec2& u) { return encounter(cosine, u, true).reflected_weight; });
+    return lattice_mean([&](const Vec2& u) { return encounter(cosine, u, true).reflected_weight; });
 }
 
 double RoughBoundary::reflection(double from, double to) const {

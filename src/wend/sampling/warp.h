@@ -4,6 +4,7 @@
 #include <wend/core/vector.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace wend {
 
@@ -62,6 +63,16 @@ inline Vec2 to_triangle(const Vec2& u) {
 /// exact.
 inline float to_exponential(float u, float rate) {
     return -std::log(1 - u) / rate;
+}
+
+/// Point i of n in a lattice of the unit square by the golden ratio, moved by a shift in [0,1)² around its edges. With a
+/// uniformly random shift each point is uniform.
+inline Vec2 golden_lattice_point(int i, int n, const Vec2& shift) {
+    constexpr double golden = 0.6180339887498949;
+    const double x = (i + 0.5) / n + static_cast<double>(shift.x);
+    const double y = i * golden + static_cast<double>(shift.y);
+    return {std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f),
+            std::min(static_cast<float>(y - std::floor(y)), 0x1.fffffep-1f)};
 }
 
 }  // namespace wend
