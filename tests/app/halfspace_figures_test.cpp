@@ -92,6 +92,7 @@ TEST(HalfspaceTable, VariesSamplersAndAlbedosAlone) {
 TEST(HalfspaceTable, ShowsWhatIsUnknownAsADash) {
     std::vector<HalfspaceRow> rows = {row(0.4, "classical", 8, 0.1), row(0.4, "modes", 8, 0)};
     rows[0].gain = 1;
+    rows[0].closed_form = 0.1;
     rows[1].result.exact = {std::nan("")};
     const auto cells = halfspace_cells(rows);
     ASSERT_EQ(cells.size(), 3u);
@@ -99,9 +100,12 @@ TEST(HalfspaceTable, ShowsWhatIsUnknownAsADash) {
         EXPECT_EQ(line.size(), cells.front().size());
     }
     EXPECT_EQ(std::count(cells[1].begin(), cells[1].end(), "–"), 0);
-    EXPECT_EQ(std::count(cells[2].begin(), cells[2].end(), "–"), 4) << "exact, off by, ratio and figure of merit";
+    EXPECT_EQ(std::count(cells[2].begin(), cells[2].end(), "–"), 5)
+        << "exact, off by, closed form, ratio and figure of merit";
     const nlohmann::json json = halfspace_json(rows, {});
     EXPECT_EQ(json["rows"][0]["fom_ratio"], 1);
+    EXPECT_EQ(json["rows"][0]["closed_form_variance"], 0.1);
+    EXPECT_TRUE(json["rows"][1]["closed_form_variance"].is_null());
     EXPECT_TRUE(json["rows"][1]["fom"].is_null());
     EXPECT_TRUE(json["rows"][1]["fom_ratio"].is_null());
     EXPECT_TRUE(json["rows"][1]["exact"].is_null());

@@ -2,6 +2,7 @@
 #include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
 #include <wend/stats/figure_of_merit.h>
+#include <wend/theory/half_space.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,22 @@ std::vector<PlanarExperiment> variants(const PlanarExperiment& base) {
         add("modes").modes = modes;
     }
     return result;
+}
+
+/// The variance of one walk in closed form, where there is one.
+std::optional<double> closed_form(const PlanarExperiment& e) {
+    if (e.g != 0 || e.ior != 1 || !e.mu0 || e.window != PlanarWindow::none) {
+        return std::nullopt;
+    }
+    const double albedo = e.albedo.front();
+    if (e.sampler == "analog") {
+        const double survival = reflectance(albedo, *e.mu0);
+        return survival * (1 - survival);
+    }
+    if (e.sampler == "classical") {
+        return classical_variance(albedo, *e.mu0);
+    }
+    return e.sampler == "dwivedi" ? std::optional(dwivedi_variance(albedo, *e.mu0, e.first_flight)) : std::nullopt;
 }
 
 std::optional<double> merit(const HalfspaceRow& row) {
@@ -62,7 +79,7 @@ std::vector<HalfspaceRow> run_halfspace_table(const std::vector<PlanarExperiment
     std::vector<HalfspaceRow> rows;
     for (const PlanarExperiment& experiment : experiments) {
         progress(rows.size());
-        rows.push_back({experiment, run_planar(experiment, run), {}});
+        rows.push_back({experiment, run_planar(experiment, run), closed_form(experiment), {}});
     }
     for (HalfspaceRow& row : rows) {
         const HalfspaceRow* classical = classical_beside(row, rows);
@@ -76,15 +93,16 @@ std::vector<HalfspaceRow> run_halfspace_table(const std::vector<PlanarExperiment
 
 std::vector<std::vector<std::string>> halfspace_cells(const std::vector<HalfspaceRow>& rows) {
     std::vector<std::vector<std::string>> cells = {{"albedo", "sampler", "mean", "± error", "exact", "off by",
-                                                    "variance", "× classical", "FOM, 1/s", "collisions", "seconds",
-                                                    "set-up"}};
+                                                    "variance", "closed form", "× classical", "FOM, 1/s", "collisions",
+                                                    "seconds", "set-up"}};
     for (const HalfspaceRow& row : rows) {
         const Moments& m = row.result.channels.front();
         const double exact = row.result.exact.front();
         cells.push_back({fmt::format("{:g}", row.experiment.albedo.front()), sampler_text(row.experiment), mean_text(m),
                          fmt::format("{:.1e}", m.standard_error()), exact_text(exact), deviation_text(m, exact),
-                         fmt::format("{:.3e}", m.variance()), merit_text(row.gain), merit_text(merit(row)),
-                         fmt::format("{:.2f}", row.result.collisions_per_walk),
+                         fmt::format("{:.3e}", m.variance()),
+                         row.closed_form ? fmt::format("{:.3e}", *row.closed_form) : "–", merit_text(row.gain),
+                         merit_text(merit(row)), fmt::format("{:.2f}", row.result.collisions_per_walk),
                          fmt::format("{:.3g}", row.result.seconds), fmt::format("{:.2g}", row.result.setup_seconds)});
     }
     return cells;
@@ -96,6 +114,7 @@ nlohmann::json halfspace_json(const std::vector<HalfspaceRow>& rows, const Plana
         nlohmann::json entry = planar_json(row.experiment, run, row.result);
         entry["albedo"] = row.experiment.albedo.front();
         entry["name"] = sampler_text(row.experiment);
+        entry["closed_form_variance"] = row.closed_form ? json_number(*row.closed_form) : nlohmann::json(nullptr);
         entry["fom_ratio"] = row.gain ? json_number(*row.gain) : nlohmann::json(nullptr);
         list.push_back(std::move(entry));
     }

@@ -14,7 +14,8 @@ namespace wend {
 struct HalfspaceRow {
     PlanarExperiment experiment;
     PlanarResult result;
-    std::optional<double> gain;  ///< figure of merit over that of `classical` at this albedo
+    std::optional<double> closed_form;  ///< variance of one walk, where theory knows it
+    std::optional<double> gain;         ///< figure of merit over that of `classical` at this albedo
 };
 
 /// The experiments of the table: those samplers and albedos, all else as in `base`.

@@ -14,6 +14,9 @@ namespace {
 template <class T>
 using Choices = std::vector<std::pair<std::string, T>>;
 
+// Sums are kept for blocks of walks, which need some memory.
+constexpr double most_walks = 1e10;
+
 const Choices<Tally> tallies = {{"reflectance", Tally::reflectance}, {"transmittance", Tally::transmittance}};
 const Choices<std::optional<double>> incidences = {{"normal", 1.0}, {"diffuse", std::nullopt}};
 const Choices<FirstFlight> first_flights = {{"stretched", FirstFlight::stretched},
@@ -122,7 +125,8 @@ void add_medium(CLI::App& command, PlanarExperiment& e) {
 }
 
 void add_incidence(CLI::App& command, PlanarExperiment& e) {
-    CLI::Option* cosine = add_number(command, "--mu0", e.mu0, "cosine to the normal at which walks enter, up to 1");
+    CLI::Option* cosine =
+        add_number(command, "--mu0", e.mu0, "cosine to the normal at which walks enter, above 0 and up to 1");
     cosine->group("Walk");
     add_choice(command, "--incidence", incidences, e.mu0, "how walks enter; diffuse is cosine-weighted")
         ->excludes(cosine)
@@ -142,7 +146,7 @@ void add_sampler(CLI::App& command, PlanarExperiment& e) {
     add_choice(command, "--moments", moments, e.moments,
                "of 'boundary' with one exponential: which moments of the true fluence it has")
         ->group(group);
-    command.add_option("--modes", e.modes, "of 'modes': transients beside the discrete mode, 2 to 64")
+    command.add_option("--modes", e.modes, "of 'modes': transients beside the discrete mode (2 to 32 are usual)")
         ->capture_default_str()
         ->group(group);
     add_number(command, "--guide-albedo", e.guide_albedo, "guide as if the albedo were this one (grey media)")
@@ -160,8 +164,8 @@ void PlanarOptions::add_to(CLI::App& command) {
     add_sampler(command, experiment);
     const auto set_walks = [this](const std::string& text) {
         const double number = finite_number("--walks", text);
-        if (!(number >= 1 && number <= 1e15) || number != std::floor(number)) {
-            throw InputError(fmt::format("--walks '{}': expected a whole number from 1 to 1e15", text));
+        if (!(number >= 1 && number <= most_walks) || number != std::floor(number)) {
+            throw InputError(fmt::format("--walks '{}': expected a whole number from 1 to {:g}", text, most_walks));
         }
         walks = static_cast<std::uint64_t>(number);
     };
