@@ -115,7 +115,8 @@ std::vector<double> planar_exact(const PlanarExperiment& e) {
     std::vector<double> exact;
     for (std::size_t c = 0; c < e.albedo.size(); ++c) {
         if (is_half_space(e) && e.ior == 1 && e.g == 0) {
-            exact.push_back(e.mu0 ? reflectance(e.albedo[c], *e.mu0) : diffuse_reflectance(e.albedo[c]));
+            const double value = e.mu0 ? reflectance(e.albedo[c], *e.mu0) : diffuse_reflectance(e.albedo[c]);
+            exact.push_back(std::max(value, 0.0));
             continue;
         }
         const PlanarSlab slab = make_slab(e, c);

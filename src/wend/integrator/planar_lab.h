@@ -36,7 +36,7 @@ struct PlanarExperiment {
     FirstFlight first_flight = FirstFlight::stretched;  ///< of `dwivedi`
     int exponentials = 1;                               ///< of `boundary`: 1 or 2
     MatchedMoments moments = MatchedMoments::zeroth_first;
-    int modes = 8;                       ///< transients of `modes` beside the discrete mode, 2 to 64
+    int modes = 8;                       ///< transients of `modes` beside the discrete mode, 0 to 71
     std::optional<double> guide_albedo;  ///< a guide made for another albedo than the medium's (grey media)
     PlanarWindow window = PlanarWindow::none;
 };

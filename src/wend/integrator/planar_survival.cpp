@@ -1,6 +1,6 @@
 #include <wend/integrator/planar_survival.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace wend {
 namespace {
@@ -35,12 +35,13 @@ struct Copies {
 }  // namespace
 
 int PlanarSurvival::copies(double& weight, double depth, double cosine, std::uint64_t collisions, Pcg32& random) const {
-    // Without absorption a walk in a half-space returns for certain, but after no finite time in the mean. So long
-    // ones are thinned in proportion to their length: their mean length becomes finite, and the mean is kept.
+    // Without absorption a walk in a half-space returns for certain, but after no finite time in the mean. So long ones
+    // are thinned as the inverse square root of their length: the sums for their mean length and for their second moment
+    // then both grow with the logarithm alone, and the mean is kept.
     constexpr std::uint64_t long_walk = 10000;
     if (collisions > long_walk) {
         const auto n = static_cast<double>(collisions);
-        if (roulette(weight, (n - 1) / n, random) == 0) {
+        if (roulette(weight, std::sqrt((n - 1) / n), random) == 0) {
             return 0;
         }
     }
