@@ -84,7 +84,7 @@ constexpr int isotropic_depth_rows = 257;
 constexpr int anisotropic_depth_rows = 65;
 constexpr int anisotropic_cosine_rows = 129;
 constexpr int cells = 64;
-constexpr int resolution = 256;
+constexpr int resolution = 192;
 /// Of the largest radiance at a depth: no direction is given up on.
 constexpr double least_radiance = 1e-6;
 

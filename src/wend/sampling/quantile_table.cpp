@@ -60,9 +60,11 @@ QuantileTable::QuantileTable(std::vector<double> breaks, int cells, int rows)
     probability_.resize(count);
     nodes_.resize(count * (static_cast<std::size_t>(cells) + 1));
     constexpr int resolution = 8;
-    const std::vector<double> uniform(static_cast<std::size_t>(pieces() * resolution), 1.0);
-    for (int row = 0; row < rows; ++row) {
-        set_row(row, uniform, resolution);
+    set_row(0, std::vector<double>(static_cast<std::size_t>(pieces() * resolution), 1.0), resolution);
+    for (std::size_t row = 1; row < static_cast<std::size_t>(rows); ++row) {
+        std::copy_n(probability_.begin(), pieces(), probability_.begin() + static_cast<std::ptrdiff_t>(row) * pieces());
+        std::copy_n(nodes_.begin(), node_index(1, 0, 0),
+                    nodes_.begin() + static_cast<std::ptrdiff_t>(node_index(static_cast<int>(row), 0, 0)));
     }
 }
 
@@ -138,14 +140,15 @@ void QuantileTable::set_piece(int row, int piece, std::span<const double> densit
         // Bisection with Newton's steps where they stay inside.
         const std::array<double, 4> p = local_cubic(rate, cell);
         const double wanted = std::min(target, cumulative[cell + 1]) - cumulative[cell];
-        double low = 0, high = 1, s = 0.5;
-        for (int iteration = 0; iteration < 60 && high - low > 1e-15; ++iteration) {
+        const double whole = cumulative[cell + 1] - cumulative[cell];
+        double low = 0, high = 1, s = std::clamp(wanted / whole, 0.0, 1.0);
+        for (int iteration = 0; iteration < 60; ++iteration) {
             const double error = integral(p, s) - wanted;
             (error > 0 ? high : low) = s;
             const double rise = value(p, s);
             const double newton = s - error / rise;
             const double next = rise > 0 && newton > low && newton < high ? newton : (low + high) / 2;
-            if (std::abs(next - s) < 1e-14) {
+            if (std::abs(next - s) < 1e-12) {
                 s = next;
                 break;
             }
