@@ -141,6 +141,25 @@ std::unique_ptr<PlanarAdjoint> make_guide(const PlanarExperiment& e, double albe
     return adjoint;
 }
 
+std::array<double, 3> channel_shares(const PlanarExperiment& e, const std::vector<Guide>& guides) {
+    constexpr int transients = 8;
+    constexpr double least = 1e-3;
+    std::array<double, 3> shares{};
+    double total = 0;
+    for (std::size_t c = 0; c < shares.size(); ++c) {
+        const PlanarSlab& slab = guides[c].slab;
+        const PlanarAdjoint adjoint(solve_planar(make_problem(e.albedo[c], e.g, slab, transients)), slab);
+        const double expected = make_entry(e, slab, nullptr).expected(adjoint);
+        shares[c] = expected;
+        total += shares[c];
+    }
+    for (double& share : shares) {
+        share = (share / std::max(total, 1e-300) + least) / (1 + 3 * least);
+    }
+    const double sum = shares[0] + shares[1] + shares[2];
+    return {shares[0] / sum, shares[1] / sum, shares[2] / sum};
+}
+
 Window make_window(const PlanarExperiment& e, const PlanarSlab& slab) {
     Window window;
     window.adjoint =

@@ -8,6 +8,7 @@
 #include <wend/theory/eigenvalue.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <type_traits>
@@ -43,6 +44,10 @@ struct Guide {
     PlanarSlab slab;
     std::unique_ptr<PlanarAdjoint> adjoint;
 };
+
+/// How often each of three channels is followed: in proportion to what it is expected to bring. A bright
+/// channel's guide serves a dark one, but not the other way round (docs/theory/half_space.md).
+std::array<double, 3> channel_shares(const PlanarExperiment& experiment, const std::vector<Guide>& guides);
 
 /// The adjoint of a window, and the value that walks are expected to bring.
 struct Window {

@@ -12,8 +12,8 @@ namespace wend {
 
 /// One-sample multiple importance sampling over channels, each with a sampler made for it: a walk follows one channel's
 /// sampler, chosen at random, and is weighted by the balance heuristic over whole walks, that is by the mean of the
-/// densities that all samplers would have given it. No channel can receive more than its number times what its own
-/// sampler would have weighted.
+/// densities that all samplers would have given it. No channel can receive more than what its own sampler would have
+/// weighted, over its share.
 template <class Sampler>
 class ChromaticPlanarWalker {
 public:
@@ -25,6 +25,7 @@ public:
     struct Channel {
         double albedo;
         double extinction;
+        double share;  ///< probability that a walk follows this channel; all positive, sum 1
         const PlanarSlab* slab;
         const Sampler* sampler;
     };
@@ -32,7 +33,8 @@ public:
         : channels_(parts), survival_(survival) {}
 
     Values walk(Pcg32& random, std::uint64_t& collisions) const {
-        const auto guide = std::min<std::size_t>(static_cast<std::size_t>(channels * random.uniform_double()), 2);
+        const double u = random.uniform_double();
+        const std::size_t guide = u < channels_[0].share ? 0 : (u < channels_[0].share + channels_[1].share ? 1 : 2);
         const PlanarEntry::Outcome entry = channels_[guide].sampler->entry.sample(random);
         State now;
         for (std::size_t c = 0; c < channels; ++c) {
@@ -40,7 +42,7 @@ public:
             now.density[c] = channels_[c].sampler->entry.boost(entry.outside);
             channels_[c].sampler->first_flight.at(0, now.site[c]);
         }
-        Values result = now.estimate();
+        Values result = estimate(now);
         for (double& value : result) {
             value *= entry.reflected * entry.boost;
         }
@@ -67,8 +69,8 @@ public:
             }
             now.cosine = direction.cosine;
             now.normalize();
-            const Values estimate = now.estimate();
-            double weight = *std::max_element(estimate.begin(), estimate.end());
+            const Values values = estimate(now);
+            double weight = *std::max_element(values.begin(), values.end());
             const double before = weight;
             if (survival_.copies(weight, now.site[guide].depth, now.cosine, own_collisions, random) == 0) {
                 break;
@@ -87,17 +89,6 @@ private:
         Values value, density;  // of the path so far, for each channel and under each channel's sampler
         double cosine = 1;
 
-        Values estimate() const {
-            double mean = 0;
-            for (const double d : density) {
-                mean += d / channels;
-            }
-            Values e;
-            for (std::size_t c = 0; c < channels; ++c) {
-                e[c] = value[c] / mean;
-            }
-            return e;
-        }
         void scale(double factor) {
             for (double& v : value) {
                 v *= factor;
@@ -113,6 +104,18 @@ private:
         }
         bool alive() const { return *std::max_element(value.begin(), value.end()) > 0; }
     };
+
+    Values estimate(const State& now) const {
+        double mean = 0;
+        for (std::size_t c = 0; c < channels; ++c) {
+            mean += channels_[c].share * now.density[c];
+        }
+        Values e;
+        for (std::size_t c = 0; c < channels; ++c) {
+            e[c] = now.value[c] / mean;
+        }
+        return e;
+    }
 
     PlanarFlight fly(State& now, std::size_t guide, bool first, Pcg32& random) const {
         const auto flight = [&](std::size_t c) -> const typename Sampler::Flight& {
@@ -181,9 +184,9 @@ private:
         }
         now.normalize();
         if (crossing.leaves) {
-            const Values estimate = now.estimate();
+            const Values values = estimate(now);
             for (std::size_t c = 0; c < channels; ++c) {
-                result[c] += boundary.illumination ? estimate[c] * boundary.illumination(crossing.cosine) : 0;
+                result[c] += boundary.illumination ? values[c] * boundary.illumination(crossing.cosine) : 0;
             }
             return false;
         }

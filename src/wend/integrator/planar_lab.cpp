@@ -94,8 +94,9 @@ PlanarResult run_planar(const PlanarExperiment& e, const PlanarRun& run) {
         result = with_samplers(e, [&](const auto& samplers, const std::vector<Guide>& guides) {
             using Walker = ChromaticPlanarWalker<std::remove_cvref_t<decltype(samplers[0])>>;
             std::array<typename Walker::Channel, Walker::channels> channels;
+            const std::array<double, 3> shares = channel_shares(e, guides);
             for (std::size_t c = 0; c < channels.size(); ++c) {
-                channels[c] = {e.albedo[c], extinction_of(e, c), &guides[c].slab, &samplers[c]};
+                channels[c] = {e.albedo[c], extinction_of(e, c), shares[c], &guides[c].slab, &samplers[c]};
             }
             const Walker walker(channels, make_survival(e, {}));
             setup = wall_seconds() - begin;
@@ -116,7 +117,7 @@ std::vector<double> planar_exact(const PlanarExperiment& e) {
     for (std::size_t c = 0; c < e.albedo.size(); ++c) {
         if (is_half_space(e) && e.ior == 1 && e.g == 0) {
             const double value = e.mu0 ? reflectance(e.albedo[c], *e.mu0) : diffuse_reflectance(e.albedo[c]);
-            exact.push_back(std::max(value, 0.0));
+            exact.push_back(value > 0 ? value : 0);  // never a negative zero
             continue;
         }
         const PlanarSlab slab = make_slab(e, c);

@@ -36,8 +36,8 @@ struct Copies {
 
 int PlanarSurvival::copies(double& weight, double depth, double cosine, std::uint64_t collisions, Pcg32& random) const {
     // Without absorption a walk in a half-space returns for certain, but after no finite time in the mean. So long ones
-    // are thinned as the inverse square root of their length: the sums for their mean length and for their second moment
-    // then both grow with the logarithm alone, and the mean is kept.
+    // are thinned as the inverse square root of their length: the sums for their mean length and for their second
+    // moment then both grow with the logarithm alone, and the mean is kept.
     constexpr std::uint64_t long_walk = 10000;
     if (collisions > long_walk) {
         const auto n = static_cast<double>(collisions);
