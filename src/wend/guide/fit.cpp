@@ -98,8 +98,8 @@ public:
         field_.trained_ = field_.trained_ || !order_.empty();
         report_.records = records_.size();
         report_.ignored = records_.size() - order_.size();
-        report_.dark = static_cast<std::size_t>(
-            std::count_if(order_.begin(), order_.end(), [&](std::uint32_t r) { return records_[r].radiance == 0; }));
+        report_.dark = static_cast<std::size_t>(std::count_if(
+            order_.begin(), order_.end(), [&](const Entry& entry) { return records_[entry.record].radiance == 0; }));
         report_.cells = field_.size();
         report_.bytes = field_.bytes();
         return {std::move(field_), report_};
@@ -114,12 +114,18 @@ private:
         std::size_t size() const { return end - begin; }
     };
 
+    /// A usable record, with its position at hand: leaves are split again and again, and records lie far apart.
+    struct Entry {
+        Vec3 position;
+        std::uint32_t record;
+    };
+
     struct Plane {
         int axis = no_axis;
         float position = 0;
     };
 
-    const Record& record(std::size_t i) const { return records_[order_[i]]; }
+    const Record& record(std::size_t i) const { return records_[order_[i].record]; }
     std::uint32_t region_of(const Cell& cell) const { return field_.nodes_[cell.node].child; }
     Field::Memory& memory_of(const Cell& cell) { return field_.memories_[region_of(cell)]; }
     const Field::Memory& memory_of(const Cell& cell) const { return field_.memories_[region_of(cell)]; }
@@ -156,7 +162,7 @@ private:
         order_.resize(begin);
         for (std::size_t i = 0; i < records_.size(); ++i) {
             if (node_of[i] != unusable) {
-                order_[next[node_of[i]]++] = static_cast<std::uint32_t>(i);
+                order_[next[node_of[i]]++] = {records_[i].position, static_cast<std::uint32_t>(i)};
             }
         }
     }
@@ -187,21 +193,24 @@ private:
         cells_ = std::move(closed);
     }
 
-    /// The plane through the mean position, across the axis of largest variance; no axis where the cell is to stay
-    /// whole.
+    /// The plane through the mean position, across the axis of largest variance, both of a regular sample of the
+    /// records; no axis where the cell is to stay whole.
     Plane choose_plane(const Cell& cell) const {
         if (count_of(cell) <= settings_.leaf_samples || cell.size() < 2 ||
             memory_of(cell).depth >= static_cast<std::uint32_t>(settings_.max_depth)) {
             return {};
         }
-        const Imath::V3d mean = mean_position(cell);
+        constexpr std::size_t enough = 1024;
+        const std::size_t stride = std::max<std::size_t>(cell.size() / enough, 1);
+        const Imath::V3d mean = mean_position(cell, stride);
         Imath::V3d variance(0, 0, 0);
-        Vec3 lowest = record(cell.begin).position;
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            const Imath::V3d d = Imath::V3d(record(i).position) - mean;
+        Vec3 lowest = order_[cell.begin].position;
+        for (std::size_t i = cell.begin; i < cell.end; i += stride) {
+            const Vec3& position = order_[i].position;
+            const Imath::V3d d = Imath::V3d(position) - mean;
             variance += d * d;
             for (int axis = 0; axis < 3; ++axis) {
-                lowest[axis] = std::min(lowest[axis], record(i).position[axis]);
+                lowest[axis] = std::min(lowest[axis], position[axis]);
             }
         }
         int axis = variance.x >= variance.y ? 0 : 1;
@@ -211,12 +220,15 @@ private:
         return position > lowest[axis] ? Plane{axis, position} : Plane{};
     }
 
-    Imath::V3d mean_position(const Cell& cell) const {
+    /// The mean of every stride-th position.
+    Imath::V3d mean_position(const Cell& cell, std::size_t stride) const {
         Imath::V3d sum(0, 0, 0);
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            sum += Imath::V3d(record(i).position);
+        double count = 0;
+        for (std::size_t i = cell.begin; i < cell.end; i += stride) {
+            sum += Imath::V3d(order_[i].position);
+            ++count;
         }
-        return sum / static_cast<double>(cell.size());
+        return sum / count;
     }
 
     /// Withdraws the planes of the least used cells where memory does not suffice for all.
@@ -248,7 +260,7 @@ private:
         const auto first = order_.begin() + static_cast<std::ptrdiff_t>(cell.begin);
         const auto last = order_.begin() + static_cast<std::ptrdiff_t>(cell.end);
         const auto middle = std::stable_partition(
-            first, last, [&](std::uint32_t r) { return records_[r].position[plane.axis] < plane.position; });
+            first, last, [&](const Entry& entry) { return entry.position[plane.axis] < plane.position; });
         return static_cast<std::size_t>(middle - order_.begin());
     }
 
@@ -288,7 +300,7 @@ private:
         Region& region = field_.regions_[region_of(cell)];
         Field::Memory& memory = memory_of(cell);
         if (!memory.anchored) {
-            anchor(region, memory, Vec3(mean_position(cell)));
+            anchor(region, memory, Vec3(mean_position(cell, 1)));
         }
 
         std::vector<double> weights;
@@ -336,15 +348,35 @@ private:
     }
 
     /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
-    /// each round.
+    /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations; the last
+    /// few see all.
     LobeModel fit_lobes(LobeModel model, std::span<const Observation> observations, double unit,
                         Field::Memory& memory) const {
-        const std::array<LobeSums, max_lobes> earlier = memory.statistics.lobes;
-        std::array<LobeSums, max_lobes>& sums = memory.statistics.lobes;
-        if (!(total_weight(earlier) > 0)) {
+        constexpr std::size_t enough = 512;
+        constexpr int polishing_rounds = 2;
+        if (!(total_weight(memory.statistics.lobes) > 0)) {
             model = initial_lobes(settings_.lobes);
         }
-        for (int round = 0; round < settings_.max_iterations; ++round) {
+        const std::array<LobeSums, max_lobes> earlier = memory.statistics.lobes;
+        const std::size_t stride = observations.size() / enough;
+        if (stride <= 1) {
+            return improve(model, observations, unit, earlier, settings_.max_iterations, memory);
+        }
+        std::vector<Observation> sample;
+        sample.reserve(observations.size() / stride + 1);
+        for (std::size_t i = 0; i < observations.size(); i += stride) {
+            sample.push_back(observations[i]);
+        }
+        const double scale = static_cast<double>(observations.size()) / static_cast<double>(sample.size());
+        model = improve(model, sample, unit * scale, earlier, settings_.max_iterations, memory);
+        return improve(model, observations, unit, earlier, std::min(polishing_rounds, settings_.max_iterations),
+                       memory);
+    }
+
+    LobeModel improve(LobeModel model, std::span<const Observation> observations, double unit,
+                      const std::array<LobeSums, max_lobes>& earlier, int rounds, Field::Memory& memory) const {
+        std::array<LobeSums, max_lobes>& sums = memory.statistics.lobes;
+        for (int round = 0; round < rounds; ++round) {
             const std::array<LobeSums, max_lobes> last = sums;
             sums = earlier + expectation(model, observations, unit);
             model = maximization(sums, model, settings_.priors, memory.radius);
@@ -375,8 +407,8 @@ private:
     std::span<const Record> records_;
     const FitSettings& settings_;
     int threads_;
-    /// Indices of the usable records, those of a leaf side by side.
-    std::vector<std::uint32_t> order_;
+    /// The usable records, those of a leaf side by side.
+    std::vector<Entry> order_;
     std::vector<Cell> cells_;
     FitReport report_;
 };
