@@ -54,7 +54,8 @@ double weight_limit(const std::vector<double>& weights) {
 }
 
 double total_weight(const std::array<LobeSums, max_lobes>& sums) {
-    return std::accumulate(sums.begin(), sums.end(), 0.0, [](double t, const LobeSums& s) { return t + s.weight; });
+    return std::accumulate(sums.begin(), sums.end(), 0.0,
+                           [](double t, const LobeSums& s) { return t + static_cast<double>(s.weight); });
 }
 
 std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, const std::array<LobeSums, max_lobes>& b) {
@@ -64,6 +65,8 @@ std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, con
         a[i].direction += b[i].direction;
         a[i].inverse_distance += b[i].inverse_distance;
         a[i].inverse_distance_square += b[i].inverse_distance_square;
+        a[i].turn += b[i].turn;
+        a[i].spread += b[i].spread;
     }
     return a;
 }
@@ -72,7 +75,7 @@ std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, con
 double movement(const std::array<LobeSums, max_lobes>& a, const std::array<LobeSums, max_lobes>& b) {
     double sum = 0;
     for (int i = 0; i < max_lobes; ++i) {
-        sum += (a[i].direction - b[i].direction).length();
+        sum += (Imath::V3d(a[i].direction) - Imath::V3d(b[i].direction)).length();
     }
     return sum;
 }
@@ -398,7 +401,8 @@ private:
             const Vec3 to_source = region.mixture().lobe(i).vmf.mean + offset * inverse;
             inverse_distance[i] = inverse / std::max(length(to_source), 1e-3f);
             LobeSums& sums = memory.statistics.lobes[i];
-            sums.direction = Imath::V3d(mixture.lobe(i).vmf.mean) * sums.direction.length();
+            sums.direction = Vec3(Imath::V3d(mixture.lobe(i).vmf.mean) * Imath::V3d(sums.direction).length());
+            sums.turn = static_cast<double>(inverse_distance[i]) * sums.spread;
         }
         region = Region(reference, mixture, inverse_distance, region.fluence());
     }

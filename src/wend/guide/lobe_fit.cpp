@@ -34,15 +34,17 @@ struct LobeLanes {
 
 /// The sums of LobeSums in lanes.
 struct SumLanes {
-    Lanes weight, weight_square, x, y, z, inverse_distance, inverse_distance_square;
+    Lanes weight, weight_square, x, y, z, inverse_distance, inverse_distance_square, turn, spread;
 
     void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
         for (int i = 0; i < max_lobes; ++i) {
-            sums[i].weight += unit * weight[i];
+            sums[i].weight += static_cast<float>(unit * weight[i]);
             sums[i].weight_square += unit * unit * weight_square[i];
-            sums[i].direction += unit * Imath::V3d(x[i], y[i], z[i]);
+            sums[i].direction += Vec3(Imath::V3d(x[i], y[i], z[i]) * unit);
             sums[i].inverse_distance += unit * inverse_distance[i];
             sums[i].inverse_distance_square += unit * inverse_distance_square[i];
+            sums[i].turn += unit * turn[i];
+            sums[i].spread += unit * spread[i];
         }
     }
 };
@@ -50,7 +52,8 @@ struct SumLanes {
 void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sums) {
     const Vec3 w = o.direction, t = o.offset;
     const float along = dot(w, t);
-    const float across = std::max(0.0f, length_squared(t) - along * along);
+    const float offset_squared = length_squared(t);
+    const float across = std::max(0.0f, offset_squared - along * along);
 
     Lanes x, y, z, exponent;
     for_lanes(lobes.blocks, [&](int i) {
@@ -80,6 +83,13 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
         sums.z[i] += weight * z[i];
         sums.inverse_distance[i] += weighted_inverse;
         sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
+        // What is left of the turning after re-aiming, and what re-aiming has taken away.
+        const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
+        const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
+        const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
+        const float spread = weight * (offset_squared - mean_offset * mean_offset);
+        sums.turn[i] += weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
+        sums.spread[i] += spread;
     });
 }
 
@@ -89,20 +99,31 @@ double ramp_down(double x, double good, double bad) {
 }
 
 double effective_records(const LobeSums& s) {
-    return s.weight_square > 0 ? s.weight * s.weight / s.weight_square : 0.0;
+    return s.weight_square > 0 ? static_cast<double>(s.weight) * s.weight / s.weight_square : 0.0;
 }
 
-/// The lobe's inverse distance, drawn to 0 (no re-aiming) where it is doubtful: few records, distances that differ
-/// among themselves (vertices inside a medium are not the source), or a source so near that turning by it is
-/// meaningless.
-double reliable_inverse_distance(const LobeSums& s, double radius) {
-    constexpr double enough_records = 8;
-    if (effective_records(s) < enough_records || !(s.inverse_distance > 0)) {
+/// The lobe's inverse distance from three witnesses, each with its precision: the distances that records tell, which
+/// are worth little where they differ among themselves (vertices inside a medium are not the source); how the
+/// directions turn with the position, whatever the records tell; and the belief that sources are far, compared with the
+/// cell. A source so near that turning by it is meaningless is not re-aimed at.
+double likely_inverse_distance(const LobeSums& s, double kappa, double radius) {
+    const double records = effective_records(s);
+    if (!(s.weight > 0 && records > 0 && radius > 0)) {
         return 0;
     }
-    const double mean = s.inverse_distance / s.weight;
-    const double relative_variance = s.inverse_distance_square / s.weight / (mean * mean) - 1;
-    return mean * ramp_down(relative_variance, 0.25, 1.0) * ramp_down(mean * radius, 0.75, 1.0);
+    constexpr double least_relative_variance = 0.01;
+    const double told = s.inverse_distance / s.weight;
+    const double told_variance =
+        s.inverse_distance_square / s.weight - told * told + least_relative_variance * told * told;
+    const double told_precision = told > 0 ? records / (told_variance * (records + 8)) : 0;
+
+    const double turned = s.spread > 0 ? s.turn / s.spread : 0;
+    const double turned_precision = kappa * s.spread / s.weight * records;
+
+    const double far_precision = radius * radius;
+    const double likely =
+        (told * told_precision + turned * turned_precision) / (told_precision + turned_precision + far_precision);
+    return std::max(0.0, likely) * ramp_down(likely * radius, 0.75, 1.0);
 }
 
 }  // namespace
@@ -154,15 +175,17 @@ LobeModel maximization(const std::array<LobeSums, max_lobes>& sums, const LobeMo
     std::array<WeightedVmf, max_lobes> lobes{};
     for (int i = 0; i < size; ++i) {
         const LobeSums& s = sums[i];
-        const double resultant = s.direction.length();
+        const Imath::V3d direction(s.direction);
+        const double resultant = direction.length();
         const double own_records = effective_records(s);
         const double mean_cosine =
             s.weight > 0 ? resultant / s.weight * own_records / (own_records + priors.mean_cosine) : 0.0;
         const float share =
             static_cast<float>((records * s.weight / weight + priors.weight) / (records + size * priors.weight));
-        const Vec3 mean = resultant > 0 ? Vec3(s.direction / resultant) : previous.mixture.lobe(i).vmf.mean;
+        const Vec3 mean = resultant > 0 ? Vec3(direction / resultant) : previous.mixture.lobe(i).vmf.mean;
         lobes[i] = {share, {mean, std::min(vmf_kappa(static_cast<float>(mean_cosine)), priors.max_kappa)}};
-        model.inverse_distance[i] = static_cast<float>(reliable_inverse_distance(s, radius));
+        model.inverse_distance[i] =
+            static_cast<float>(likely_inverse_distance(s, static_cast<double>(lobes[i].vmf.kappa), radius));
     }
     model.mixture = VmfMixture(std::span(lobes.data(), size));
     return model;

@@ -7,11 +7,13 @@ Statistics scaled(Statistics s, double linear, double quadratic) {
     s.count *= linear;
     s.fluence *= linear;
     for (LobeSums& lobe : s.lobes) {
-        lobe.weight *= linear;
+        lobe.weight *= static_cast<float>(linear);
         lobe.weight_square *= quadratic;
-        lobe.direction *= linear;
+        lobe.direction *= static_cast<float>(linear);
         lobe.inverse_distance *= linear;
         lobe.inverse_distance_square *= linear;
+        lobe.turn *= linear;
+        lobe.spread *= linear;
     }
     return s;
 }

@@ -1,24 +1,27 @@
 // What a cell of the field remembers between fits.
 #pragma once
 
+#include <wend/core/vector.h>
 #include <wend/guide/lanes.h>
-
-#include <Imath/ImathVec.h>
 
 #include <array>
 
 namespace wend::guide {
 
 /// Sums over the records' shares in one lobe. A record of weight w that belongs to the lobe with probability γ counts γ
-/// w.
+/// w. (Single precision where it suffices: a field has many cells.)
 struct LobeSums {
-    double weight = 0;
+    float weight = 0;
+    /// Of the directions, re-aimed at the reference point.
+    Vec3 direction{0, 0, 0};
     /// Of (γ w)²: weight² / weight_square is how many records of equal weight would know as much (kish1965).
     double weight_square = 0;
-    /// Of the directions, re-aimed at the reference point.
-    Imath::V3d direction{0, 0, 0};
     double inverse_distance = 0;
     double inverse_distance_square = 0;
+    /// How directions turn with the position: of the product of offset and direction across the lobe's mean, and of the
+    /// squared offset. Their ratio is the inverse distance that the directions themselves tell.
+    double turn = 0;
+    double spread = 0;
 };
 
 /// Sums over all records of a cell, older fits counting less.
