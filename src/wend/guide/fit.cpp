@@ -352,11 +352,10 @@ private:
 
     /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
     /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations; the last
-    /// few see all.
+    /// one sees all.
     LobeModel fit_lobes(LobeModel model, std::span<const Observation> observations, double unit,
                         Field::Memory& memory) const {
-        constexpr std::size_t enough = 512;
-        constexpr int polishing_rounds = 2;
+        constexpr std::size_t enough = 256;
         if (!(total_weight(memory.statistics.lobes) > 0)) {
             model = initial_lobes(settings_.lobes);
         }

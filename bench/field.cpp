@@ -1,0 +1,119 @@
+// How true the learned field is, and how fast it learns: the divergence of its distributions from the truth they were
+// drawn from.
+#include <wend/core/random.h>
+#include <wend/guide/fit.h>
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace wend;
+using namespace wend::guide;
+
+/// Three lamps around the unit cube, seen as lobes of concentration 300 in the directions of their centres: the truth
+/// is known at every position. bench/README.md describes the input.
+struct Lamps {
+    static constexpr float kappa = 300;
+    std::array<Vec3, 3> centre = {Vec3(0.5f, 0.5f, 1.6f), Vec3(-1, 0.2f, 0.5f), Vec3(0.4f, -0.5f, -0.6f)};
+    std::array<float, 3> share = {0.5f, 0.3f, 0.2f};
+
+    double density(const Vec3& position, const Vec3& w) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < centre.size(); ++i) {
+            sum += share[i] * Vmf{normalize(centre[i] - position), kappa}.density(w);
+        }
+        return sum;
+    }
+
+    struct Seen {
+        Vec3 direction;
+        float distance;
+    };
+    Seen sample(const Vec3& position, Pcg32& random) const {
+        const float u = random.uniform();
+        const std::size_t lamp = u < share[0] ? 0 : (u < share[0] + share[1] ? 1 : 2);
+        const Vec3 to_lamp = centre[lamp] - position;
+        return {Vmf{normalize(to_lamp), kappa}.sample(random.uniform2()), length(to_lamp)};
+    }
+};
+
+Vec3 position_in(bool volume, Pcg32& random) {
+    const Vec2 u = random.uniform2();
+    return {u.x, u.y, volume ? random.uniform() : 0.0f};
+}
+
+/// `scattered`: records tell the distance of the next vertex in a medium, exponential, instead of the lamp's.
+Records lamp_records(bool volume, bool scattered, std::size_t count, std::uint64_t seed) {
+    const Lamps lamps;
+    Pcg32 random(seed);
+    Records records;
+    records.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 position = position_in(volume, random);
+        const auto [w, distance] = lamps.sample(position, random);
+        const auto density = static_cast<float>(lamps.density(position, w));
+        const float told = scattered ? 0.05f - distance * std::log(1 - random.uniform()) : distance;
+        records.push_back({position, w, density, density, told});
+    }
+    return records;
+}
+
+/// Mean over positions of the divergence of the field's distribution from the truth, in nats.
+double divergence(const Field& field, bool volume) {
+    constexpr int samples = 100000;
+    const Lamps lamps;
+    Pcg32 random(99);
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) {
+        const Vec3 position = position_in(volume, random);
+        const Vec3 w = lamps.sample(position, random).direction;
+        const double fitted = static_cast<double>(field.find(position)->incident(position).density(w));
+        sum += std::log(lamps.density(position, w) / std::max(fitted, 1e-30));
+    }
+    return sum / samples;
+}
+
+/// A million records, half on a surface and half in a volume, in passes that double, by default settings and one
+/// thread.
+void learning(benchmark::State& state, bool scattered) {
+    constexpr std::size_t per_field = 500000;
+    constexpr std::size_t passes = 6;
+    std::array<std::vector<Records>, 2> records;
+    for (std::size_t field = 0; field < 2; ++field) {
+        std::size_t left = per_field;
+        for (std::size_t pass = 0; pass < passes; ++pass) {
+            const std::size_t count = pass + 1 < passes ? per_field >> (passes - pass) : left;
+            left -= count;
+            records[field].push_back(lamp_records(field == 1, scattered, count, 10 * pass + field));
+        }
+    }
+    std::array<double, 2> kl{};
+    std::size_t cells = 0, bytes = 0;
+    for (auto _ : state) {
+        for (std::size_t field = 0; field < 2; ++field) {
+            Field learned = Field::empty(field == 1 ? Box3(Vec3(0, 0, 0), Vec3(1, 1, 1))
+                                                    : Box3(Vec3(0, 0, -0.01f), Vec3(1, 1, 0.01f)));
+            for (const Records& pass : records[field]) {
+                learned = fit(learned, pass, {}, 1).field;
+            }
+            state.PauseTiming();
+            kl[field] = divergence(learned, field == 1);
+            cells = learned.size();
+            bytes = learned.bytes();
+            state.ResumeTiming();
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(2 * per_field));
+    state.counters["KL_surface"] = kl[0];
+    state.counters["KL_volume"] = kl[1];
+    state.counters["bytes_per_cell"] = static_cast<double>(bytes) / static_cast<double>(cells);
+    state.counters["cells"] = static_cast<double>(cells);
+}
+BENCHMARK_CAPTURE(learning, true_distances, false)->Unit(benchmark::kMillisecond)->Iterations(2);
+BENCHMARK_CAPTURE(learning, scattered_distances, true)->Unit(benchmark::kMillisecond)->Iterations(2);
+
+}  // namespace
