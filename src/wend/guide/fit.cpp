@@ -371,8 +371,7 @@ private:
         }
         const double scale = static_cast<double>(observations.size()) / static_cast<double>(sample.size());
         model = improve(model, sample, unit * scale, earlier, settings_.max_iterations, memory);
-        return improve(model, observations, unit, earlier, std::min(polishing_rounds, settings_.max_iterations),
-                       memory);
+        return improve(model, observations, unit, earlier, 1, memory);
     }
 
     LobeModel improve(LobeModel model, std::span<const Observation> observations, double unit,
