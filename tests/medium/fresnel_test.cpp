@@ -12,8 +12,8 @@ namespace {
 TEST(FresnelDielectric, NormalIncidence) {
     for (const float n : {1.0f, 1.33f, 1.5f, 2.4f, 0.75f}) {
         const float expected = sqr((n - 1) / (n + 1));
-        EXPECT_NEAR(fresnel_dielectric(1, n), expected, 1e-7f);
-        EXPECT_NEAR(fresnel_dielectric(-1, n), expected, 1e-7f);
+        EXPECT_NEAR(fresnel_dielectric(1.0f, n), expected, 1e-7f);
+        EXPECT_NEAR(fresnel_dielectric(-1.0f, n), expected, 1e-7f);
     }
 }
 

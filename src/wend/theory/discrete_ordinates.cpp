@@ -77,6 +77,22 @@ struct Kernel {
     MatrixXd odd;
 };
 
+/// The largest of every second moment from `first` on, at least 0.
+double largest_moment(const std::vector<double>& moments, std::size_t first) {
+    double largest = 0;
+    for (std::size_t l = first; l < moments.size(); l += 2) {
+        largest = std::max(largest, moments[l]);
+    }
+    return largest;
+}
+
+/// A symmetric matrix with all eigenvalues brought down to `limit`.
+MatrixXd limited(const MatrixXd& matrix, double limit) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(matrix);
+    const VectorXd excess = (solver.eigenvalues().array() - limit).cwiseMax(0);
+    return matrix - solver.eigenvectors() * excess.asDiagonal() * solver.eigenvectors().transpose();
+}
+
 MatrixXd legendre_table(const VectorXd& cosine, Eigen::Index count) {
     MatrixXd table(count, cosine.size());
     for (Eigen::Index j = 0; j < cosine.size(); ++j) {
@@ -85,7 +101,7 @@ MatrixXd legendre_table(const VectorXd& cosine, Eigen::Index count) {
     return table;
 }
 
-Kernel make_kernel(const Nodes& nodes, const VectorXd& weights_of_moments) {
+Kernel make_kernel(const Nodes& nodes, const std::vector<double>& moments, const VectorXd& weights_of_moments) {
     const MatrixXd p = legendre_table(nodes.cosine, weights_of_moments.size());
     const VectorXd root = nodes.weight.cwiseSqrt();
     // P_l(-t) = (-1)^l P_l(t): even moments make the sum, odd ones the difference.
@@ -101,6 +117,11 @@ Kernel make_kernel(const Nodes& nodes, const VectorXd& weights_of_moments) {
     const VectorXd missing = kernel.even * root - root;
     kernel.even -= missing * root.transpose() + root * missing.transpose();
     kernel.even += root.dot(missing) * root * root.transpose();
+    // The eigenvalues of scattering are the moments. Few nodes confuse the high ones of a peaked phase function with
+    // the low ones, and may add up to more than is scattered.
+    const MatrixXd constant = root * root.transpose();
+    kernel.even = constant + limited(kernel.even - constant, largest_moment(moments, 2));
+    kernel.odd = limited(kernel.odd, largest_moment(moments, 1));
     return kernel;
 }
 
@@ -113,11 +134,7 @@ Basis eigenmodes(double c, const Nodes& nodes, const Kernel& kernel) {
     const MatrixXd even = identity - c * kernel.even;
     const MatrixXd odd = identity - c * kernel.odd;
     // M^-1 odd M^-1 even s = s / v², s the sum of both directions: symmetric after a Cholesky factor.
-    const Eigen::LLT<MatrixXd> factor(inverse.asDiagonal() * odd * inverse.asDiagonal());
-    if (factor.info() != Eigen::Success) {
-        throw std::invalid_argument("the moments of the phase function are not those of a positive one");
-    }
-    const MatrixXd lower = factor.matrixL();
+    const MatrixXd lower = Eigen::LLT<MatrixXd>(inverse.asDiagonal() * odd * inverse.asDiagonal()).matrixL();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(lower.transpose() * even * lower);
     MatrixXd sum = lower * solver.eigenvectors();
     VectorXd length = solver.eigenvalues().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -204,6 +221,15 @@ VectorXd match_boundaries(const Basis& basis, const PlanarSlab& slab, const Node
 /// this product of thickness and rate.
 constexpr double least_decay = 1e-4;
 
+bool are_moments(const std::vector<double>& moments) {
+    return !moments.empty() && moments[0] == 1 &&
+           std::all_of(moments.begin() + 1, moments.end(), [](double m) { return std::abs(m) < 1; });
+}
+
+bool is_index(double ior) {
+    return ior >= 1 && std::isfinite(ior);
+}
+
 double usable_albedo(const PlanarProblem& problem) {
     if (std::isinf(problem.slab.thickness)) {
         return problem.albedo;
@@ -226,7 +252,8 @@ std::vector<double> henyey_greenstein_moments(double g, int count) {
 PlanarModes solve_planar(const PlanarProblem& problem) {
     const int count = problem.transients + 1;
     if (!(problem.albedo >= 0 && problem.albedo <= 1) || problem.transients < 0 || count > PlanarAdjoint::max_modes ||
-        problem.moments.empty() || problem.moments[0] != 1 || !(problem.slab.thickness > 0)) {
+        !are_moments(problem.moments) || !(problem.slab.thickness > 0) || !is_index(problem.slab.near.ior) ||
+        !is_index(problem.slab.far.ior)) {
         throw std::invalid_argument("a planar problem with values out of range");
     }
     const Nodes nodes = choose_nodes(problem, count);
@@ -236,7 +263,7 @@ PlanarModes solve_planar(const PlanarProblem& problem) {
         weights_of_moments[l] = 0.5 * static_cast<double>(2 * l + 1) * problem.moments[static_cast<std::size_t>(l)];
     }
     const double albedo = usable_albedo(problem);
-    const Kernel kernel = make_kernel(nodes, weights_of_moments);
+    const Kernel kernel = make_kernel(nodes, problem.moments, weights_of_moments);
     Basis basis = eigenmodes(std::min(albedo, 1 - 1e-15), nodes, kernel);
     if (albedo == 1) {
         make_constant(basis);

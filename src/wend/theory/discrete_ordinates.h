@@ -9,8 +9,8 @@ namespace wend {
 
 struct PlanarProblem {
     double albedo = 0.8;  ///< in [0,1]
-    /// Legendre moments of the phase function, the first being 1; the later ones are its mean P_l. As many are used as
-    /// the nodes can carry, two a node.
+    /// Legendre moments of the phase function, the first being 1; the later ones, its mean P_l, are of size below 1. As
+    /// many are used as the nodes can carry, two a node.
     std::vector<double> moments = {1};
     PlanarSlab slab;
     int transients = 8;  ///< modes beside the discrete one, 0 to PlanarAdjoint::max_modes - 1
