@@ -351,16 +351,21 @@ private:
     }
 
     /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
-    /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations; the last
-    /// one sees all.
+    /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations, large
+    /// enough for their unequal weights (kish1965); the last one sees all.
     LobeModel fit_lobes(LobeModel model, std::span<const Observation> observations, double unit,
                         Field::Memory& memory) const {
-        constexpr std::size_t enough = 256;
+        constexpr double enough = 256;
         if (!(total_weight(memory.statistics.lobes) > 0)) {
             model = initial_lobes(settings_.lobes);
         }
         const std::array<LobeSums, max_lobes> earlier = memory.statistics.lobes;
-        const std::size_t stride = observations.size() / enough;
+        double squares = 0;
+        for (const Observation& o : observations) {
+            squares += static_cast<double>(sqr(o.weight));
+        }
+        const auto size = static_cast<double>(observations.size());  // and the sum of the weights
+        const auto stride = static_cast<std::size_t>(size * size / squares / enough);
         if (stride <= 1) {
             return improve(model, observations, unit, earlier, settings_.max_iterations, memory);
         }
