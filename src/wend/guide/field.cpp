@@ -2,6 +2,8 @@
 
 #include <wend/core/contracts.h>
 
+#include <algorithm>
+
 namespace wend::guide {
 
 Field::Field(const Box3& bounds) : bounds_(bounds), nodes_(1), regions_(1), memories_(1) {
@@ -18,6 +20,31 @@ const Region* Field::find(const Vec3& position) const {
 
 std::size_t Field::bytes() const {
     return regions_.size() * sizeof(Region) + memories_.size() * sizeof(Memory) + nodes_.size() * sizeof(Node);
+}
+
+void Field::for_each_cell(const std::function<void(const Box3&, const Region&, double)>& visit) const {
+    struct Part {
+        std::uint32_t node;
+        Box3 box;
+    };
+    std::vector<Part> open = {{0, bounds_}};
+    while (!open.empty()) {
+        const Part part = open.back();
+        open.pop_back();
+        const Node& node = nodes_[part.node];
+        if (node.axis == Node::leaf) {
+            visit(part.box, regions_[node.child], memories_[node.child].statistics.count);
+            continue;
+        }
+        const int axis = static_cast<int>(node.axis);
+        const std::uint32_t child = node.child;
+        Part below{child, part.box}, above{child + 1, part.box};
+        const float plane = std::clamp(node.plane, part.box.min[axis], part.box.max[axis]);
+        below.box.max[axis] = plane;
+        above.box.min[axis] = plane;
+        open.push_back(above);
+        open.push_back(below);
+    }
 }
 
 }  // namespace wend::guide

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace wend::guide {
@@ -28,11 +29,16 @@ public:
     /// Memory of the cells and of the tree.
     std::size_t bytes() const;
 
+    /// Calls visit(bounds, region, records) for every cell: its box (at the rim cells reach on without end; the box
+    /// ends at the field's bounds), what it knows, and how many records taught it, older ones counting less.
+    void for_each_cell(const std::function<void(const Box3&, const Region&, double)>& visit) const;
+
     /// What each cell costs: its region, its memory and two nodes of the tree.
     static constexpr std::size_t bytes_per_cell();
 
 private:
     friend class Fitting;
+    friend class FieldBytes;
 
     /// An inner node has its children side by side at `child` and `child` + 1; a leaf has its region in `child`.
     struct Node {

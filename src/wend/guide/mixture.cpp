@@ -38,6 +38,9 @@ VmfMixture::VmfMixture(std::span<const WeightedVmf> lobes) : VmfMixture() {
         total += lobe.weight;
     }
     WEND_EXPECT(total > 0);
+    // What adds up to 1 but for rounding stays as it is, so that a mixture can be rebuilt from its lobes exactly.
+    constexpr double rounding = 1e-6;
+    total = std::abs(total - 1) < rounding ? 1 : total;
     for (int i = 0; i < size_; ++i) {
         const Vmf& vmf = lobes[i].vmf;
         mean_x_[i] = vmf.mean.x;

@@ -23,7 +23,8 @@ public:
     /// The uniform distribution: one lobe of concentration 0.
     VmfMixture();
 
-    /// A mixture of 1 to max_lobes lobes; weights are scaled to the sum 1, and one at least must be positive.
+    /// A mixture of 1 to max_lobes lobes; weights are scaled to the sum 1 (unless they have it but for
+    /// rounding), and one at least must be positive.
     explicit VmfMixture(std::span<const WeightedVmf> lobes);
 
     int size() const { return size_; }

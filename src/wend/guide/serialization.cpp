@@ -1,0 +1,262 @@
+#include <wend/core/error.h>
+#include <wend/guide/serialization.h>
+
+#include <boost/crc.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace wend::guide {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "fields of big-endian machines need a signature of their own");
+
+constexpr std::string_view signature = "WENDFLD\x1a";
+constexpr std::uint32_t version = 1;
+
+std::uint32_t checksum(std::string_view bytes) {
+    boost::crc_32_type crc;
+    crc.process_bytes(bytes.data(), bytes.size());
+    return crc.checksum();
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+    throw InputError("guiding field: " + reason);
+}
+
+template <class T>
+void put(std::string& out, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    out.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+/// Takes numbers from the front, and refuses those that a field cannot hold.
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : rest_(bytes) {}
+
+    template <class T>
+    T take() {
+        if (rest_.size() < sizeof(T)) {
+            refuse("the bytes are truncated");
+        }
+        T value;
+        std::memcpy(static_cast<void*>(&value), rest_.data(), sizeof(T));
+        rest_.remove_prefix(sizeof(T));
+        return value;
+    }
+    template <class T>
+    T take_finite() {
+        const T value = take<T>();
+        require(std::isfinite(value));
+        return value;
+    }
+    Vec3 take_vector() {
+        const float x = take_finite<float>();
+        const float y = take_finite<float>();
+        return {x, y, take_finite<float>()};
+    }
+    /// A count of things that need `size` bytes each at least.
+    std::uint64_t take_count(std::size_t size) {
+        const auto count = take<std::uint64_t>();
+        if (count > rest_.size() / size) {
+            refuse("the bytes are truncated");
+        }
+        return count;
+    }
+    static void require(bool holds) {
+        if (!holds) {
+            refuse("a number is out of range");
+        }
+    }
+    bool empty() const { return rest_.empty(); }
+
+private:
+    std::string_view rest_;
+};
+
+void put(std::string& out, const Vec3& v) {
+    put(out, v.x);
+    put(out, v.y);
+    put(out, v.z);
+}
+
+void put_region(std::string& out, const Region& region) {
+    put(out, region.reference());
+    put(out, region.fluence());
+    put(out, region.mixture().size());
+    for (int i = 0; i < region.mixture().size(); ++i) {
+        const auto [weight, vmf] = region.mixture().lobe(i);
+        put(out, weight);
+        put(out, vmf.mean);
+        put(out, vmf.kappa);
+        put(out, region.inverse_distance()[i]);
+    }
+}
+
+Region take_region(Reader& in) {
+    const Vec3 reference = in.take_vector();
+    const auto fluence = in.take_finite<float>();
+    const int size = in.take<int>();
+    Reader::require(size >= 1 && size <= max_lobes && fluence >= 0);
+    std::array<WeightedVmf, max_lobes> lobes{};
+    Lanes inverse_distance;
+    float total = 0;
+    for (int i = 0; i < size; ++i) {
+        WeightedVmf& lobe = lobes[static_cast<std::size_t>(i)];
+        lobe.weight = in.take_finite<float>();
+        lobe.vmf.mean = in.take_vector();
+        lobe.vmf.kappa = in.take_finite<float>();
+        inverse_distance[i] = in.take_finite<float>();
+        constexpr float rounding = 1e-3f;
+        Reader::require(lobe.weight >= 0 && lobe.vmf.kappa >= 0 && lobe.vmf.kappa <= Vmf::max_kappa &&
+                        std::abs(length(lobe.vmf.mean) - 1) < rounding && inverse_distance[i] >= 0);
+        total += lobe.weight;
+    }
+    Reader::require(total > 0);
+    return {reference, VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))), inverse_distance, fluence};
+}
+
+void put_statistics(std::string& out, const Statistics& statistics) {
+    put(out, statistics.count);
+    put(out, statistics.fluence);
+    for (const LobeSums& lobe : statistics.lobes) {
+        put(out, lobe.weight);
+        put(out, lobe.direction);
+        for (const double sum :
+             {lobe.weight_square, lobe.inverse_distance, lobe.inverse_distance_square, lobe.turn, lobe.spread}) {
+            put(out, sum);
+        }
+    }
+}
+
+Statistics take_statistics(Reader& in) {
+    Statistics statistics;
+    statistics.count = in.take_finite<double>();
+    statistics.fluence = in.take_finite<double>();
+    Reader::require(statistics.count >= 0 && statistics.fluence >= 0);
+    for (LobeSums& lobe : statistics.lobes) {
+        lobe.weight = in.take_finite<float>();
+        lobe.direction = in.take_vector();
+        for (double* sum :
+             {&lobe.weight_square, &lobe.inverse_distance, &lobe.inverse_distance_square, &lobe.turn, &lobe.spread}) {
+            *sum = in.take_finite<double>();
+        }
+        Reader::require(lobe.weight >= 0 && lobe.weight_square >= 0);
+    }
+    return statistics;
+}
+
+}  // namespace
+
+/// Sees a field's inside.
+class FieldBytes {
+public:
+    static std::string body(const Field& field) {
+        std::string out;
+        put(out, field.bounds_.min);
+        put(out, field.bounds_.max);
+        put(out, static_cast<std::uint8_t>(field.trained_));
+        put(out, static_cast<std::uint64_t>(field.nodes_.size()));
+        for (const Field::Node& node : field.nodes_) {
+            put(out, node.plane);
+            put(out, static_cast<std::uint8_t>(node.axis));
+            put(out, static_cast<std::uint32_t>(node.child));
+        }
+        put(out, static_cast<std::uint64_t>(field.regions_.size()));
+        for (std::size_t i = 0; i < field.regions_.size(); ++i) {
+            const Field::Memory& memory = field.memories_[i];
+            put_region(out, field.regions_[i]);
+            put(out, memory.depth);
+            put(out, memory.radius);
+            put(out, static_cast<std::uint8_t>(memory.anchored));
+            put_statistics(out, memory.statistics);
+        }
+        return out;
+    }
+
+    static Field field(Reader& in) {
+        Box3 bounds;
+        bounds.min = in.take_vector();
+        bounds.max = in.take_vector();
+        Reader::require(!bounds.isEmpty());
+        Field field = Field::empty(bounds);
+        field.trained_ = in.take<std::uint8_t>() != 0;
+        field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
+        for (Field::Node& node : field.nodes_) {
+            node.plane = in.take_finite<float>();
+            node.axis = in.take<std::uint8_t>() & 3u;
+            node.child = in.take<std::uint32_t>() & 0x3fffffffu;
+        }
+        constexpr std::size_t least_region = 9 * sizeof(float);
+        const std::uint64_t cells = in.take_count(least_region);
+        field.regions_.clear();
+        field.memories_.clear();
+        for (std::uint64_t i = 0; i < cells; ++i) {
+            field.regions_.push_back(take_region(in));
+            Field::Memory& memory = field.memories_.emplace_back();
+            memory.depth = in.take<std::uint32_t>();
+            memory.radius = in.take_finite<float>();
+            memory.anchored = in.take<std::uint8_t>() != 0;
+            memory.statistics = take_statistics(in);
+        }
+        require_tree(field);
+        return field;
+    }
+
+private:
+    /// Children lie behind their parents, so that every look-up ends; each cell has one leaf.
+    static void require_tree(const Field& field) {
+        Reader::require(field.nodes_.size() + 1 == 2 * field.regions_.size());
+        std::vector<std::uint8_t> has_parent(field.nodes_.size(), 0), has_leaf(field.regions_.size(), 0);
+        for (std::size_t i = 0; i < field.nodes_.size(); ++i) {
+            const Field::Node& node = field.nodes_[i];
+            if (node.axis == Field::Node::leaf) {
+                Reader::require(node.child < has_leaf.size() && has_leaf[node.child]++ == 0);
+            } else {
+                Reader::require(node.child > i && node.child + 1u < has_parent.size() &&
+                                has_parent[node.child]++ == 0 && has_parent[node.child + 1]++ == 0);
+            }
+        }
+    }
+};
+
+std::string to_bytes(const Field& field) {
+    std::string out(signature);
+    put(out, version);
+    out += FieldBytes::body(field);
+    put(out, checksum(out));
+    return out;
+}
+
+Field field_from_bytes(std::string_view bytes) {
+    if (bytes.substr(0, signature.size()) != signature) {
+        refuse("these are no bytes of a field");
+    }
+    constexpr std::size_t frame = signature.size() + 2 * sizeof(std::uint32_t);
+    if (bytes.size() < frame) {
+        refuse("the bytes are truncated");
+    }
+    Reader in(bytes.substr(signature.size(), bytes.size() - signature.size() - sizeof(std::uint32_t)));
+    if (const auto found = in.take<std::uint32_t>(); found != version) {
+        refuse("version " + std::to_string(found) + " is not known; this is version " + std::to_string(version));
+    }
+    const std::string_view covered = bytes.substr(0, bytes.size() - sizeof(std::uint32_t));
+    std::uint32_t stored;
+    std::memcpy(&stored, covered.data() + covered.size(), sizeof stored);
+    if (stored != checksum(covered)) {
+        refuse("the checksum does not fit: the bytes are truncated or were changed");
+    }
+    Field field = FieldBytes::field(in);
+    if (!in.empty()) {
+        refuse("there are more bytes than a field has");
+    }
+    return field;
+}
+
+}  // namespace wend::guide
