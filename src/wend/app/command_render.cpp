@@ -3,6 +3,8 @@
 #include <wend/app/progress.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
+#include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
@@ -25,6 +27,7 @@ struct RenderOptions {
     double seconds = 0;
     std::string sampling = "classical";
     std::optional<std::string> passes;
+    std::string load_field, save_field;
 };
 
 std::vector<int> parse_passes(const std::string& text) {
@@ -64,12 +67,24 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     if (!options.output.empty()) {
         require_writable_picture(options.output);
     }
+    if (preset.is_classical() && !(options.load_field.empty() && options.save_field.empty())) {
+        throw InputError(
+            "--load-field and --save-field: classical sampling has no field; give --sampling, such as direction");
+    }
+    if (!options.save_field.empty()) {
+        require_writable(options.save_field);
+    }
+    std::shared_ptr<const GuidingFields> fields;
+    if (!options.load_field.empty()) {
+        fields = std::make_shared<const GuidingFields>(read_fields(options.load_field));
+    }
     const Session session(options.scene, options.common, streams);
     const std::filesystem::path output =
         options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
 
     RenderSettings settings = session.settings();
     settings.preset = preset;
+    settings.fields = std::move(fields);
     settings.samples = options.samples > 0 ? options.samples : settings.samples;
     settings.seconds = options.seconds;
     settings.passes = passes;
@@ -86,6 +101,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
         });
     }
     write_picture(output, session.picture(film, settings, statistics));
+    if (!options.save_field.empty()) {
+        write_fields(options.save_field, *statistics.fields);
+    }
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
     if (statistics.counts.rejected > 0) {
@@ -124,6 +142,8 @@ Action add_render_command(CLI::App& program) {
     command.add_option(
         "--sampling", options->sampling,
         "classical, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");
+    command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
+    command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
     options->common.add_to(command);
     return [options](const Streams& streams) { render_scene(*options, streams); };
 }

@@ -161,7 +161,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     RenderStatistics statistics;
     std::vector<Tile> tiles = tiles_of(film.crop());
     const Schedule schedule(settings);
-    GuidingFields fields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
+    GuidingFields fields =
+        settings.fields ? *settings.fields
+                        : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
@@ -199,7 +201,10 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     for (const Tile& tile : tiles) {
         statistics.counts += tile.counts;
     }
-    statistics.field_bytes = settings.preset.is_classical() ? 0 : fields.bytes();
+    if (!settings.preset.is_classical()) {
+        statistics.field_bytes = fields.bytes();
+        statistics.fields = std::make_shared<const GuidingFields>(std::move(fields));
+    }
     statistics.seconds = seconds_since(start);
     check_rejected(statistics.counts);
     return statistics;

@@ -5,10 +5,12 @@
 #include <wend/film/filter.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/preset.h>
+#include <wend/integrator/training.h>
 #include <wend/sampling/sampler.h>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace wend {
@@ -22,6 +24,8 @@ struct RenderSettings {
     std::vector<int> passes;
 
     Preset preset;
+    /// What an earlier render of the scene learned; null: nothing yet.
+    std::shared_ptr<const GuidingFields> fields;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
     int threads = 0;  ///< 0: all
@@ -46,6 +50,7 @@ struct RenderStatistics {
     std::size_t field_bytes = 0;
     std::vector<int> passes;  ///< samples per pixel of each pass
     bool interrupted = false;
+    std::shared_ptr<const GuidingFields> fields;  ///< what was learned; null if nothing was guided
 };
 
 /// Renders into the film. `keep_going` is called between passes, with the film complete up to there; false ends the
