@@ -54,14 +54,16 @@ Nodes refractive_nodes(int count, double ior, double lean) {
 }
 
 Nodes choose_nodes(const PlanarProblem& problem, int count) {
-    // Crowding costs exactness for the high moments: what the nodes leave of the phase function's peak decides.
-    const double mean_cosine = problem.moments.size() > 1 ? std::abs(problem.moments[1]) : 0;
-    const double resolved = mean_cosine > 0 ? -count * std::log(mean_cosine) : std::numeric_limits<double>::infinity();
-    const double lean = std::clamp((resolved - 2.5) / 3.5, 0.0, 1.0);
     const PlanarSlab& slab = problem.slab;
     const double ior = slab.near.ior > 1 ? slab.near.ior : (std::isinf(slab.thickness) ? 1 : slab.far.ior);
     const bool smooth = !slab.near.rough && !slab.far.rough;
-    return ior > 1 && smooth && count >= 4 ? refractive_nodes(count, ior, lean) : matched_nodes(count, lean);
+    const bool split = ior > 1 && smooth && count >= 4;
+    // Crowding costs exactness for the high moments: what the nodes of one part leave of the phase function's peak
+    // decides.
+    const double mean_cosine = problem.moments.size() > 1 ? std::abs(problem.moments[1]) : 0;
+    const double resolved = -(split ? 0.5 : 1.0) * count * std::log(mean_cosine);
+    const double lean = std::clamp((resolved - 2) / 6.5, 0.0, 1.0);
+    return split ? refractive_nodes(count, ior, lean) : matched_nodes(count, lean);
 }
 
 /// Modes at the nodes: columns phi_k(t_j) and phi_k(-t_j).
