@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -106,6 +108,30 @@ TEST(Exponential, EndsOfTheRangeAreFinite) {
     EXPECT_EQ(to_exponential(0, 2), 0);
     EXPECT_TRUE(std::isfinite(to_exponential(one_minus_epsilon, 2)));
     EXPECT_GT(to_exponential(1e-7f, 1), 0);
+}
+
+TEST(GoldenLattice, PointsUnderARandomShiftAreUniform) {
+    for (const int i : {0, 5, 15}) {
+        EXPECT_GE(uniformity_of([&](const Vec2& u) { return golden_lattice_point(i, 16, u); }), test::passing);
+    }
+    EXPECT_LT(uniformity_of([](const Vec2& u) { return golden_lattice_point(5, 16, u * 0.9f); }), test::failing);
+}
+
+TEST(GoldenLattice, AreEvenInBothCoordinatesAndInside) {
+    constexpr int n = 64;
+    for (const Vec2& shift : {Vec2(0, 0), Vec2(0.37f, 0.91f), Vec2(one_minus_epsilon, one_minus_epsilon)}) {
+        std::vector<int> columns(n), cells(16);
+        for (int i = 0; i < n; ++i) {
+            const Vec2 p = golden_lattice_point(i, n, shift);
+            ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+            ++columns[static_cast<std::size_t>(p.x * n)];
+            ++cells[static_cast<std::size_t>(p.y * 16)];
+        }
+        // One in every column, up to rounding at their edges, and 4 ± 2 in every row of 16.
+        EXPECT_LE(*std::max_element(columns.begin(), columns.end()), 2);
+        EXPECT_GE(*std::min_element(cells.begin(), cells.end()), 2);
+        EXPECT_LE(*std::max_element(cells.begin(), cells.end()), 6);
+    }
 }
 
 }  // namespace

@@ -105,10 +105,12 @@ double PlanarAdjoint::keep_positive() {
     if (all_positive_) {
         return 1;
     }
+    raise_longest(near_);
+    raise_longest(far_);
     constexpr int depths = 400;
     const double reach = std::isinf(slab_.thickness) ? 1e4 : slab_.thickness;
+    std::vector<double> lower(static_cast<std::size_t>(rows_), 1.0);
     const auto modes = static_cast<std::size_t>(count_);
-    double raise = 1;
     for (int i = 0; i <= depths; ++i) {
         // Dense at both ends, down to a millionth of the thickness.
         const double u = static_cast<double>(i) / depths;
@@ -116,7 +118,7 @@ double PlanarAdjoint::keep_positive() {
         const double from_end = v == 0 ? 0 : std::pow(10.0, 7 * (v - 1)) * (has_far_ ? reach / 2 : reach);
         Site site;
         at(has_far_ && u > 0.5 ? slab_.thickness - from_end : from_end, site);
-        for (std::size_t row = 0; row < static_cast<std::size_t>(rows_); ++row) {
+        for (std::size_t row = 0; row < lower.size(); ++row) {
             double positive = 0, negative = 0;
             for (std::size_t k = 0; k < modes; ++k) {
                 const double near = near_[row * modes + k] * site.near[k];
@@ -124,20 +126,36 @@ double PlanarAdjoint::keep_positive() {
                 positive += std::max(near, 0.0) + std::max(far, 0.0);
                 negative -= std::min(near, 0.0) + std::min(far, 0.0);
             }
-            if (positive > 0) {
-                raise = std::max(raise, negative / (positive * (1 - least_part)));
+            if (negative > 0) {
+                lower[row] = std::min(lower[row], (1 - least_part) * positive / negative);
             }
         }
     }
-    if (raise > 1) {
+    const double lowest = *std::min_element(lower.begin(), lower.end());
+    if (lowest < 1) {
         for (std::vector<double>* table : {&near_, &far_}) {
-            for (double& amplitude : *table) {
-                amplitude = amplitude > 0 ? amplitude * raise : amplitude;
+            for (std::size_t i = 0; i < table->size(); ++i) {
+                double& amplitude = (*table)[i];
+                amplitude = amplitude < 0 ? amplitude * lower[i / modes] : amplitude;
             }
         }
-        tabulate_rough_arrivals();
     }
-    return raise;
+    tabulate_rough_arrivals();
+    return lowest;
+}
+
+// Deep inside the longest mode is all there is. It comes first, and is positive in truth; the sum of its first Legendre
+// polynomials may not be.
+void PlanarAdjoint::raise_longest(std::vector<double>& amplitudes) const {
+    const auto modes = static_cast<std::size_t>(count_);
+    double largest = 0, sum = 0;
+    for (std::size_t i = 0; i < amplitudes.size(); i += modes) {
+        largest = std::max(largest, amplitudes[i]);
+        sum += amplitudes[i];
+    }
+    for (std::size_t i = 0; sum > 0 && i < amplitudes.size(); i += modes) {
+        amplitudes[i] = amplitudes[i] < 0 ? least_part * largest : amplitudes[i];
+    }
 }
 
 void PlanarAdjoint::at(double depth, Site& site) const {

@@ -94,8 +94,9 @@ public:
     /// Whether every term is positive in every direction.
     bool all_positive() const { return all_positive_; }
     /// Terms may be negative. Where their sum would not stay clearly positive (a solution of too few modes, or a
-    /// disturbed one), this raises the positive ones until it does, so that the source can be sampled, and returns the
-    /// factor, 1 if nothing had to be done.
+    /// disturbed one), this makes the first mode, the longest, positive in all directions and lowers the negative terms
+    /// of a direction until the sum is, so that the source can be sampled. Returns the smallest factor, 1 if nothing
+    /// had to be lowered.
     double keep_positive();
 
     void at(double depth, Site& site) const;
@@ -110,6 +111,7 @@ private:
     template <class Use>
     void with_amplitudes(double mu, const Use& use) const;
     void trace(const Site& site, double mu, Ray& ray) const;
+    void raise_longest(std::vector<double>& amplitudes) const;
     void tabulate_rough_arrivals();
     double smooth_arrival(bool at_far, double t) const;
 
