@@ -43,19 +43,22 @@ PlanarDirection PhaseDirection::sample(double /*depth*/, double before, Pcg32& r
     return {std::clamp(before * cosine + sines * std::cos(azimuth), -1.0, 1.0), 1};
 }
 
-DwivediDirection::DwivediDirection(double gap, Heading heading) : sign_(heading == Heading::far ? 1 : -1) {
-    const double d = std::clamp(gap, 1e-9, 1.0);
-    nu_ = 1 / (1 - std::min(d, 1 - 1e-12));
-    logarithm_ = std::log((2 - d) / d);
+// In k = 1/nu, where nothing cancels: neither as k -> 1 (no scattering) nor as k -> 0 (no absorption).
+DwivediDirection::DwivediDirection(double gap, Heading heading)
+    : gap_(std::clamp(gap, 1e-9, 1.0)),
+      k_(std::max(1 - gap_, 1e-12)),
+      logarithm_(std::log1p(2 * k_ / gap_)),
+      sign_(heading == Heading::far ? 1 : -1) {
 }
 
 PlanarDirection DwivediDirection::sample(double /*depth*/, double /*before*/, Pcg32& random) const {
-    const double distance = (nu_ + 1) * std::exp(-logarithm_ * random.uniform_double());  // nu - m
-    return {sign_ * std::clamp(nu_ - distance, -1.0, 1.0), 2 / (logarithm_ * distance)};
+    const double exponent = -logarithm_ * random.uniform_double();
+    const double cosine = -1 - (1 + k_) / k_ * std::expm1(exponent);
+    return {sign_ * std::clamp(cosine, -1.0, 1.0), 2 * k_ / (logarithm_ * (1 + k_) * std::exp(exponent))};
 }
 
 double DwivediDirection::boost(double /*depth*/, double /*before*/, double after) const {
-    return 2 / (logarithm_ * (nu_ - sign_ * after));
+    return 2 * k_ / (logarithm_ * (gap_ + k_ * (1 - sign_ * after)));
 }
 
 }  // namespace wend

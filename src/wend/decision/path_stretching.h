@@ -41,19 +41,21 @@ private:
     double g_;
 };
 
-/// Cosines of isotropic scattering in proportion to Case's discrete mode alone, 1 / (nu - m) (dwivedi1982;
-/// krivanek2014).
+/// Cosines of isotropic scattering in proportion to Case's discrete mode alone, 1 / (nu - m), m the cosine towards
+/// the heading (dwivedi1982; krivanek2014).
 class DwivediDirection {
 public:
-    /// `gap` is 1 - 1/nu, in (0,1]; below 1e-9, where all walks would go straight ahead, it is taken as that.
+    /// `gap` is 1 - 1/nu, in (0,1]; below 1e-9, where all walks would go straight ahead, it is taken as that; 1 is
+    /// isotropic.
     DwivediDirection(double gap, Heading heading);
 
     PlanarDirection sample(double depth, double before, Pcg32& random) const;
     double boost(double depth, double before, double after) const;
 
 private:
-    double nu_;
-    double logarithm_;  // ln((nu + 1) / (nu - 1))
+    double gap_;
+    double k_;          // 1/nu
+    double logarithm_;  // ln((1 + k) / (1 - k))
     double sign_;
 };
 
