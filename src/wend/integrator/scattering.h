@@ -21,7 +21,7 @@ public:
         const float p = density(w);
         return DirectionSample{w, Rgb(p), p};
     }
-    std::optional<Vmf> lobe() const;
+    AxialLobes lobes() const { return phase_.lobes(before_); }
     bool is_specular() const { return false; }
     /// One lobe is no picture of a strongly peaked Henyey-Greenstein function with its long tail: over the dozens of
     /// events of a dense medium the mismatch would cost more than the guide brings.
@@ -52,7 +52,7 @@ public:
         }
         return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular};
     }
-    std::optional<Vmf> lobe() const;
+    AxialLobes lobes() const;
     bool is_specular() const {
         return std::visit([](const auto& b) { return b.is_specular(); }, bsdf_);
     }

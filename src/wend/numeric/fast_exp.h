@@ -1,10 +1,10 @@
-// The exponential function of the guide: short enough for the compiler to do several at once.
+// An exponential function short enough for the compiler to do several at once.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
-namespace wend::guide {
+namespace wend {
 
 /// Below this, fast_exp stays at its value there (1.6e-38) rather than underflow.
 inline constexpr float fast_exp_smallest = -87.0f;
@@ -30,4 +30,4 @@ inline float fast_exp(float x) {
     return e_r * std::bit_cast<float>(exponent << 23);
 }
 
-}  // namespace wend::guide
+}  // namespace wend

@@ -1,0 +1,87 @@
+#include <wend/guide/product.h>
+
+#include <wend/core/contracts.h>
+#include <wend/numeric/fast_exp.h>
+#include <wend/sampling/discrete.h>
+
+#include <cmath>
+
+namespace wend::guide {
+namespace {
+
+constexpr float least_integral = 1e-20f;
+
+/// ∫ f g dω of two lobes over the product of their densities at their means, from the squared distances of one mean to
+/// the other and to its opposite. All terms are positive: nothing cancels.
+inline float overlap(float kappa, float other, float to_mean, float to_opposite) {
+    const float difference = kappa - other;
+    const float both = kappa * other;
+    const float joint = std::sqrt(difference * difference + both * to_opposite);
+    // joint - kappa - other
+    const float exponent = -both * to_mean / (joint + kappa + other + 1e-30f);
+    // sinh(joint) / joint · e^-joint, which is 1/(4 pi) over the density of the joint lobe at its mean.
+    const float decay = fast_exp(-joint);
+    const float j2 = joint * joint;
+    const float series = decay * (1 + j2 * (1.0f / 6 + j2 * (1.0f / 120 + j2 * (1.0f / 5040))));
+    const float closed = (1 - decay * decay) / (2 * joint + 1e-30f);
+    return 4 * pi * fast_exp(exponent) * (joint < 0.5f ? series : closed);
+}
+
+}  // namespace
+
+MixtureProduct VmfMixture::product(const AxialLobes& lobes) const {
+    return MixtureProduct(*this, lobes);
+}
+
+MixtureProduct::MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture), lobes_(lobes) {
+    const int blocks = mixture_.blocks();
+    Lanes to_axis, to_opposite;
+    for_lanes(blocks, [&, axis = lobes_.axis()](int i) {
+        const float x = mixture_.mean_x_[i], y = mixture_.mean_y_[i], z = mixture_.mean_z_[i];
+        to_axis[i] = sqr(x - axis.x) + sqr(y - axis.y) + sqr(z - axis.z);
+        to_opposite[i] = sqr(x + axis.x) + sqr(y + axis.y) + sqr(z + axis.z);
+    });
+    for (int j = 0; j < lobes_.size(); ++j) {
+        const float kappa = std::abs(lobes_.kappa(j)), amplitude = lobes_.amplitude(j);
+        const bool forward = lobes_.kappa(j) >= 0;
+        const Lanes &near = forward ? to_axis : to_opposite, &far = forward ? to_opposite : to_axis;
+        for_lanes(blocks, [&](int i) {
+            parts_[i] += mixture_.amplitude_[i] * amplitude * overlap(mixture_.kappa_[i], kappa, near[i], far[i]);
+        });
+    }
+    total_ = sum_lanes(blocks, parts_);
+    integral_ = total_;
+    if (!(total_ > least_integral)) {
+        lobes_ = AxialLobes();
+        parts_ = mixture_.weight_;
+        total_ = 1;
+        integral_ = 0;
+        scale_ = 4 * pi;
+    } else {
+        scale_ = 1 / total_;
+    }
+}
+
+Vec3 MixtureProduct::sample(Vec2 u) const {
+    const int i = select({parts_.value, static_cast<std::size_t>(mixture_.size())}, total_, u.x);
+    const auto [weight, vmf] = mixture_.lobe(i);
+    float kappa = lobes_.kappa(0);
+    if (lobes_.size() > 1) {
+        const float to_axis = length_squared(vmf.mean - lobes_.axis());
+        const float to_opposite = length_squared(vmf.mean + lobes_.axis());
+        float shares[AxialLobes::capacity];
+        float total = 0;
+        for (int j = 0; j < lobes_.size(); ++j) {
+            const float k = lobes_.kappa(j);
+            shares[j] = lobes_.amplitude(j) *
+                        overlap(vmf.kappa, std::abs(k), k < 0 ? to_opposite : to_axis, k < 0 ? to_axis : to_opposite);
+            total += shares[j];
+        }
+        kappa = lobes_.kappa(select({shares, static_cast<std::size_t>(lobes_.size())}, total, u.x));
+    }
+    const Vec3 sum = vmf.mean * vmf.kappa + lobes_.axis() * kappa;
+    const float joint = length(sum);
+    return Vmf{joint > 0 ? sum * (1 / joint) : vmf.mean, joint}.sample(u);
+}
+
+}  // namespace wend::guide
