@@ -1,6 +1,7 @@
 #include <wend/guide/mixture.h>
 
 #include <wend/core/contracts.h>
+#include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 
@@ -41,7 +42,7 @@ WeightedVmf VmfMixture::lobe(int i) const {
     return {weight_[i], {Vec3(mean_x_[i], mean_y_[i], mean_z_[i]), kappa_[i]}};
 }
 
-float VmfMixture::density(const Vec3& direction) const {
+WEND_VECTOR_CLONES float VmfMixture::density(const Vec3& direction) const {
     Lanes densities;
     for_lanes(blocks(), [&](int i) {
         const float x = direction.x - mean_x_[i], y = direction.y - mean_y_[i], z = direction.z - mean_z_[i];
@@ -55,7 +56,7 @@ Vec3 VmfMixture::sample(Vec2 u) const {
     return lobe(chosen).vmf.sample(u);
 }
 
-VmfMixture VmfMixture::re_aimed(const Vec3& offset, const Lanes& inverse_distance) const {
+WEND_VECTOR_CLONES VmfMixture VmfMixture::re_aimed(const Vec3& offset, const Lanes& inverse_distance) const {
     VmfMixture result = *this;
     for_lanes(blocks(), [&](int i) {
         const float x = mean_x_[i] + offset.x * inverse_distance[i];

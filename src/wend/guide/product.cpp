@@ -1,30 +1,32 @@
 #include <wend/guide/product.h>
 
-#include <wend/core/contracts.h>
+#include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace wend::guide {
 namespace {
 
 constexpr float least_integral = 1e-20f;
 
-/// ∫ f g dω of two lobes over the product of their densities at their means, from the squared distances of one mean to
-/// the other and to its opposite. All terms are positive: nothing cancels.
+/// ∫ f g dω of two lobes over 2 pi times the product of their densities at their means, from the squared distances of
+/// one mean to the other and to its opposite. No two terms cancel.
 inline float overlap(float kappa, float other, float to_mean, float to_opposite) {
     const float difference = kappa - other;
     const float both = kappa * other;
     const float joint = std::sqrt(difference * difference + both * to_opposite);
     // joint - kappa - other
-    const float exponent = -both * to_mean / (joint + kappa + other + 1e-30f);
-    // sinh(joint) / joint · e^-joint, which is 1/(4 pi) over the density of the joint lobe at its mean.
-    const float decay = fast_exp(-joint);
-    const float j2 = joint * joint;
-    const float series = decay * (1 + j2 * (1.0f / 6 + j2 * (1.0f / 120 + j2 * (1.0f / 5040))));
-    const float closed = (1 - decay * decay) / (2 * joint + 1e-30f);
-    return 4 * pi * fast_exp(exponent) * (joint < 0.5f ? series : closed);
+    const float exponent = -both * to_mean / (joint + (kappa + other + 1e-30f));
+    // (1 - e^{-2 joint}) / joint, inverse to the density of the joint lobe at its mean. Series and closed form have
+    // relative errors below 1e-6 where one takes over.
+    const float closed = (1 - fast_exp(-2 * joint)) / (joint + 1e-30f);
+    const float series =
+        2 - joint * (2 - joint * (4.0f / 3 - joint * (2.0f / 3 - joint * (4.0f / 15 - joint * (4.0f / 45)))));
+    return fast_exp(exponent) * (joint < 0.125f ? series : closed);
 }
 
 }  // namespace
@@ -34,6 +36,19 @@ MixtureProduct VmfMixture::product(const AxialLobes& lobes) const {
 }
 
 MixtureProduct::MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture), lobes_(lobes) {
+    weigh_parts();
+    total_ = sum_lanes(mixture_.blocks(), parts_);
+    integral_ = total_;
+    if (!(total_ > least_integral)) {
+        lobes_ = AxialLobes();
+        parts_ = mixture_.weight_;
+        total_ = 1;
+        integral_ = 0;
+    }
+    scale_ = (integral_ > 0 ? 1 : 4 * pi) / total_;
+}
+
+WEND_VECTOR_CLONES void MixtureProduct::weigh_parts() {
     const int blocks = mixture_.blocks();
     Lanes to_axis, to_opposite;
     for_lanes(blocks, [&, axis = lobes_.axis()](int i) {
@@ -45,39 +60,26 @@ MixtureProduct::MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobe
         const float kappa = std::abs(lobes_.kappa(j)), amplitude = lobes_.amplitude(j);
         const bool forward = lobes_.kappa(j) >= 0;
         const Lanes &near = forward ? to_axis : to_opposite, &far = forward ? to_opposite : to_axis;
-        for_lanes(blocks, [&](int i) {
-            parts_[i] += mixture_.amplitude_[i] * amplitude * overlap(mixture_.kappa_[i], kappa, near[i], far[i]);
-        });
+        for_lanes(blocks, [&](int i) { parts_[i] += amplitude * overlap(mixture_.kappa_[i], kappa, near[i], far[i]); });
     }
-    total_ = sum_lanes(blocks, parts_);
-    integral_ = total_;
-    if (!(total_ > least_integral)) {
-        lobes_ = AxialLobes();
-        parts_ = mixture_.weight_;
-        total_ = 1;
-        integral_ = 0;
-        scale_ = 4 * pi;
-    } else {
-        scale_ = 1 / total_;
-    }
+    for_lanes(blocks, [&](int i) { parts_[i] *= 2 * pi * mixture_.amplitude_[i]; });
 }
 
-Vec3 MixtureProduct::sample(Vec2 u) const {
+WEND_VECTOR_CLONES Vec3 MixtureProduct::sample(Vec2 u) const {
     const int i = select({parts_.value, static_cast<std::size_t>(mixture_.size())}, total_, u.x);
     const auto [weight, vmf] = mixture_.lobe(i);
     float kappa = lobes_.kappa(0);
     if (lobes_.size() > 1) {
         const float to_axis = length_squared(vmf.mean - lobes_.axis());
         const float to_opposite = length_squared(vmf.mean + lobes_.axis());
-        float shares[AxialLobes::capacity];
-        float total = 0;
-        for (int j = 0; j < lobes_.size(); ++j) {
+        float parts[AxialLobes::capacity];
+        for_lanes(blocks_for(lobes_.size()), [&, own = vmf.kappa](int j) {
             const float k = lobes_.kappa(j);
-            shares[j] = lobes_.amplitude(j) *
-                        overlap(vmf.kappa, std::abs(k), k < 0 ? to_opposite : to_axis, k < 0 ? to_axis : to_opposite);
-            total += shares[j];
-        }
-        kappa = lobes_.kappa(select({shares, static_cast<std::size_t>(lobes_.size())}, total, u.x));
+            const float near = k < 0 ? to_opposite : to_axis, far = k < 0 ? to_axis : to_opposite;
+            parts[j] = lobes_.amplitude(j) * overlap(own, std::abs(k), near, far);
+        });
+        const std::span some(parts, static_cast<std::size_t>(lobes_.size()));
+        kappa = lobes_.kappa(select(some, std::accumulate(some.begin(), some.end(), 0.0f), u.x));
     }
     const Vec3 sum = vmf.mean * vmf.kappa + lobes_.axis() * kappa;
     const float joint = length(sum);

@@ -25,6 +25,8 @@ public:
     Vec3 sample(Vec2 u) const;
 
 private:
+    void weigh_parts();
+
     VmfMixture mixture_;
     AxialLobes lobes_;
     /// Of each lobe of the mixture, its part of ∫ V H dω; and their sum.

@@ -1,6 +1,7 @@
 #include <wend/sampling/axial_lobes.h>
 
 #include <wend/core/contracts.h>
+#include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 #include <wend/sampling/vmf.h>
@@ -33,7 +34,7 @@ AxialLobes AxialLobes::around(const Vec3& axis) const {
     return result;
 }
 
-float AxialLobes::density(const Vec3& direction) const {
+WEND_VECTOR_CLONES float AxialLobes::density(const Vec3& direction) const {
     // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
     constexpr int block = 8;
     static_assert(capacity % block == 0);
