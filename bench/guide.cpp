@@ -1,6 +1,7 @@
 // Cost of asking the learned field and of training it.
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
+#include <wend/medium/phase_lobes.h>
 
 #include <benchmark/benchmark.h>
 
@@ -41,42 +42,32 @@ FitSettings settings_with(int lobes) {
     return settings;
 }
 
+/// A guided direction at a surface or in a medium.
 struct Query {
     Vec3 position;
     Vec2 u;
-    Vmf phase;
+    AxialLobes lobes;
 };
 
-std::vector<Query> random_queries() {
+/// Lobes along random axes.
+std::vector<Query> random_queries(const AxialLobes& lobes) {
     Pcg32 random(7);
     std::vector<Query> result;
     for (std::size_t i = 0; i < queries; ++i) {
         const Vec2 u = random.uniform2();
         const Vec3 position(u.x, u.y, random.uniform());
-        const Vec3 forward = Vmf{}.sample(random.uniform2());
-        result.push_back({position, random.uniform2(), Vmf::with_mean_cosine(forward, 0.8f)});
+        const Vec3 axis = Vmf{}.sample(random.uniform2());
+        result.push_back({position, random.uniform2(), lobes.around(axis)});
     }
     return result;
 }
 
-/// Look-up, re-aiming, product with a phase function, sample and density: a guided direction.
-void guided_direction(benchmark::State& state) {
-    const Field field = fit(Field::empty(unit_box), lamp_records(200000, 1), settings_with(state.range(0)), 1).field;
-    const std::vector<Query> all = random_queries();
-    std::size_t i = 0;
-    for (auto _ : state) {
-        const Query& query = all[i++ % queries];
-        const VmfMixture product =
-            field.find(query.position)->incident(query.position).product(query.phase).distribution;
-        const Vec3 w = product.sample(query.u);
-        benchmark::DoNotOptimize(product.density(w));
-    }
-}
-BENCHMARK(guided_direction)->Arg(8)->Arg(16);
+const AxialLobes cosine(std::array{AxialLobe{1, 2.18853f}});
+const AxialLobes phase = lobes_of(HenyeyGreenstein{0.8f});
 
-void mixture_step(benchmark::State& state, auto step) {
-    const Field field = fit(Field::empty(unit_box), lamp_records(20000, 1), settings_with(state.range(0)), 1).field;
-    const std::vector<Query> all = random_queries();
+void field_step(benchmark::State& state, const AxialLobes& lobes, auto step) {
+    const Field field = fit(Field::empty(unit_box), lamp_records(200000, 1), settings_with(state.range(0)), 1).field;
+    const std::vector<Query> all = random_queries(lobes);
     std::size_t i = 0;
     for (auto _ : state) {
         const Query& query = all[i++ % queries];
@@ -84,33 +75,65 @@ void mixture_step(benchmark::State& state, auto step) {
     }
 }
 
+void guided_direction(benchmark::State& state, const AxialLobes& lobes) {
+    field_step(state, lobes, [](const Region& region, const Query& query) {
+        const MixtureProduct product = region.incident(query.position).product(query.lobes);
+        const Vec3 w = product.sample(query.u);
+        benchmark::DoNotOptimize(product.density(w));
+    });
+}
+
+/// Look-up, re-aiming, product with the cosine, sample and density.
+void surface(benchmark::State& state) {
+    guided_direction(state, cosine);
+}
+BENCHMARK(surface)->Arg(8)->Arg(16);
+
+/// Look-up, re-aiming, product with Henyey and Greenstein's function of g = 0.8, sample and density.
+void volume(benchmark::State& state) {
+    guided_direction(state, phase);
+}
+BENCHMARK(volume)->Arg(8)->Arg(16);
+
+/// What the core does now: times above are best told as multiples of this one.
+void thousand_dependent_multiply_adds(benchmark::State& state) {
+    for (auto _ : state) {
+        float x = 0.3f;
+        for (int i = 0; i < 1000; ++i) {
+            x = x * 0.999f + 1e-3f;
+        }
+        benchmark::DoNotOptimize(x);
+    }
+}
+BENCHMARK(thousand_dependent_multiply_adds);
+
 void look_up_and_re_aim(benchmark::State& state) {
-    mixture_step(state, [](const Region& region, const Query& query) {
+    field_step(state, phase, [](const Region& region, const Query& query) {
         benchmark::DoNotOptimize(region.incident(query.position));
     });
 }
-BENCHMARK(look_up_and_re_aim)->Arg(8);
+BENCHMARK(look_up_and_re_aim)->Arg(8)->Arg(16);
 
 void product(benchmark::State& state) {
-    mixture_step(state, [](const Region& region, const Query& query) {
-        benchmark::DoNotOptimize(region.mixture().product(query.phase));
+    field_step(state, phase, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.mixture().product(query.lobes));
     });
 }
-BENCHMARK(product)->Arg(8);
+BENCHMARK(product)->Arg(8)->Arg(16);
 
 void sample(benchmark::State& state) {
-    mixture_step(state, [](const Region& region, const Query& query) {
+    field_step(state, phase, [](const Region& region, const Query& query) {
         benchmark::DoNotOptimize(region.mixture().sample(query.u));
     });
 }
-BENCHMARK(sample)->Arg(8);
+BENCHMARK(sample)->Arg(8)->Arg(16);
 
 void density(benchmark::State& state) {
-    mixture_step(state, [](const Region& region, const Query& query) {
-        benchmark::DoNotOptimize(region.mixture().density(query.phase.mean));
+    field_step(state, phase, [](const Region& region, const Query& query) {
+        benchmark::DoNotOptimize(region.mixture().density(query.lobes.axis()));
     });
 }
-BENCHMARK(density)->Arg(8);
+BENCHMARK(density)->Arg(8)->Arg(16);
 
 /// Records per second of one thread, first fit and refinement alike.
 void training(benchmark::State& state) {

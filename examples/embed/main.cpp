@@ -25,6 +25,7 @@ using wend::Vec3;
 // The ball has radius 1 and its centre in the origin.
 constexpr float extinction = 3;
 constexpr float albedo = 0.95f;
+const wend::PhaseFunction phase(wend::HenyeyGreenstein{0.4f});
 
 float sky(const Vec3& direction) {
     return direction.z > 0.98f ? 100.0f : 0.1f;
@@ -36,18 +37,17 @@ public:
     explicit Collision(const Vec3& before) : before_(before) {}
 
     Rgb evaluate(const Vec3& w) const { return Rgb(density(w)); }
-    float density(const Vec3& w) const { return phase_.evaluate(dot(before_, w)); }
+    float density(const Vec3& w) const { return phase.evaluate(dot(before_, w)); }
     std::optional<wend::DirectionSample> sample(float, const Vec2& u) const {
-        const Vec3 w = phase_.sample(before_, u);
+        const Vec3 w = phase.sample(before_, u);
         return wend::DirectionSample{w, Rgb(density(w)), density(w)};
     }
-    std::optional<wend::Vmf> lobe() const { return wend::Vmf::with_mean_cosine(before_, phase_.mean_cosine()); }
+    wend::AxialLobes lobes() const { return phase.lobes(before_); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 
 private:
     Vec3 before_;
-    wend::PhaseFunction phase_{wend::HenyeyGreenstein{0.4f}};
 };
 
 /// Distance along a ray to the ball's surface from inside.

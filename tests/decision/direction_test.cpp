@@ -1,7 +1,8 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
-#include <wend/medium/phase.h>
+#include <wend/guide/product.h>
+#include <wend/medium/phase_lobes.h>
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ struct Volume {
         const Vec3 w = PhaseFunction(phase).sample(before, u);
         return DirectionSample{w, evaluate(w), density(w)};
     }
-    std::optional<Vmf> lobe() const { return Vmf::with_mean_cosine(before, phase.g); }
+    AxialLobes lobes() const { return lobes_of(phase).around(before); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 };
@@ -38,7 +39,7 @@ struct Wall {
         const Vec3 w = Frame::from_z(normal).to_world(to_cosine_hemisphere(u));
         return density(w) > 0 ? std::optional(DirectionSample{w, evaluate(w), density(w)}) : std::nullopt;
     }
-    std::optional<Vmf> lobe() const { return std::nullopt; }
+    AxialLobes lobes() const { return AxialLobes(); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 };
@@ -59,7 +60,7 @@ struct Coat {
         }
         return s;
     }
-    std::optional<Vmf> lobe() const { return std::nullopt; }
+    AxialLobes lobes() const { return AxialLobes(); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 };
@@ -67,7 +68,7 @@ struct Coat {
 /// What a field would have learned: one lobe, wrong on purpose where the test says so.
 struct LobeAdjoint {
     Vmf lobe;
-    Vmf incident(const Vec3&) const { return lobe; }
+    guide::VmfMixture incident(const Vec3&) const { return guide::VmfMixture(std::array{guide::WeightedVmf{1, lobe}}); }
     float fluence() const { return 1; }
 };
 

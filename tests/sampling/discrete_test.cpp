@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -33,6 +34,28 @@ double p_value_of(const AliasTable& table, const std::vector<float>& weights) {
         expected.push_back(samples * w / total);
     }
     return chi_square_test(observed, expected).p_value;
+}
+
+TEST(Select, SplitsTheUnitIntervalInProportion) {
+    const std::array<float, 5> weights = {0, 1, 0, 3, 0};
+    for (int i = 0; i < 100; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) / 100;
+        float rest = u;
+        const int chosen = select(weights, 4, rest);
+        EXPECT_EQ(chosen, i < 25 ? 1 : 3);
+        EXPECT_NEAR(rest, i < 25 ? 4 * u : (u - 0.25f) * 4 / 3, 1e-5);
+    }
+}
+
+TEST(Select, RoundingSelectsNoZeroWeight) {
+    const std::array<float, 3> weights = {0, 0.3f, 0};
+    for (const float total : {0.3f, 0.30001f}) {
+        for (const float start : {0.0f, one_minus_epsilon}) {
+            float u = start;
+            EXPECT_EQ(select(weights, total, u), 1);
+            EXPECT_LT(u, 1);
+        }
+    }
 }
 
 TEST(AliasTable, FrequenciesFollowTheWeights) {

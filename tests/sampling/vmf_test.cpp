@@ -106,49 +106,6 @@ TEST(Vmf, ConcentrationInvertsMeanCosine) {
     EXPECT_EQ(vmf_kappa(1), Vmf::max_kappa);
 }
 
-TEST(Vmf, NegativeMeanCosineTurnsTheMeanAround) {
-    const Vmf lobe = Vmf::with_mean_cosine(tilted, -0.4f);
-    EXPECT_EQ(lobe.mean, -tilted);
-    EXPECT_NEAR(vmf_mean_cosine(lobe.kappa), 0.4f, 1e-6);
-}
-
-TEST(Vmf, ProductIsThePointwiseProduct) {
-    struct Pair {
-        float kappa, other_kappa;
-    };
-    const Vec3 other_mean = normalize(Vec3(-0.2f, 0.1f, 0.9f));
-    for (const Pair p : {Pair{0, 0}, Pair{0, 5}, Pair{3, 0.01f}, Pair{1, 8}, Pair{20, 30}, Pair{300, 2}}) {
-        const Vmf f{tilted, p.kappa}, g{other_mean, p.other_kappa};
-        const VmfProduct product = f.product(g);
-        EXPECT_NEAR(length(product.distribution.mean), 1, 1e-6);
-        for (const double s : {0.0, 0.01, 0.3, 1.0}) {
-            const Vec3 w = at(product.distribution.mean, s, 1);
-            const double pointwise = f.density(w) * g.density(w);
-            EXPECT_NEAR(product.integral * product.distribution.density(w), pointwise, 3e-5 * pointwise + 1e-37)
-                << p.kappa << " x " << p.other_kappa << " at " << s;
-        }
-    }
-}
-
-TEST(Vmf, ProductOfNarrowLobesSideBySideKeepsItsPrecision) {
-    // For large concentrations the integral is the planar Gaussian convolution, k e^{-k angle²/2} / (2 pi) with
-    // 1/k = 1/kappa + 1/other.
-    const double angle = 0.004;
-    const Vmf f{{0, 0, 1}, 1e5f};
-    const Vmf g{{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))}, 5e4f};
-    const double k = 1e5 * 5e4 / 1.5e5;
-    const double expected = k / (2 * pi) * std::exp(-k * angle * angle / 2);
-    EXPECT_NEAR(f.product(g).integral, expected, 1e-3 * expected);
-}
-
-TEST(Vmf, ProductOfOppositeLobesIsUniform) {
-    const Vmf f{{0, 0, 1}, 2}, g{{0, 0, -1}, 2};
-    const VmfProduct product = f.product(g);
-    EXPECT_EQ(product.distribution.kappa, 0);
-    const double pointwise = f.density({1, 0, 0}) * g.density({1, 0, 0});
-    EXPECT_NEAR(product.integral * inv_4pi, pointwise, 1e-6 * pointwise);
-}
-
 TEST(Vmf, ConvolutionMultipliesMeanCosines) {
     const Vmf blurred = convolve({tilted, 12}, 3);
     EXPECT_NEAR(vmf_mean_cosine(blurred.kappa), vmf_mean_cosine(12) * vmf_mean_cosine(3), 1e-6);

@@ -2,17 +2,30 @@
 #pragma once
 
 #include <wend/adjoint/adjoint.h>
+#include <wend/sampling/warp.h>
 
 namespace wend {
 
-/// The same radiance at every point from every direction. Its incident distribution is the uniform one, a lobe of
-/// concentration 0, whose product with a lobe is that lobe and has the integral 1/(4 pi): guiding by it is classical
-/// sampling.
+/// Equal radiance from everywhere. Its product with lobes is those lobes: guiding by it is classical sampling.
+class UniformRadiance {
+public:
+    class Product : public AxialLobes {
+    public:
+        explicit Product(const AxialLobes& lobes) : AxialLobes(lobes) {}
+        static constexpr float integral() { return inv_4pi; }
+    };
+
+    Vec3 sample(Vec2 u) const { return to_sphere(u); }
+    float density(const Vec3& /*direction*/) const { return inv_4pi; }
+    Product product(const AxialLobes& lobes) const { return Product(lobes); }
+};
+
+/// The same radiance at every point from every direction.
 class ConstantAdjoint {
 public:
     explicit constexpr ConstantAdjoint(float radiance) : radiance_(radiance) {}
 
-    Vmf incident(const Vec3& /*position*/) const { return {}; }
+    UniformRadiance incident(const Vec3& /*position*/) const { return {}; }
     constexpr float fluence() const { return 4 * pi * radiance_; }
 
 private:

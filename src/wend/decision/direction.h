@@ -3,7 +3,7 @@
 
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
-#include <wend/sampling/vmf.h>
+#include <wend/sampling/axial_lobes.h>
 
 #include <concepts>
 #include <optional>
@@ -23,16 +23,15 @@ struct DirectionSample {
     Rgb weight() const { return value * (1 / density); }
 };
 
-/// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobe` is its
-/// shape as one von Mises-Fisher lobe that an estimate of incident radiance can be multiplied with, where that is a
-/// fair picture of it. A function that is specular, or so peaked that a guide would rather disturb its sampling, is not
-/// guidable.
+/// What scatters: a phase function with a direction of arrival, or a BSDF at a point with its cosine. `lobes` is its
+/// shape, for an estimate of incident radiance to be multiplied with; uniform where lobes are no fair picture of it. A
+/// function that is specular, or so peaked that a guide would rather disturb its sampling, is not guidable.
 template <class F>
 concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const Vec2& u2) {
     { f.evaluate(w) } -> std::same_as<Rgb>;
     { f.density(w) } -> std::same_as<float>;
     { f.sample(u, u2) } -> std::same_as<std::optional<DirectionSample>>;
-    { f.lobe() } -> std::same_as<std::optional<Vmf>>;
+    { f.lobes() } -> std::same_as<AxialLobes>;
     { f.is_specular() } -> std::same_as<bool>;
     { f.is_guidable() } -> std::same_as<bool>;
 };
@@ -69,7 +68,9 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 template <AdjointField Field>
 class GuidedDirection {
 public:
-    using Incident = std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()))>;
+    /// The distribution of what scatters times incident radiance.
+    using Product =
+        std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()).product(AxialLobes()))>;
 
     /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
     /// alone: it bounds the weight by 1/classical_share times the classical one.
@@ -79,11 +80,11 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        Distribution(const F& f, std::optional<Incident> incident, float classical_share)
-            : f_(f), incident_(std::move(incident)), classical_share_(classical_share) {}
+        Distribution(const F& f, std::optional<Product> product, float classical_share)
+            : f_(f), product_(std::move(product)), classical_share_(classical_share) {}
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
-            if (!incident_) {
+            if (!product_) {
                 return f_.sample(u, u2);
             }
             DirectionSample s;
@@ -99,7 +100,7 @@ public:
                     return s;
                 }
             } else {
-                s.direction = incident_->sample(u2);
+                s.direction = product_->sample(u2);
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
             }
@@ -112,12 +113,11 @@ public:
 
     private:
         float mixed(float classical, const Vec3& w) const {
-            return incident_ ? classical_share_ * classical + (1 - classical_share_) * incident_->density(w)
-                             : classical;
+            return product_ ? classical_share_ * classical + (1 - classical_share_) * product_->density(w) : classical;
         }
 
         const F& f_;
-        std::optional<Incident> incident_;
+        std::optional<Product> product_;
         float classical_share_;
     };
 
@@ -127,16 +127,13 @@ public:
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         constexpr float least_boost = 0.25f;
-        std::optional<Incident> incident;
+        std::optional<Product> product;
         if (f.is_guidable() && boost >= least_boost) {
             if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
-                incident = adjoint->incident(position);
-                if (const std::optional<Vmf> lobe = f.lobe()) {
-                    incident = incident->product(*lobe).distribution;
-                }
+                product = adjoint->incident(position).product(f.lobes());
             }
         }
-        return Distribution<F>(f, std::move(incident), classical_share_);
+        return Distribution<F>(f, std::move(product), classical_share_);
     }
 
 private:

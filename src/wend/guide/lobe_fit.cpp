@@ -1,7 +1,7 @@
 #include <wend/guide/lobe_fit.h>
 
 #include <wend/core/contracts.h>
-#include <wend/guide/fast_exp.h>
+#include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
 #include <cmath>

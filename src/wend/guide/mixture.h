@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/guide/lanes.h>
+#include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/vmf.h>
 
 #include <span>
@@ -14,7 +15,7 @@ struct WeightedVmf {
     Vmf vmf;
 };
 
-struct MixtureProduct;
+class MixtureProduct;
 
 /// A density over directions, Σ w_i vMF_i, of at most max_lobes lobes whose weights add up to 1. A value of fixed size
 /// without heap memory.
@@ -37,9 +38,8 @@ public:
     /// used again within the lobe.
     Vec3 sample(Vec2 u) const;
 
-    /// The normalized product with a lobe, and its integral. Always a valid mixture, even where the integral
-    /// underflows. Lobes of weight below 1e-10 are dropped.
-    MixtureProduct product(const Vmf& factor) const;
+    /// The normalized product with lobes of what scatters (product.h).
+    MixtureProduct product(const AxialLobes& lobes) const;
 
     /// The mixture as seen from a point displaced by -`offset`, where lobe i comes from a distance
     /// 1/inverse_distance[i]: each mean m turns to the direction of m + offset · inverse_distance. Weights and
@@ -47,18 +47,14 @@ public:
     VmfMixture re_aimed(const Vec3& offset, const Lanes& inverse_distance) const;
 
 private:
+    friend class MixtureProduct;
+
     int blocks() const { return blocks_for(size_); }
 
     int size_;
     Lanes mean_x_, mean_y_, mean_z_, kappa_, weight_;
     /// Weight times density at the mean.
     Lanes amplitude_;
-};
-
-struct MixtureProduct {
-    VmfMixture distribution;
-    /// ∫ mixture · factor dω, in 1/sr.
-    float integral;
 };
 
 }  // namespace wend::guide

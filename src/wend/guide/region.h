@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/adjoint/adjoint.h>
-#include <wend/guide/mixture.h>
+#include <wend/guide/product.h>
 
 namespace wend::guide {
 

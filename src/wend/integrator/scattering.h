@@ -4,7 +4,7 @@
 
 #include <wend/core/frame.h>
 #include <wend/decision/direction.h>
-#include <wend/medium/phase.h>
+#include <wend/medium/phase_lobes.h>
 #include <wend/scene/bsdf/bsdf.h>
 
 namespace wend {
@@ -21,11 +21,10 @@ public:
         const float p = density(w);
         return DirectionSample{w, Rgb(p), p};
     }
-    std::optional<Vmf> lobe() const;
+    AxialLobes lobes() const { return phase_.lobes(before_); }
     bool is_specular() const { return false; }
-    /// One lobe is no picture of a strongly peaked Henyey-Greenstein function with its long tail: over the dozens of
-    /// events of a dense medium the mismatch would cost more than the guide brings.
-    bool is_guidable() const { return std::abs(phase_.mean_cosine()) <= 0.7f; }
+    /// The guide has no picture of what is still more peaked.
+    bool is_guidable() const { return std::abs(phase_.mean_cosine()) <= largest_pictured_g; }
     float index_ratio(const Vec3&) const { return 1; }
 
 private:
@@ -52,7 +51,7 @@ public:
         }
         return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular};
     }
-    std::optional<Vmf> lobe() const;
+    AxialLobes lobes() const;
     bool is_specular() const {
         return std::visit([](const auto& b) { return b.is_specular(); }, bsdf_);
     }

@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/medium/phase.h>
+#include <wend/medium/phase_lobes.h>
 
 namespace wend {
 
@@ -36,6 +37,10 @@ float HenyeyGreensteinMixture::mean_cosine() const {
         sum += weight_[i] * lobe_[i].g;
     }
     return sum / total_;
+}
+
+PhaseFunction::PhaseFunction(Variant kind)
+    : kind_(std::move(kind)), lobes_(std::visit([](const auto& p) { return lobes_of(p); }, kind_)) {
 }
 
 }  // namespace wend

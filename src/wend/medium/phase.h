@@ -3,6 +3,7 @@
 #pragma once
 
 #include <wend/core/frame.h>
+#include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/warp.h>
 
 #include <array>
@@ -42,6 +43,11 @@ public:
     /// Adds a lobe; weights are relative and must be positive.
     void add(float weight, float g);
 
+    int size() const { return count_; }
+    /// The share of a lobe, between 0 and 1.
+    float weight(int i) const { return weight_[static_cast<std::size_t>(i)] / total_; }
+    const HenyeyGreenstein& lobe(int i) const { return lobe_[static_cast<std::size_t>(i)]; }
+
     float evaluate(float cosine) const;
     float sample_cosine(float u) const;
     float mean_cosine() const;
@@ -59,7 +65,7 @@ public:
     using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture>;
 
     PhaseFunction() = default;
-    PhaseFunction(Variant kind) : kind_(std::move(kind)) {}
+    PhaseFunction(Variant kind);
 
     float evaluate(float cosine) const {
         return std::visit([&](const auto& p) { return p.evaluate(cosine); }, kind_);
@@ -72,9 +78,12 @@ public:
     float mean_cosine() const {
         return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
     }
+    /// Its picture in von Mises-Fisher lobes (phase_lobes.h), given the direction of propagation before the collision.
+    AxialLobes lobes(const Vec3& before) const { return lobes_.around(before); }
 
 private:
     Variant kind_;
+    AxialLobes lobes_;
 };
 
 }  // namespace wend

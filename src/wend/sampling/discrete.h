@@ -2,10 +2,29 @@
 
 #include <wend/core/vector.h>
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 namespace wend {
+
+/// An index with a probability in proportion to its weight, for few weights that add up to `total`, none of them
+/// negative and one at least positive. What is left of `u` in [0,1) is put back there, uniform in [0,1) again.
+inline int select(std::span<const float> weights, float total, float& u) {
+    std::size_t chosen = 0;
+    float rest = u * total;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (weights[i] > 0) {
+            chosen = i;
+            if (rest < weights[i]) {
+                break;
+            }
+            rest -= weights[i];
+        }
+    }
+    u = std::min(one_minus_epsilon, rest / weights[chosen]);
+    return static_cast<int>(chosen);
+}
 
 /// Draws indices with probability proportional to given weights, in constant time (Walker's alias method).
 class AliasTable {

@@ -46,10 +46,6 @@ float vmf_kappa(float cosine) {
     return std::min(static_cast<float>(kappa), Vmf::max_kappa);
 }
 
-Vmf Vmf::with_mean_cosine(const Vec3& mean, float mean_cosine) {
-    return {mean_cosine < 0 ? -mean : mean, vmf_kappa(std::abs(mean_cosine))};
-}
-
 float Vmf::density(const Vec3& direction) const {
     return vmf_peak(kappa) * std::exp(-0.5f * kappa * length_squared(direction - mean));
 }
@@ -61,19 +57,6 @@ Vec3 Vmf::sample(Vec2 u) const {
     const float sine = safe_sqrt(s * (2 - s));
     const float azimuth = 2 * pi * u.y;
     return Frame::from_z(mean).to_world({sine * std::cos(azimuth), sine * std::sin(azimuth), 1 - s});
-}
-
-VmfProduct Vmf::product(const Vmf& other) const {
-    const Vec3 sum = mean * kappa + other.mean * other.kappa;
-    const float joint = length(sum);
-    if (!(joint > 0)) {  // uniform, or equal and opposite
-        const float log_integral = -kappa - other.kappa;
-        return {{mean, 0}, vmf_peak(kappa) * vmf_peak(other.kappa) * 4 * pi * std::exp(log_integral)};
-    }
-    // |sum| - kappa - other.kappa without the cancellation.
-    const float exponent = -kappa * other.kappa * length_squared(mean - other.mean) / (joint + kappa + other.kappa);
-    return {{sum * (1 / joint), std::min(joint, max_kappa)},
-            vmf_peak(kappa) * vmf_peak(other.kappa) / vmf_peak(joint) * std::exp(exponent)};
 }
 
 Vmf convolve(const Vmf& lobe, float kappa) {

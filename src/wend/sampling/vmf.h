@@ -5,8 +5,6 @@
 
 namespace wend {
 
-struct VmfProduct;
-
 /// Directions gathered around a mean: density C(kappa) e^{kappa cos}, over solid angle (1/sr), where cos is taken with
 /// the mean and C(kappa) = kappa / (4 pi sinh kappa). Concentration 0 is the uniform distribution. All formulas are
 /// written in 1 - cos, the half square of the chord, and hold for concentrations from 0 to max_kappa in single
@@ -19,24 +17,11 @@ struct Vmf {
     /// Concentration, in [0, max_kappa].
     float kappa = 0;
 
-    /// The distribution of a given mean cosine in (-1, 1), such as the g of a phase function; a negative one turns the
-    /// mean around.
-    static Vmf with_mean_cosine(const Vec3& mean, float mean_cosine);
-
     /// Density at a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
 
     /// The direction belonging to a point of the unit square, [0,1)² (jakob2012).
     Vec3 sample(Vec2 u) const;
-
-    /// The normalized product of two densities, which is again of this kind, and its integral over the sphere.
-    VmfProduct product(const Vmf& other) const;
-};
-
-struct VmfProduct {
-    Vmf distribution;
-    /// ∫ f g dω in 1/sr: the convolution of f and g at the angle between their means.
-    float integral;
 };
 
 /// The density at the mean, kappa / (2 pi (1 - e^{-2 kappa})), in 1/sr.

@@ -1,11 +1,11 @@
-#include <wend/guide/fast_exp.h>
+#include <wend/numeric/fast_exp.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace wend::guide {
+namespace wend {
 namespace {
 
 TEST(FastExp, StaysWithinItsStatedError) {
@@ -29,4 +29,4 @@ TEST(FastExp, IsOneAtZeroAndNeverZeroOrInfinite) {
 }
 
 }  // namespace
-}  // namespace wend::guide
+}  // namespace wend

@@ -1,0 +1,61 @@
+#include <wend/sampling/axial_lobes.h>
+
+#include <wend/core/contracts.h>
+#include <wend/core/vector_clones.h>
+#include <wend/numeric/fast_exp.h>
+#include <wend/sampling/discrete.h>
+#include <wend/sampling/vmf.h>
+
+#include <cmath>
+
+namespace wend {
+
+AxialLobes::AxialLobes() {
+    amplitude_[0] = inv_4pi;
+}
+
+AxialLobes::AxialLobes(std::span<const AxialLobe> lobes) : size_(static_cast<int>(lobes.size())) {
+    WEND_EXPECT(!lobes.empty() && lobes.size() <= capacity);
+    double total = 0;
+    for (const AxialLobe& lobe : lobes) {
+        WEND_EXPECT(lobe.weight >= 0 && std::abs(lobe.kappa) <= Vmf::max_kappa);
+        total += lobe.weight;
+    }
+    WEND_EXPECT(total > 0);
+    for (int j = 0; j < size_; ++j) {
+        kappa_[j] = lobes[j].kappa;
+        amplitude_[j] = static_cast<float>(lobes[j].weight / total) * vmf_peak(std::abs(kappa_[j]));
+    }
+}
+
+AxialLobes AxialLobes::around(const Vec3& axis) const {
+    AxialLobes result = *this;
+    result.axis_ = axis;
+    return result;
+}
+
+WEND_VECTOR_CLONES float AxialLobes::density(const Vec3& direction) const {
+    // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
+    constexpr int block = 8;
+    static_assert(capacity % block == 0);
+    const float before = 0.5f * length_squared(direction - axis_), behind = 0.5f * length_squared(direction + axis_);
+    float part[block] = {};
+    for (int first = 0; first < size_; first += block) {
+        for (int j = 0; j < block; ++j) {
+            const float kappa = kappa_[first + j];
+            part[j] += amplitude_[first + j] * fast_exp(kappa * (kappa < 0 ? behind : -before));
+        }
+    }
+    return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+}
+
+Vec3 AxialLobes::sample(Vec2 u) const {
+    float weights[capacity];
+    for (int j = 0; j < size_; ++j) {
+        weights[j] = amplitude_[j] / vmf_peak(std::abs(kappa_[j]));
+    }
+    const int chosen = select({weights, static_cast<std::size_t>(size_)}, 1, u.x);
+    return Vmf{kappa_[chosen] < 0 ? -axis_ : axis_, std::abs(kappa_[chosen])}.sample(u);
+}
+
+}  // namespace wend

@@ -1,0 +1,53 @@
+// A function of the angle to an axis as a few von Mises–Fisher lobes along it: how a phase function or a BSDF looks to
+// whoever multiplies it with a mixture of incident radiance (docs/theory/learned_field.md).
+#pragma once
+
+#include <wend/core/vector.h>
+
+#include <span>
+
+namespace wend {
+
+struct AxialLobe {
+    /// Share in the sum, not negative.
+    float weight;
+    /// Concentration, at most Vmf::max_kappa; a negative one belongs to a lobe around the opposite of the axis.
+    float kappa;
+};
+
+/// A density over directions, Σ w_j vMF_j with all means on one axis, of at most `capacity` lobes whose weights add up
+/// to 1. A value of fixed size without heap memory.
+class AxialLobes {
+public:
+    static constexpr int capacity = 24;
+
+    /// The uniform distribution: one lobe of concentration 0.
+    AxialLobes();
+
+    /// 1 to `capacity` lobes around +z; weights are scaled to the sum 1, and one at least must be positive.
+    explicit AxialLobes(std::span<const AxialLobe> lobes);
+
+    /// The same lobes along another axis, of unit length.
+    AxialLobes around(const Vec3& axis) const;
+
+    const Vec3& axis() const { return axis_; }
+    int size() const { return size_; }
+    /// Concentration of a lobe, negative for a backward one.
+    float kappa(int j) const { return kappa_[j]; }
+    /// Weight of a lobe times its density at its mean, in 1/sr.
+    float amplitude(int j) const { return amplitude_[j]; }
+
+    /// Density at a unit direction, in 1/sr.
+    float density(const Vec3& direction) const;
+
+    /// A direction distributed by the density, from a point of [0,1)².
+    Vec3 sample(Vec2 u) const;
+
+private:
+    Vec3 axis_{0, 0, 1};
+    int size_ = 1;
+    float kappa_[capacity] = {};
+    float amplitude_[capacity] = {};
+};
+
+}  // namespace wend
