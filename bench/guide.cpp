@@ -63,7 +63,7 @@ std::vector<Query> random_queries(const AxialLobes& lobes) {
     return result;
 }
 
-const AxialLobes cosine(std::array{AxialLobe{1, 2.18853f}});
+const AxialLobes& cosine = AxialLobes::cosine();
 const AxialLobes phase = lobes_of(HenyeyGreenstein{0.8f});
 
 void field_step(benchmark::State& state, const AxialLobes& lobes, auto step) {

@@ -30,8 +30,7 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
         const PathVertex& v = path[i];
         if (teaches(v) && ++left_out == stride) {
             left_out = 0;
-            (v.in_volume ? volume_ : surface_)
-                .push_back({v.position, v.direction, mean(incident_[i]), v.density, v.distance});
+            (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }
     }
 }
