@@ -26,6 +26,8 @@ public:
     /// The guide has no picture of what is still more peaked.
     bool is_guidable() const { return std::abs(phase_.mean_cosine()) <= largest_pictured_g; }
     float index_ratio(const Vec3&) const { return 1; }
+    /// Absorption is the flight's matter.
+    Rgb albedo() const { return Rgb(1.0f); }
 
 private:
     const PhaseFunction& phase_;
@@ -51,11 +53,14 @@ public:
         }
         return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular};
     }
-    AxialLobes lobes() const;
+    AxialLobes lobes() const {
+        const AxialLobes local = lobes_of(bsdf_, wo_);
+        return local.around(shading_.to_world(local.axis()));
+    }
     bool is_specular() const {
         return std::visit([](const auto& b) { return b.is_specular(); }, bsdf_);
     }
-    bool is_guidable() const { return !is_specular(); }
+    bool is_guidable() const { return is_pictured_by_lobes(bsdf_); }
     float index_ratio(const Vec3& w) const { return wend::index_ratio(bsdf_, wo_, shading_.to_local(w)); }
     Rgb albedo() const { return directional_albedo(bsdf_, wo_); }
 
