@@ -9,10 +9,9 @@
 namespace wend {
 namespace {
 
-/// The clamped cosine as a single lobe: the least-squares fit's concentration (ruppert2020).
+/// On the side of wo.
 AxialLobes cosine_lobes(const Vec3& wo) {
-    static const AxialLobes cosine(std::array{AxialLobe{1, 2.18853f}});
-    return cosine.around({0, 0, wo.z < 0 ? -1.0f : 1.0f});
+    return AxialLobes::cosine().around({0, 0, wo.z < 0 ? -1.0f : 1.0f});
 }
 
 /// GGX facets tilted by an angle t have the density (1 + x)^(-2) with x = tan² t / alpha². They reflect by twice the
