@@ -128,7 +128,7 @@ TEST_F(Program, RefusesArgumentsThatMakeNoSense) {
 }
 
 TEST_F(Program, RenderReportsTheKeysOfTheContract) {
-    for (const std::string sampling : {"classical", "direction"}) {
+    for (const std::string sampling : {"classical", "direction", "direction+roulette", "full"}) {
         const auto result = render({"--json", "-", "--spp", "3", "--sampling", sampling, "--seed", "7"});
         ASSERT_EQ(result.status, 0) << result.err;
         const json report = result.json();
@@ -140,7 +140,7 @@ TEST_F(Program, RenderReportsTheKeysOfTheContract) {
         EXPECT_GE(report["segments"], report["paths"]);
         EXPECT_GT(report["seconds"], 0);
         EXPECT_LE(report["training_seconds"], report["seconds"]);
-        EXPECT_EQ(report["field_bytes"] > 0, sampling == "direction");
+        EXPECT_EQ(report["field_bytes"] > 0, sampling != "classical");
         EXPECT_EQ(report["rejected_samples"], 0);
         EXPECT_EQ(report["interrupted"], false);
         const json& settings = report["settings"];

@@ -2,20 +2,74 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace wend {
 namespace {
 
 TEST(ClassicalSurvival, FollowsTheBrightestChannelAfterAStart) {
     const ClassicalSurvival survival;
-    EXPECT_EQ(survival.expected_continuations({Rgb(0.01f), 1, 1, 0}), 1);
-    EXPECT_EQ(survival.expected_continuations({Rgb(0.01f), 1, 1, 1}), 1);
-    EXPECT_FLOAT_EQ(survival.expected_continuations({Rgb(0.1f, 0.3f, 0.2f), 1, 1, 2}), 0.3f);
-    EXPECT_EQ(survival.expected_continuations({Rgb(5), 1, 1, 2}), 1);
+    EXPECT_EQ(survival.after_direction({Rgb(0.01f), 1, 1, 0}), 1);
+    EXPECT_EQ(survival.after_direction({Rgb(0.01f), 1, 1, 1}), 1);
+    EXPECT_FLOAT_EQ(survival.after_direction({Rgb(0.1f, 0.3f, 0.2f), 1, 1, 2}), 0.3f);
+    EXPECT_EQ(survival.after_direction({Rgb(5), 1, 1, 2}), 1);
 }
 
 TEST(ClassicalSurvival, EnteringADenserMediumDoesNotEndWalks) {
     // Radiance is 1/n² there; undone by the index scale.
-    EXPECT_FLOAT_EQ(ClassicalSurvival().expected_continuations({Rgb(1 / 2.25f), 1, 2.25f, 2}), 1);
+    EXPECT_FLOAT_EQ(ClassicalSurvival().after_direction({Rgb(1 / 2.25f), 1, 2.25f, 2}), 1);
+}
+
+/// Continuations in the mean, each counted with the weight it goes on with.
+struct Continuations {
+    double weight = 0, copies = 0;
+    bool judged = true;
+};
+
+Continuations mean_continuations(const AdjointSurvival& survival, std::optional<float> ratio, int room = 64) {
+    constexpr int count = 40000;
+    Pcg32 random(1);
+    Continuations mean;
+    for (int i = 0; i < count; ++i) {
+        const std::optional<WeightWindow::Outcome> outcome = survival.before_direction(ratio, room, random);
+        mean.judged = mean.judged && outcome;
+        mean.weight += outcome ? outcome->copies / outcome->expected / count : 0;
+        mean.copies += outcome ? outcome->copies / static_cast<double>(count) : 0;
+    }
+    return mean;
+}
+
+TEST(AdjointSurvival, KeepsTheExpectedWeight) {
+    const AdjointSurvival survival(true, true);
+    for (const float ratio : {0.0f, 0.01f, 0.3f, 0.5f, 1.0f, 1.6f, 2.5f, 17.3f, 1e9f}) {
+        const Continuations mean = mean_continuations(survival, ratio);
+        ASSERT_TRUE(mean.judged);
+        // The standard error is at most sqrt(1/0.5 - 1) / 200.
+        EXPECT_NEAR(mean.weight, 1, 0.02) << ratio;
+    }
+    EXPECT_EQ(mean_continuations(survival, 1.0f).copies, 1);
+    EXPECT_NEAR(mean_continuations(survival, 17.3f).copies, 17.3, 0.02);
+    // No walk is left with more than twice its weight.
+    EXPECT_NEAR(mean_continuations(survival, 1e-6f).copies, 0.5, 0.01);
+}
+
+TEST(AdjointSurvival, LackOfRoomLowersTheSplittingAndDropsNothing) {
+    const AdjointSurvival survival(true, true);
+    for (const int room : {1, 3}) {
+        const Continuations mean = mean_continuations(survival, 40.0f, room);
+        EXPECT_EQ(mean.copies, room);
+        EXPECT_NEAR(mean.weight, 1, 1e-9);
+    }
+}
+
+TEST(AdjointSurvival, LeavesToTheWeightWhatItMayNotJudge) {
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, true), std::nullopt).judged);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(false, true), 0.1f).judged);
+    EXPECT_TRUE(mean_continuations(AdjointSurvival(false, true), 3.0f).judged);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, false), 3.0f).judged);
+    EXPECT_TRUE(mean_continuations(AdjointSurvival(true, false), 0.1f).judged);
+    const WalkState state{Rgb(0.2f), 1, 1, 3};
+    EXPECT_EQ(AdjointSurvival(true, true).after_direction(state), ClassicalSurvival().after_direction(state));
 }
 
 }  // namespace

@@ -25,6 +25,22 @@ Film one_pixel() {
     return Film({1, 1}, {{0, 0}, {1, 1}});
 }
 
+TEST(Film, TakesBackWhatCameFirst) {
+    Film film({4, 3}, {{1, 0}, {4, 3}});
+    film.add({1, 2}, {Rgb(4, 5, 6), Rgb(0.5f), {0, 0, 1}, 4});
+    film.reject({2, 0});
+    const Film earlier = film;
+    film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.25f), {1, 0, 0}, 8});
+    film.take_back(earlier);
+    const Picture picture = film.picture();
+    EXPECT_EQ(picture.image.at(0, 2), Rgb(1, 2, 3));
+    EXPECT_EQ(picture.image.at(1, 0), Rgb(0.0f));
+    EXPECT_EQ(layer(picture, "albedo").values[3 * 6], 0.25f);
+    EXPECT_EQ(layer(picture, "depth").values[6], 8);
+    EXPECT_EQ(layer(picture, "samples").values[6], 1);
+    EXPECT_EQ(layer(picture, "samples").values[1], 0);
+}
+
 TEST(Film, AveragesItsSamples) {
     Film film({4, 3}, {{0, 0}, {4, 3}});
     film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.5f), {0, 0, 1}, 4});

@@ -70,7 +70,7 @@ TEST_P(Reproducible, TheSamePictureForAnyNumberOfThreads) {
     EXPECT_NE(render_image(scene, GetParam(), 20, 4, 2).pixels, one.pixels) << "another seed must give another picture";
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, Reproducible, testing::Values("classical", "direction"));
+INSTANTIATE_TEST_SUITE_P(Presets, Reproducible, testing::Values("classical", "direction", "full", "roulette", "splitting"));
 
 TEST(Reproducible, TheListOfPassesRepeatsATimedRun) {
     const Scene scene(foggy_room());
@@ -122,15 +122,17 @@ double same_blocks(const Replicas& a, const Replicas& b) {
     return chi_square_p_value(sum, Replicas::blocks);
 }
 
-TEST(GuidedDirection, GivesTheSamePictureAsClassicalSampling) {
+class Guided : public testing::TestWithParam<const char*> {};
+
+TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
     for (const bool grid : {false, true}) {
         const Scene scene(foggy_room(grid));
         Replicas classical;
         Replicas guided;
         Replicas biased;
         for (std::uint64_t i = 0; i < 24; ++i) {
-            classical.add(render_image(scene, "classical", 96, 1000 + i));
-            const Image image = render_image(scene, "direction", 96, 2000 + i);
+            classical.add(render_image(scene, "classical", 128, 1000 + i));
+            const Image image = render_image(scene, GetParam(), 128, 2000 + i);
             guided.add(image);
             biased.add(image, 1.03);
         }
@@ -140,6 +142,24 @@ TEST(GuidedDirection, GivesTheSamePictureAsClassicalSampling) {
         EXPECT_GT(same_blocks(classical, guided), 1e-4);
         EXPECT_LT(same_blocks(classical, biased), 1e-4) << "the test could not see a bias of 3 %";
     }
+}
+
+// More than the samples after which those of the beginning are dropped.
+INSTANTIATE_TEST_SUITE_P(Presets, Guided, testing::Values("direction", "full", "roulette+splitting"));
+
+TEST(Render, DropsTheSamplesOfTheWarmUpOnceThereAreManyMore) {
+    const Scene scene(foggy_room());
+    const auto samples_kept = [&](const char* preset, int samples) {
+        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        RenderSettings settings;
+        settings.preset = parse_preset(preset);
+        settings.samples = samples;
+        EXPECT_EQ(render(scene, film, settings).samples, samples);
+        return film.picture().layers[3].values[0];
+    };
+    EXPECT_EQ(samples_kept("direction", 118), 118);
+    EXPECT_EQ(samples_kept("direction", 119), 112);
+    EXPECT_EQ(samples_kept("classical", 119), 119);
 }
 
 TEST(Render, CountsItsWork) {
@@ -171,6 +191,9 @@ TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
     EXPECT_TRUE(parse_preset("classical").is_classical());
     EXPECT_TRUE(parse_preset("direction").direction);
     EXPECT_EQ(to_string(parse_preset("direction")), "direction");
+    EXPECT_EQ(to_string(parse_preset("splitting+direction")), "direction+splitting");
+    EXPECT_EQ(parse_preset("direction+roulette+splitting"), parse_preset("full"));
+    EXPECT_EQ(to_string(parse_preset("full")), "full");
     try {
         parse_preset("directions");
         FAIL();

@@ -15,7 +15,7 @@ struct CompareOptions {
     CommonOptions common;
     SceneOptions scene;
     double seconds = 30;
-    std::string sampling = "classical,direction";
+    std::string sampling = "classical,direction,full";
     std::string reference;
     std::string folder;
     int seeds = 3;

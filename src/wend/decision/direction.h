@@ -133,7 +133,7 @@ public:
     /// much trust goes on unguided.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
-        static const float least_boost = getenv("LB") ? atof(getenv("LB")) : 0.25f;
+        constexpr float least_boost = 0.05f;
         std::optional<Product> product;
         float fluence = 0;
         if (f.is_guidable() && boost >= least_boost) {

@@ -1,3 +1,4 @@
+#include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/film/film.h>
 
@@ -45,6 +46,22 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
 
 void Film::reject(const Vec2i& pixel) {
     ++at(pixel).count;
+}
+
+void Film::take_back(const Film& earlier) {
+    WEND_EXPECT(earlier.crop_ == crop_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        Pixel& p = pixels_[i];
+        const Pixel& e = earlier.pixels_[i];
+        for (int c = 0; c < 3; ++c) {
+            p.sum[c] -= e.sum[c];
+            p.squares[c] -= e.squares[c];
+            p.albedo[c] -= e.albedo[c];
+            p.normal[c] -= e.normal[c];
+        }
+        p.depth -= e.depth;
+        p.count -= e.count;
+    }
 }
 
 Image Film::beauty() const {

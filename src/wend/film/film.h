@@ -41,6 +41,9 @@ public:
     /// Counts a sample that was not a number: it adds nothing, but is not forgotten.
     void reject(const Vec2i& pixel);
 
+    /// Takes back all samples of an earlier state of this film.
+    void take_back(const Film& earlier);
+
     Image beauty() const;
     /// Beauty and the layers albedo, normal, depth, samples, and variance (of the pixel's mean, from the scatter of its
     /// samples; with stratified samples an overestimate).

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -30,7 +31,9 @@ constexpr float classical_share = 0.5f;
 constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them.
-constexpr int samples_before_survival = 7;
+constexpr int warm_up_samples = 7;
+// The samples taken until then are as noisy as classical ones; once there are so many times more, they go.
+constexpr int samples_over_warm_up = 16;
 // More vertices of one walk say little that is new: they are correlated.
 constexpr std::size_t most_records = 64;
 
@@ -183,6 +186,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         settings.fields ? *settings.fields
                         : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
+    std::optional<Film> warm_up;
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
@@ -195,7 +199,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
         const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);
-        if (preset.guides_survival() && statistics.samples >= samples_before_survival && settings.exposure > 0) {
+        if (preset.guides_survival() && statistics.samples >= warm_up_samples && settings.exposure > 0) {
             plan.estimates = pixel_estimates(film.beauty(), statistics.samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings.exposure;
@@ -208,6 +212,13 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         }
         statistics.samples += count;
         statistics.passes.push_back(count);
+        if (!preset.is_classical() && statistics.samples == warm_up_samples) {
+            warm_up = film;
+        }
+        if (warm_up && statistics.samples >= (1 + samples_over_warm_up) * warm_up_samples) {
+            film.take_back(*warm_up);
+            warm_up.reset();
+        }
         if (plan.record) {
             const Clock::time_point training_start = Clock::now();
             std::vector<guide::PathRecords> records(tiles.size());
