@@ -21,12 +21,7 @@ inline float overlap(float kappa, float other, float to_mean, float to_opposite)
     const float joint = std::sqrt(difference * difference + both * to_opposite);
     // joint - kappa - other
     const float exponent = -both * to_mean / (joint + (kappa + other + 1e-30f));
-    // (1 - e^{-2 joint}) / joint, inverse to the density of the joint lobe at its mean. Series and closed form have
-    // relative errors below 1e-6 where one takes over.
-    const float closed = (1 - fast_exp(-2 * joint)) / (joint + 1e-30f);
-    const float series =
-        2 - joint * (2 - joint * (4.0f / 3 - joint * (2.0f / 3 - joint * (4.0f / 15 - joint * (4.0f / 45)))));
-    return fast_exp(exponent) * (joint < 0.125f ? series : closed);
+    return fast_exp(exponent) * vmf_spread(joint);
 }
 
 }  // namespace
