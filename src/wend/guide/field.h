@@ -56,6 +56,11 @@ private:
         float radius = 0;
         /// Whether the region's reference point has been chosen.
         bool anchored = false;
+        /// Records since then, older ones counting less, and of the vectors from them to the reference point and of
+        /// their squares the sums.
+        float located = 0;
+        Vec3 offset{0, 0, 0};
+        Vec3 offset_square{0, 0, 0};
         Statistics statistics;
     };
 

@@ -34,17 +34,20 @@ struct LobeLanes {
 
 /// The sums of LobeSums in lanes.
 struct SumLanes {
-    Lanes weight, weight_square, x, y, z, inverse_distance, inverse_distance_square, turn, spread;
+    Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
+        spread;
 
     void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
         for (int i = 0; i < max_lobes; ++i) {
-            sums[i].weight += static_cast<float>(unit * weight[i]);
-            sums[i].weight_square += unit * unit * weight_square[i];
-            sums[i].direction += Vec3(Imath::V3d(x[i], y[i], z[i]) * unit);
-            sums[i].inverse_distance += unit * inverse_distance[i];
-            sums[i].inverse_distance_square += unit * inverse_distance_square[i];
-            sums[i].turn += unit * turn[i];
-            sums[i].spread += unit * spread[i];
+            const LobeSums own{weight[i],
+                               weight_square[i],
+                               {x[i], y[i], z[i]},
+                               {offset_x[i], offset_y[i], offset_z[i]},
+                               inverse_distance[i],
+                               inverse_distance_square[i],
+                               turn[i],
+                               spread[i]};
+            sums[i] += own.scaled(unit, unit * unit);
         }
     }
 };
@@ -81,6 +84,9 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
         sums.x[i] += weight * x[i];
         sums.y[i] += weight * y[i];
         sums.z[i] += weight * z[i];
+        sums.offset_x[i] += weight * t.x;
+        sums.offset_y[i] += weight * t.y;
+        sums.offset_z[i] += weight * t.z;
         sums.inverse_distance[i] += weighted_inverse;
         sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
         // What is left of the turning after re-aiming, and what re-aiming has taken away.
@@ -96,10 +102,6 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
 /// 1 up to `good`, 0 from `bad`, linear between.
 double ramp_down(double x, double good, double bad) {
     return std::clamp((bad - x) / (bad - good), 0.0, 1.0);
-}
-
-double effective_records(const LobeSums& s) {
-    return s.weight_square > 0 ? static_cast<double>(s.weight) * s.weight / s.weight_square : 0.0;
 }
 
 /// The lobe's inverse distance from three witnesses, each with its precision: the distances that records tell, which
