@@ -20,19 +20,14 @@ struct Chance {
 SplitEvidence split_evidence(const LobeModel& model, const std::array<LobeSums, max_lobes>& sums,
                              const Places& places) {
     const std::span lobes(sums.data(), static_cast<std::size_t>(model.mixture.size()));
-    double weight = 0, weight_square = 0;
-    Imath::V3d seen(0, 0, 0);
+    double weight = 0;
     for (const LobeSums& s : lobes) {
         weight += s.weight;
-        weight_square += s.weight_square;
-        seen += Imath::V3d(s.offset);
     }
     SplitEvidence best;
-    if (!(weight > 0 && weight_square > 0)) {
+    if (!(weight > 0)) {
         return best;
     }
-    seen /= weight;
-    const double records = weight * weight / weight_square;
 
     double turn_gain = 0;
     Chance turn;
@@ -53,15 +48,15 @@ SplitEvidence split_evidence(const LobeModel& model, const std::array<LobeSums, 
         if (!(variance > 0)) {
             continue;
         }
-        const double shift = seen[axis] - static_cast<double>(places.mean[axis]);
-        double gain = 0.5 * shift * shift / variance;
-        Chance chance{records * shift * shift / variance, 1};
+        double gain = 0;
+        Chance chance;
         for (const LobeSums& s : lobes) {
             const double own_records = effective_records(s);
             if (own_records >= 1) {
-                const double own_shift = static_cast<double>(s.offset[axis]) / s.weight - seen[axis];
-                gain += 0.5 * s.weight / weight * own_shift * own_shift / variance;
-                chance.chi_square += own_records * own_shift * own_shift / variance;
+                const double shift = static_cast<double>(s.offset[axis]) / s.weight - places.mean[axis];
+                const double square = shift * shift / variance;
+                gain += 0.5 * s.weight / weight * (square - 1 / own_records);
+                chance.chi_square += own_records * square;
                 ++chance.freedom;
             }
         }

@@ -23,8 +23,8 @@ struct SplitEvidence {
     double significance = 0;
 };
 
-/// Compares where the radiance of each lobe was seen, where all of it was seen, and where records lie; and how
-/// directions turn with the position beyond what parallax explains.
+/// Compares where the radiance of each lobe was seen with where records lie, and how directions turn with the position
+/// with what parallax explains.
 SplitEvidence split_evidence(const LobeModel& model, const std::array<LobeSums, max_lobes>& sums, const Places& places);
 
 }  // namespace wend::guide
