@@ -4,6 +4,7 @@
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
 #include <wend/guide/evidence.h>
+#include <wend/guide/lobe_revision.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,8 @@ void validate(const FitSettings& s) {
         }
     };
     require(s.lobes >= 1 && s.lobes <= max_lobes, "the number of lobes must be 1 to 16");
+    require(s.most_lobes >= s.lobes && s.most_lobes <= max_lobes,
+            "the largest number of lobes must be between the number at first and 16");
     require(s.leaf_samples >= 1, "the samples of a leaf must be at least 1");
     require(s.uniform_factor >= 1, "the factor of uniform leaves must be at least 1");
     require(s.variation >= 0, "the variation must not be negative");
@@ -134,11 +137,6 @@ private:
         std::vector<Observation> observations;
         /// What a weight of 1 stands for, in radiance times sr.
         double unit = 0;
-    };
-
-    struct Learned {
-        LobeModel model;
-        std::array<LobeSums, max_lobes> sums;
     };
 
     const Record& record(std::size_t i) const { return records_[order_[i].record]; }
@@ -257,22 +255,18 @@ private:
         const std::size_t stride = std::max<std::size_t>(cell.size() / std::max(enough, cell.size() / share), 1);
         settle(cell);
         Region& region = field_.regions_[region_of(cell)];
-        Field::Memory memory = memory_of(cell);
-        const View view = look(cell, stride, memory);
+        Field::Memory seen = memory_of(cell);
+        const View view = look(cell, stride, seen);
         if (view.observations.empty()) {
             return {};
         }
-        const double unit = std::max(view.unit, memory.statistics.unit);
-        if (memory.statistics.unit > 0) {
-            memory.statistics = memory.statistics.in_unit(unit);
-        }
-        const Learned learned =
-            improve({start(region), memory.statistics.lobes}, view.observations,
-                    view.unit / unit * static_cast<double>(stride), settings_.max_iterations, memory.radius);
+        Statistics& statistics = memory_of(cell).statistics;
+        statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+        const LearnedLobes learned = find_lobes(start(region), statistics.lobes, view.observations,
+                                                view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
         region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence());
-        const Vec3 mean = memory.offset / memory.located;
-        return split_evidence(learned.model, learned.sums,
-                              {mean, memory.offset_square / memory.located - mean * mean});
+        const Vec3 mean = seen.offset / seen.located;
+        return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
 
     /// The mean of every stride-th position.
@@ -365,10 +359,9 @@ private:
 
         LobeModel model{region.mixture(), region.inverse_distance()};
         if (!view.observations.empty()) {
-            const double unit = std::max(view.unit, statistics.unit);
-            statistics = statistics.unit > 0 ? statistics.in_unit(unit) : statistics;
-            statistics.unit = unit;
-            const Learned learned = fit_lobes({start(region), statistics.lobes}, view, view.unit / unit, memory.radius);
+            statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+            const LearnedLobes learned =
+                fit_lobes(start(region), statistics.lobes, view, view.unit / statistics.unit, memory.radius);
             model = learned.model;
             statistics.lobes = learned.sums;
         }
@@ -429,7 +422,8 @@ private:
     /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
     /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations, large
     /// enough for their unequal weights (kish1965); the last one sees all.
-    Learned fit_lobes(const Learned& earlier, const View& view, double unit, double radius) const {
+    LearnedLobes fit_lobes(const LobeModel& model, std::array<LobeSums, max_lobes> earlier, const View& view,
+                           double unit, double radius) const {
         constexpr double enough = 256;
         const std::span all(view.observations);
         double squares = 0;
@@ -439,7 +433,7 @@ private:
         const auto size = static_cast<double>(all.size());  // and the sum of the weights
         const auto stride = static_cast<std::size_t>(size * size / squares / enough);
         if (stride <= 1) {
-            return improve(earlier, all, unit, settings_.max_iterations, radius);
+            return find_lobes(model, earlier, all, unit, radius);
         }
         std::vector<Observation> sample;
         sample.reserve(all.size() / stride + 1);
@@ -447,16 +441,28 @@ private:
             sample.push_back(all[i]);
         }
         const double scale = size / static_cast<double>(sample.size());
-        const Learned near = improve(earlier, sample, unit * scale, settings_.max_iterations, radius);
-        return improve({near.model, earlier.sums}, all, unit, 1, radius);
+        const LobeModel near = find_lobes(model, earlier, sample, unit * scale, radius).model;
+        return improve(near, earlier, all, unit, 1, radius);
     }
 
-    Learned improve(const Learned& earlier, std::span<const Observation> observations, double unit, int rounds,
-                    double radius) const {
-        Learned learned = earlier;
+    /// Lobes and their number; the earlier sums follow the number.
+    LearnedLobes find_lobes(const LobeModel& model, std::array<LobeSums, max_lobes>& earlier,
+                            std::span<const Observation> observations, double unit, double radius) const {
+        constexpr int most_revisions = 4;
+        LearnedLobes learned = improve(model, earlier, observations, unit, settings_.max_iterations, radius);
+        for (int i = 0; i < most_revisions && revise_lobes(learned, earlier, settings_.most_lobes); ++i) {
+            learned = improve(learned.model, earlier, observations, unit, settings_.max_iterations, radius);
+        }
+        return learned;
+    }
+
+    /// Rounds of expectation maximization, until the lobes hardly move.
+    LearnedLobes improve(const LobeModel& model, const std::array<LobeSums, max_lobes>& earlier,
+                         std::span<const Observation> observations, double unit, int rounds, double radius) const {
+        LearnedLobes learned{model, earlier};
         for (int round = 0; round < rounds; ++round) {
             const std::array<LobeSums, max_lobes> last = learned.sums;
-            learned.sums = earlier.sums + expectation(learned.model, observations, unit);
+            learned.sums = earlier + expectation(learned.model, observations, unit);
             learned.model = maximization(learned.sums, learned.model, settings_.priors, radius);
             if (round > 0 && movement(learned.sums, last) < settings_.tolerance * total_weight(learned.sums)) {
                 break;

@@ -11,8 +11,11 @@
 namespace wend::guide {
 
 struct FitSettings {
-    /// Lobes per cell, 1 to max_lobes.
+    /// Lobes that a cell begins with, 1 to max_lobes.
     int lobes = 8;
+    /// Lobes that a cell may have where its records call for them, `lobes` to max_lobes; where they do not, lobes are
+    /// merged.
+    int most_lobes = max_lobes;
     /// A cell holding more records than this is split where its halves differ; older records count less (see `decay`).
     double leaf_samples = 4000;
     /// A cell whose halves do not differ may hold this many times more, at least 1.

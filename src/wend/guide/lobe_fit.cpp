@@ -1,6 +1,7 @@
 #include <wend/guide/lobe_fit.h>
 
 #include <wend/core/contracts.h>
+#include <wend/core/frame.h>
 #include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr std::size_t block_size = 1024;
 /// The model in lanes.
 struct LobeLanes {
     int blocks;
-    Lanes x, y, z, half_kappa, log_amplitude, inverse_distance;
+    Lanes x, y, z, u_x, u_y, u_z, v_x, v_y, v_z, half_kappa, log_amplitude, inverse_distance;
 
     explicit LobeLanes(const LobeModel& model)
         : blocks(blocks_for(model.mixture.size())), inverse_distance(model.inverse_distance) {
@@ -26,6 +27,13 @@ struct LobeLanes {
             x[i] = vmf.mean.x;
             y[i] = vmf.mean.y;
             z[i] = vmf.mean.z;
+            const Frame frame = Frame::from_z(vmf.mean);
+            u_x[i] = frame.s.x;
+            u_y[i] = frame.s.y;
+            u_z[i] = frame.s.z;
+            v_x[i] = frame.t.x;
+            v_y[i] = frame.t.y;
+            v_z[i] = frame.t.z;
             half_kappa[i] = 0.5f * vmf.kappa;
             log_amplitude[i] = weight > 0 ? std::log(weight) + std::log(vmf_peak(vmf.kappa)) : log_of_nothing;
         }
@@ -35,7 +43,7 @@ struct LobeLanes {
 /// The sums of LobeSums in lanes.
 struct SumLanes {
     Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
-        spread;
+        spread, straight, oblique, beyond_square;
 
     void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
         for (int i = 0; i < max_lobes; ++i) {
@@ -46,7 +54,10 @@ struct SumLanes {
                                inverse_distance[i],
                                inverse_distance_square[i],
                                turn[i],
-                               spread[i]};
+                               spread[i],
+                               straight[i],
+                               oblique[i],
+                               beyond_square[i]};
             sums[i] += own.scaled(unit, unit * unit);
         }
     }
@@ -58,7 +69,7 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
     const float offset_squared = length_squared(t);
     const float across = std::max(0.0f, offset_squared - along * along);
 
-    Lanes x, y, z, exponent;
+    Lanes x, y, z, beyond, exponent;
     for_lanes(lobes.blocks, [&](int i) {
         // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
         // reference point.
@@ -69,7 +80,8 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
         y[i] = distance * w.y - b * t.y;
         z[i] = distance * w.z - b * t.z;
         const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
-        exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * (dx * dx + dy * dy + dz * dz);
+        beyond[i] = dx * dx + dy * dy + dz * dz;
+        exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
     });
     const float largest = largest_lane(lobes.blocks, exponent);
     Lanes density;
@@ -96,6 +108,12 @@ void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sum
         const float spread = weight * (offset_squared - mean_offset * mean_offset);
         sums.turn[i] += weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
         sums.spread[i] += spread;
+        const float u = x[i] * lobes.u_x[i] + y[i] * lobes.u_y[i] + z[i] * lobes.u_z[i];
+        const float v = x[i] * lobes.v_x[i] + y[i] * lobes.v_y[i] + z[i] * lobes.v_z[i];
+        sums.straight[i] += weight * (u * u - v * v);
+        sums.oblique[i] += weight * (2 * u * v);
+        // 1 - cos is half the squared chord.
+        sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
     });
 }
 

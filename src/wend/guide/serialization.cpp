@@ -130,7 +130,7 @@ void put_statistics(std::string& out, const Statistics& statistics) {
         put(out, lobe.direction);
         put(out, lobe.offset);
         for (const float sum : {lobe.weight, lobe.weight_square, lobe.inverse_distance, lobe.inverse_distance_square,
-                                lobe.turn, lobe.spread}) {
+                                lobe.turn, lobe.spread, lobe.straight, lobe.oblique, lobe.beyond_square}) {
             put(out, sum);
         }
     }
@@ -146,7 +146,7 @@ Statistics take_statistics(Reader& in) {
         lobe.direction = in.take_vector();
         lobe.offset = in.take_vector();
         for (float* sum : {&lobe.weight, &lobe.weight_square, &lobe.inverse_distance, &lobe.inverse_distance_square,
-                           &lobe.turn, &lobe.spread}) {
+                           &lobe.turn, &lobe.spread, &lobe.straight, &lobe.oblique, &lobe.beyond_square}) {
             *sum = in.take_finite<float>();
         }
         Reader::require(lobe.weight >= 0 && lobe.weight_square >= 0);

@@ -26,6 +26,9 @@ LobeSums LobeSums::scaled(double linear, double quadratic) const {
     s.inverse_distance_square *= factor;
     s.turn *= factor;
     s.spread *= factor;
+    s.straight *= factor;
+    s.oblique *= factor;
+    s.beyond_square *= factor;
     return s;
 }
 
@@ -38,6 +41,9 @@ LobeSums& LobeSums::operator+=(const LobeSums& other) {
     inverse_distance_square += other.inverse_distance_square;
     turn += other.turn;
     spread += other.spread;
+    straight += other.straight;
+    oblique += other.oblique;
+    beyond_square += other.beyond_square;
     return *this;
 }
 

@@ -24,6 +24,11 @@ struct LobeSums {
     /// squared offset. Their ratio is the inverse distance that the directions themselves tell.
     float turn = 0;
     float spread = 0;
+    /// The shape, with u and v the components of a direction along the axes of Frame::from_z(mean): of u² - v², of
+    /// 2 u v, and of (1 - cos)².
+    float straight = 0;
+    float oblique = 0;
+    float beyond_square = 0;
 
     /// All sums but weight_square times `linear`, that one times `quadratic`.
     LobeSums scaled(double linear, double quadratic) const;
