@@ -64,11 +64,19 @@ double total_weight(const std::array<LobeSums, max_lobes>& sums) {
                            [](double t, const LobeSums& s) { return t + static_cast<double>(s.weight); });
 }
 
-std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, const std::array<LobeSums, max_lobes>& b) {
+/// All sums, of earlier records and new ones. Where only the weight of earlier ones is known, as of a lobe that was
+/// split, they are taken to be like the new ones.
+std::array<LobeSums, max_lobes> continued(const std::array<LobeSums, max_lobes>& earlier,
+                                          std::array<LobeSums, max_lobes> sums) {
     for (int i = 0; i < max_lobes; ++i) {
-        a[i] += b[i];
+        if (earlier[i].weight > 0 && earlier[i].weight_square == 0 && sums[i].weight > 0) {
+            const double factor = 1 + static_cast<double>(earlier[i].weight) / sums[i].weight;
+            sums[i] = sums[i].scaled(factor, factor * factor);
+        } else {
+            sums[i] += earlier[i];
+        }
     }
-    return a;
+    return sums;
 }
 
 /// Sum over the lobes of how far their resultant vectors are apart.
@@ -462,7 +470,7 @@ private:
         LearnedLobes learned{model, earlier};
         for (int round = 0; round < rounds; ++round) {
             const std::array<LobeSums, max_lobes> last = learned.sums;
-            learned.sums = earlier + expectation(learned.model, observations, unit);
+            learned.sums = continued(earlier, expectation(learned.model, observations, unit));
             learned.model = maximization(learned.sums, learned.model, settings_.priors, radius);
             if (round > 0 && movement(learned.sums, last) < settings_.tolerance * total_weight(learned.sums)) {
                 break;

@@ -125,7 +125,9 @@ private:
         if (close) {
             const LobeSums sum = joined(s, x, t, y, merged(lobes_[a], lobes_[b]).vmf.mean);
             const float direction = length(sum.direction);
-            loss = misfit(sum, {sum.direction / direction, vmf_kappa(direction / sum.weight)});
+            const double apart = p * misfit(s, lobes_[a].vmf).total() + (1 - p) * misfit(t, lobes_[b].vmf).total();
+            loss = misfit(sum, {sum.direction / direction, vmf_kappa(direction / sum.weight)}).total() - apart;
+            loss = std::max(0.0, loss);
         } else {
             loss = 0.5 * merging_divergence(lobes_[a], lobes_[b]);
         }
@@ -173,7 +175,7 @@ private:
         int count = 0;
         for (int i = 0; i < size_; ++i) {
             if (records_of(i) > 1) {
-                const double own_gain = misfit(learned_.sums[i], lobes_[i].vmf);
+                const double own_gain = misfit(learned_.sums[i], lobes_[i].vmf).total();
                 if (own_gain * records_of(i) > least_evidence && own_gain * share_of(i) > least_gain) {
                     candidates[count++] = {i, own_gain * share_of(i)};
                 }
@@ -191,26 +193,26 @@ private:
     void split(int i) {
         const Spread spread(learned_.sums[i], lobes_[i].vmf);
         const Vmf vmf = lobes_[i].vmf;
-        const auto shift =
-            static_cast<float>(std::sqrt(std::max(spread.longer - spread.shorter, 0.25 * spread.longer)));
-        const auto sharper = static_cast<float>(std::sqrt(0.5 * (spread.longer + spread.shorter) / spread.shorter));
+        const Misfit reason = misfit(learned_.sums[i], vmf);
+        // Records with a heavy tail around one mean are a source before a wide background; others lie side by side.
+        const bool concentric = reason.heavy_tailed && reason.radial > reason.unequal;
+        constexpr float tail = 3;
+        const double between = concentric ? 0.0 : std::max(spread.longer - spread.shorter, 0.25 * spread.longer);
+        const auto shift = static_cast<float>(std::sqrt(between));
+        const auto sharper =
+            concentric ? tail : static_cast<float>(std::sqrt(0.5 * (spread.longer + spread.shorter) / spread.shorter));
         const int other = size_++;
         learned_.model.inverse_distance[other] = learned_.model.inverse_distance[i];
         for (const auto& [lobe, sign] : {std::pair(i, 1.0f), std::pair(other, -1.0f)}) {
+            const float factor = concentric && sign < 0 ? 1 / tail : sharper;
             lobes_[lobe] = {0.5f * lobes_[i].weight,
                             {normalize(vmf.mean + spread.axis * (sign * shift)),
-                             std::min(vmf.kappa * sharper, 0.1f * Vmf::max_kappa)}};
+                             std::min(vmf.kappa * factor, 0.1f * Vmf::max_kappa)}};
         }
         lobes_[other].weight = lobes_[i].weight;
-        LobeSums half = earlier_[i].scaled(0.5, 0.5);
-        half.straight = half.oblique = 0;
-        const float length_of_half = length(half.direction);
-        const float mean_s = half.weight > 0 ? 1 - length_of_half / half.weight : 0.0f;
-        half.beyond_square = 2 * mean_s * mean_s * half.weight;
-        for (const int lobe : {i, other}) {
-            earlier_[lobe] = half;
-            earlier_[lobe].direction = lobes_[lobe].vmf.mean * length_of_half;
-        }
+        LobeSums half;
+        half.weight = 0.5f * earlier_[i].weight;
+        earlier_[i] = earlier_[other] = half;
     }
 
     LearnedLobes& learned_;
@@ -238,9 +240,9 @@ double merging_divergence(const WeightedVmf& a, const WeightedVmf& b) {
            term((1 - p) * (1 - p), overlap(b.vmf, b.vmf)) - 1;
 }
 
-double misfit(const LobeSums& sums, const Vmf& vmf) {
+Misfit misfit(const LobeSums& sums, const Vmf& vmf) {
     if (!(sums.weight > 0)) {
-        return 0;
+        return {};
     }
     const Spread spread(sums, vmf);
     const double mean = 0.5 * (spread.longer + spread.shorter);
@@ -253,7 +255,7 @@ double misfit(const LobeSums& sums, const Vmf& vmf) {
     const double kappa = vmf.kappa, r = vmf_mean_cosine(vmf.kappa);
     const double expected = kappa > 50 ? 1 / (kappa * kappa) : (kappa > 0.05 ? 1 - r * r - 2 * r / kappa : 1.0 / 3);
     const double ratio = std::log(std::max(variance, 1e-3 * expected) / expected);
-    return unequal + 0.3 * ratio * ratio;
+    return {unequal, 0.3 * ratio * ratio, ratio > 0};
 }
 
 bool revise_lobes(LearnedLobes& learned, std::array<LobeSums, max_lobes>& earlier, int most_lobes) {

@@ -22,8 +22,16 @@ bool revise_lobes(LearnedLobes& learned, std::array<LobeSums, max_lobes>& earlie
 /// p + q = 1, in closed form; infinite where it overflows.
 double merging_divergence(const WeightedVmf& a, const WeightedVmf& b);
 
-/// Nats per record that a better shape than a lobe's could gain: for records that spread unequally along two axes, and
-/// for those whose distances from the mean are distributed otherwise than a lobe's.
-double misfit(const LobeSums& sums, const Vmf& vmf);
+/// Nats per record that a better shape than a lobe's could gain.
+struct Misfit {
+    /// By spreading unequally along two axes.
+    double unequal = 0;
+    /// By another distribution of the distances from the mean; and whether it has a heavier tail than the lobe.
+    double radial = 0;
+    bool heavy_tailed = false;
+
+    double total() const { return unequal + radial; }
+};
+Misfit misfit(const LobeSums& sums, const Vmf& vmf);
 
 }  // namespace wend::guide
