@@ -145,6 +145,8 @@ private:
         std::vector<Observation> observations;
         /// What a weight of 1 stands for, in radiance times sr.
         double unit = 0;
+        /// Sums of the weights before freaks are cut, and of their squares.
+        double fluence = 0, fluence_square = 0;
     };
 
     const Record& record(std::size_t i) const { return records_[order_[i].record]; }
@@ -358,11 +360,8 @@ private:
         Field::Memory& memory = memory_of(cell);
         Statistics& statistics = memory.statistics;
         const View view = look(cell, 1, memory);
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            const double weight = weight_of(record(i));
-            statistics.fluence += weight;
-            statistics.fluence_square += weight * weight;
-        }
+        statistics.fluence += view.fluence;
+        statistics.fluence_square += view.fluence_square;
         statistics.count += static_cast<double>(cell.size());
 
         LobeModel model{region.mixture(), region.inverse_distance()};
@@ -403,6 +402,8 @@ private:
             ++seen;
             const double weight = weight_of(r);
             if (weight > 0) {
+                view.fluence += weight;
+                view.fluence_square += weight * weight;
                 weights.push_back(weight);
                 view.observations.push_back(
                     {r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
@@ -456,10 +457,15 @@ private:
     /// Lobes and their number; the earlier sums follow the number.
     LearnedLobes find_lobes(const LobeModel& model, std::array<LobeSums, max_lobes>& earlier,
                             std::span<const Observation> observations, double unit, double radius) const {
-        constexpr int most_revisions = 4;
+        constexpr int splitting_revisions = 2, revisions = 3;
         LearnedLobes learned = improve(model, earlier, observations, unit, settings_.max_iterations, radius);
-        for (int i = 0; i < most_revisions && revise_lobes(learned, earlier, settings_.most_lobes); ++i) {
-            learned = improve(learned.model, earlier, observations, unit, settings_.max_iterations, radius);
+        for (int i = 0; i < revisions; ++i) {
+            // The last one cleans up: it only merges.
+            const int most = i < splitting_revisions ? settings_.most_lobes : learned.model.mixture.size();
+            if (!revise_lobes(learned, earlier, most)) {
+                break;
+            }
+            learned = improve(learned.model, earlier, observations, unit, (settings_.max_iterations + 1) / 2, radius);
         }
         return learned;
     }

@@ -2,6 +2,7 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/frame.h>
+#include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
@@ -63,58 +64,64 @@ struct SumLanes {
     }
 };
 
-void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sums) {
-    const Vec3 w = o.direction, t = o.offset;
-    const float along = dot(w, t);
-    const float offset_squared = length_squared(t);
-    const float across = std::max(0.0f, offset_squared - along * along);
+WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
+    SumLanes sums;
+    for (const Observation& o : observations) {
+        const Vec3 w = o.direction, t = o.offset;
+        const float along = dot(w, t);
+        const float offset_squared = length_squared(t);
+        const float across = std::max(0.0f, offset_squared - along * along);
 
-    Lanes x, y, z, beyond, exponent;
-    for_lanes(lobes.blocks, [&](int i) {
-        // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
-        // reference point.
-        const float b = lobes.inverse_distance[i];
-        const float inside = 1 - b * b * across;
-        const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
-        x[i] = distance * w.x - b * t.x;
-        y[i] = distance * w.y - b * t.y;
-        z[i] = distance * w.z - b * t.z;
-        const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
-        beyond[i] = dx * dx + dy * dy + dz * dz;
-        exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
-    });
-    const float largest = largest_lane(lobes.blocks, exponent);
-    Lanes density;
-    for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
-    const float scale = o.weight / sum_lanes(lobes.blocks, density);
+        float x[max_lobes], y[max_lobes], z[max_lobes], beyond[max_lobes];
+        Lanes exponent;
+        for_lanes(lobes.blocks, [&](int i) {
+            // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
+            // reference point.
+            const float b = lobes.inverse_distance[i];
+            const float inside = 1 - b * b * across;
+            const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
+            x[i] = distance * w.x - b * t.x;
+            y[i] = distance * w.y - b * t.y;
+            z[i] = distance * w.z - b * t.z;
+            const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
+            beyond[i] = dx * dx + dy * dy + dz * dz;
+            exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
+        });
+        const float largest = largest_lane(lobes.blocks, exponent);
+        Lanes density;
+        for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
+        const float scale = o.weight / sum_lanes(lobes.blocks, density);
 
-    for_lanes(lobes.blocks, [&](int i) {
-        const float weight = density[i] * scale;
-        const float weighted_inverse = weight * o.inverse_distance;
-        sums.weight[i] += weight;
-        sums.weight_square[i] += weight * weight;
-        sums.x[i] += weight * x[i];
-        sums.y[i] += weight * y[i];
-        sums.z[i] += weight * z[i];
-        sums.offset_x[i] += weight * t.x;
-        sums.offset_y[i] += weight * t.y;
-        sums.offset_z[i] += weight * t.z;
-        sums.inverse_distance[i] += weighted_inverse;
-        sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
-        // What is left of the turning after re-aiming, and what re-aiming has taken away.
-        const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
-        const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
-        const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
-        const float spread = weight * (offset_squared - mean_offset * mean_offset);
-        sums.turn[i] += weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
-        sums.spread[i] += spread;
-        const float u = x[i] * lobes.u_x[i] + y[i] * lobes.u_y[i] + z[i] * lobes.u_z[i];
-        const float v = x[i] * lobes.v_x[i] + y[i] * lobes.v_y[i] + z[i] * lobes.v_z[i];
-        sums.straight[i] += weight * (u * u - v * v);
-        sums.oblique[i] += weight * (2 * u * v);
-        // 1 - cos is half the squared chord.
-        sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
-    });
+        for_lanes(lobes.blocks, [&](int i) {
+            const float weight = density[i] * scale;
+            const float weighted_inverse = weight * o.inverse_distance;
+            sums.weight[i] += weight;
+            sums.weight_square[i] += weight * weight;
+            sums.x[i] += weight * x[i];
+            sums.y[i] += weight * y[i];
+            sums.z[i] += weight * z[i];
+            sums.offset_x[i] += weight * t.x;
+            sums.offset_y[i] += weight * t.y;
+            sums.offset_z[i] += weight * t.z;
+            sums.inverse_distance[i] += weighted_inverse;
+            sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
+            // What is left of the turning after re-aiming, and what re-aiming has taken away.
+            const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
+            const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
+            const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
+            const float spread = weight * (offset_squared - mean_offset * mean_offset);
+            sums.turn[i] +=
+                weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
+            sums.spread[i] += spread;
+            const float u = x[i] * lobes.u_x[i] + y[i] * lobes.u_y[i] + z[i] * lobes.u_z[i];
+            const float v = x[i] * lobes.v_x[i] + y[i] * lobes.v_y[i] + z[i] * lobes.v_z[i];
+            sums.straight[i] += weight * (u * u - v * v);
+            sums.oblique[i] += weight * (2 * u * v);
+            // 1 - cos is half the squared chord.
+            sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
+        });
+    }
+    return sums;
 }
 
 /// 1 up to `good`, 0 from `bad`, linear between.
@@ -170,11 +177,7 @@ std::array<LobeSums, max_lobes> expectation(const LobeModel& model, std::span<co
     std::array<LobeSums, max_lobes> sums{};
     while (!observations.empty()) {
         const auto block = observations.first(std::min(block_size, observations.size()));
-        SumLanes block_sums;
-        for (const Observation& o : block) {
-            add_observation(lobes, o, block_sums);
-        }
-        block_sums.add_to(sums, weight_unit);
+        sums_of(lobes, block).add_to(sums, weight_unit);
         observations = observations.subspan(block.size());
     }
     return sums;
