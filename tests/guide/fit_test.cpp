@@ -119,6 +119,68 @@ TEST(Fit, ScaleOfRadianceChangesOnlyTheFluence) {
     EXPECT_LT(test::divergence(a.mixture(), b.mixture()), 1e-6);
 }
 
+TEST(Fit, RemembersSecondMoments) {
+    // Drawn by the target itself all weights are equal; where half of the records are dark, the relative variance is 1.
+    Records records = records_of(target(), 4000, 50, true);
+    const Vec3 anywhere(0.5f, 0.5f, 0.5f);
+    EXPECT_NEAR(trained(records, one_cell()).weight_moments(anywhere).relative_variance(), 0, 1e-6);
+    for (std::size_t i = 0; i < records.size(); i += 2) {
+        records[i].radiance = 0;
+    }
+    const WeightMoments moments = trained(records, one_cell()).weight_moments(anywhere);
+    EXPECT_EQ(moments.records, 4000);
+    EXPECT_NEAR(moments.mean, 0.5, 1e-6);
+    EXPECT_NEAR(moments.relative_variance(), 1, 1e-6);
+    EXPECT_EQ(Field::empty(unit_box).weight_moments(anywhere).mean_square, 0);
+}
+
+TEST(Fit, InScatteredRadianceIsTheIntegralOfTheTruth) {
+    const Field field = trained(records_of(target(), 40000, 51, true), one_cell());
+    const Vec3 position(0.5f, 0.5f, 0.5f);
+    for (const float kappa : {-20.0f, 0.0f, 2.0f, 20.0f}) {
+        const AxialLobes lobes = AxialLobes(std::array{AxialLobe{1, kappa}}).around(normalize(Vec3(1, 2, 2)));
+        const double truth = test::integrate_sphere(
+            [&](const Vec3& w) { return static_cast<double>(target().density(w)) * lobes.density(w); });
+        EXPECT_NEAR(in_scattered(*field.find(position), position, lobes), truth, 0.05 * truth) << kappa;
+    }
+}
+
+/// Equal narrow emitters around, drawn by their own density.
+VmfMixture emitters(int count) {
+    std::vector<WeightedVmf> lobes;
+    for (int i = 0; i < count; ++i) {
+        const float z = 1 - (2 * i + 1.0f) / count, r = std::sqrt(1 - z * z);
+        lobes.push_back({1, {Vec3(r * std::cos(2.4f * i), r * std::sin(2.4f * i), z), 200}});
+    }
+    return VmfMixture(lobes);
+}
+
+TEST(Fit, LobesGrowAsRecordsCallForThem) {
+    const auto learn = [](FitSettings settings) {
+        settings.leaf_samples = 1e9;
+        Field field = Field::empty(unit_box);
+        for (int pass = 0; pass < 3; ++pass) {
+            field = fit(field, records_of(emitters(12), 3000 << pass, 60 + pass, true), settings, 1).field;
+        }
+        return field;
+    };
+    const Field field = learn({});
+    EXPECT_GE(field.find({0, 0, 0})->mixture().size(), 12);
+    EXPECT_LT(test::divergence(emitters(12), field.find({0, 0, 0})->mixture(), 400), 0.02);
+    // The twin: eight are not enough.
+    FitSettings fixed;
+    fixed.most_lobes = fixed.lobes;
+    EXPECT_GT(test::divergence(emitters(12), learn(fixed).find({0, 0, 0})->mixture(), 400), 0.5);
+}
+
+TEST(Fit, LobesThatAreNotNeededAreMerged) {
+    for (const int count : {1, 3}) {
+        const Field field = trained(records_of(emitters(count), 20000, 70, true), one_cell());
+        EXPECT_LE(field.find({0, 0, 0})->mixture().size(), count + 1);
+        EXPECT_LT(test::divergence(emitters(count), field.find({0, 0, 0})->mixture(), 400), 0.005);
+    }
+}
+
 /// Two spherical lamps, given as what a position sees of them.
 struct TwoLamps {
     static VmfMixture seen_from(const Vec3& position) {
@@ -444,6 +506,8 @@ TEST(Fit, RefusesSettingsOutOfRange) {
     };
     refused([](FitSettings& s) { s.lobes = 0; });
     refused([](FitSettings& s) { s.lobes = max_lobes + 1; });
+    refused([](FitSettings& s) { s.most_lobes = max_lobes + 1; });
+    refused([](FitSettings& s) { s.most_lobes = s.lobes - 1; });
     refused([](FitSettings& s) { s.leaf_samples = 0; });
     refused([](FitSettings& s) { s.uniform_factor = 0.5; });
     refused([](FitSettings& s) { s.variation = std::numeric_limits<double>::quiet_NaN(); });

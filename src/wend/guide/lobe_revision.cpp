@@ -141,7 +141,7 @@ private:
                 const double loss = merging_loss(a, b);
                 const double records = records_of(a) + records_of(b);
                 const double share = share_of(a) + share_of(b);
-                if (loss < 0.25 * least_gain || loss / share * records < 0.25 * least_evidence) {
+                if (loss < 0.25 * least_gain || loss / share * records < 0.05 * least_evidence) {
                     merge(a, b);
                     changed = true;
                 }
