@@ -159,7 +159,7 @@ TEST(Fit, LobesGrowAsRecordsCallForThem) {
     const auto learn = [](FitSettings settings) {
         settings.leaf_samples = 1e9;
         Field field = Field::empty(unit_box);
-        for (int pass = 0; pass < 3; ++pass) {
+        for (int pass = 0; pass < 5; ++pass) {
             field = fit(field, records_of(emitters(12), 3000 << pass, 60 + pass, true), settings, 1).field;
         }
         return field;

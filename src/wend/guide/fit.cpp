@@ -460,6 +460,8 @@ private:
         constexpr int splitting_revisions = 2, revisions = 3;
         LearnedLobes learned = improve(model, earlier, observations, unit, settings_.max_iterations, radius);
         for (int i = 0; i < revisions; ++i) {
+            // The shape of the records is to be seen from where the lobes are now.
+            learned.sums = continued(earlier, expectation(learned.model, observations, unit));
             // The last one cleans up: it only merges.
             const int most = i < splitting_revisions ? settings_.most_lobes : learned.model.mixture.size();
             if (!revise_lobes(learned, earlier, most)) {
