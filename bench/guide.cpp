@@ -1,6 +1,7 @@
 // Cost of asking the learned field and of training it.
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
+#include <wend/guide/path_records.h>
 #include <wend/medium/phase_lobes.h>
 
 #include <benchmark/benchmark.h>
@@ -62,7 +63,7 @@ std::vector<Query> random_queries(const AxialLobes& lobes) {
     return result;
 }
 
-const AxialLobes cosine(std::array{AxialLobe{1, 2.18853f}});
+const AxialLobes& cosine = AxialLobes::cosine();
 const AxialLobes phase = lobes_of(HenyeyGreenstein{0.8f});
 
 void field_step(benchmark::State& state, const AxialLobes& lobes, auto step) {
@@ -146,5 +147,38 @@ void training(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(first.size() + second.size()));
 }
 BENCHMARK(training)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
+
+/// Records of walks of 1,024 vertices, alternately on surfaces and in volumes, in colour.
+void path_records(benchmark::State& state) {
+    constexpr std::size_t vertices = 1024;
+    Pcg32 random(3);
+    std::vector<PathVertex> path(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const Vec2 u = random.uniform2();
+        path[i].position = Vec3(u.x, u.y, random.uniform());
+        path[i].direction = Vmf{}.sample(random.uniform2());
+        path[i].density = inv_4pi;
+        path[i].distance = 1;
+        path[i].scattering = Rgb(0.95f, 0.9f, 0.8f);
+        path[i].gathered = Rgb(random.uniform());
+        path[i].parent = static_cast<std::int32_t>(i) - 1;
+        path[i].in_volume = i % 2 == 0;
+    }
+    // As in training, walks share their records' memory; it is emptied before it outgrows the caches of a small
+    // machine.
+    constexpr std::size_t walks = 64;
+    PathRecords records;
+    std::size_t kept = 0;
+    for (auto _ : state) {
+        if (kept++ == walks) {
+            records.clear();
+            kept = 0;
+        }
+        records.add(path);
+        benchmark::DoNotOptimize(records);
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices));
+}
+BENCHMARK(path_records)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -289,7 +289,7 @@ TEST(KeepPositive, LowersNegativeTermsUntilTheSourceIsPositive) {
     for (const bool directional : {false, true}) {
         for (const double thickness : {infinity, 3.0}) {
             PlanarModes modes = some_modes(directional, std::isfinite(thickness));
-            modes.modes[1].near = -1.7;
+            modes.modes[1].near = -2.5;
             modes.modes[2].far = -0.8;
             PlanarSlab slab;
             slab.thickness = thickness;

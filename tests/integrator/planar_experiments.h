@@ -40,14 +40,15 @@ inline double reference_error(const PlanarExperiment& e) {
     return e.roughness > 0 ? 2e-4 : 1e-6;
 }
 
-/// Within 3 standard errors of the exact value, in every channel, and no walk lost.
-inline testing::AssertionResult is_exact(const PlanarResult& result, double reference_error = 1e-6, double factor = 1) {
+/// Within 3 standard errors of the exact value times a factor, in every channel, and no walk lost.
+inline testing::AssertionResult is_exact(const PlanarResult& result, double reference_error = 1e-6, double factor = 1,
+                                         double standard_errors = 3) {
     if (result.rejected > 0) {
         return testing::AssertionFailure() << result.rejected << " values were not finite";
     }
     for (std::size_t c = 0; c < result.channels.size(); ++c) {
         const Moments& m = result.channels[c];
-        if (!agrees(m, factor * result.exact[c], 3, reference_error)) {
+        if (!agrees(m, factor * result.exact[c], standard_errors, reference_error)) {
             return testing::AssertionFailure()
                    << "channel " << c << ": mean " << m.mean() << ", standard error " << m.standard_error()
                    << ", expected " << factor * result.exact[c] << ": "

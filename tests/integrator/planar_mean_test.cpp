@@ -36,7 +36,7 @@ public:
     MeansOf(const MeansOf&) = delete;
     MeansOf& operator=(const MeansOf&) = delete;
 
-    void check(PlanarExperiment e) {
+    void check(PlanarExperiment e, std::uint64_t times = 1) {
         for (const std::string& sampler : planar_samplers()) {
             // Of walks that do not head for the far side too few get through to estimate by.
             const bool hopeless =
@@ -45,7 +45,7 @@ public:
                 continue;
             }
             e.sampler = sampler;
-            const PlanarResult result = run(e, walks_, 4);
+            const PlanarResult result = run(e, times * walks_, 4);
             const double exactness = test::reference_error(e);
             EXPECT_TRUE(is_exact(result, exactness)) << describe(e);
             const Moments& m = result.channels[0];
@@ -169,7 +169,7 @@ TEST(PlanarMeans, RoughBoundaries) {
         e.ior = m.ior;
         e.roughness = 0.3;
         e.mu0 = m.mu0;
-        means.check(e);
+        means.check(e, e.mu0 ? 1 : 3);  // what reflects varies most where directions of entry do
     }
 }
 

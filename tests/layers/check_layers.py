@@ -15,7 +15,7 @@ LEVEL = {
     "medium": 3,
     "adjoint": 4,
     "theory": 5, "guide": 5, "decision": 5,
-    "scene": 6, "film": 6,
+    "capi": 6, "scene": 6, "film": 6,
     "integrator": 7,
     "io": 8,
     "app": 9,

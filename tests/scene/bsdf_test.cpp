@@ -1,8 +1,8 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/medium/fresnel.h>
-#include <wend/scene/bsdf/bsdf.h>
 #include <wend/medium/microfacet.h>
+#include <wend/scene/bsdf/bsdf.h>
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,8 @@ PlanarFlight PathStretching::sample(const Site& from, double mu, Pcg32& random, 
 
 double PathStretching::boost(const Site& /*from*/, double mu, const PlanarFlight& outcome, const Site& /*to*/) const {
     const double rate = 1 - stretch_ * mu;
-    return (outcome.scatters ? rate : 1) * std::exp((1 - rate) * outcome.length);
+    // A flight of another sampler may be so long that the factor is out of range.
+    return (outcome.scatters ? rate : 1) * std::exp(std::min((1 - rate) * outcome.length, 700.0));
 }
 
 PlanarDirection PhaseDirection::sample(double /*depth*/, double before, Pcg32& random) const {

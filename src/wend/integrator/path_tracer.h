@@ -6,24 +6,13 @@
 #include <wend/decision/distance.h>
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
+#include <wend/guide/path_log.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace wend {
-
-/// A vertex of a walk as training sees it: where a direction was drawn, and what came back along it.
-struct WalkVertex {
-    Vec3 position;
-    Vec3 direction;
-    float density = 0;   ///< of the direction, per steradian
-    float distance = 0;  ///< to the next vertex; infinity if there is none
-    bool in_volume = false;
-    Rgb throughput;  ///< of the walk, the direction's weight included
-    Rgb gathered;    ///< by the walk up to here, this vertex's connection to a light included
-};
 
 /// Counted work of walks.
 struct WalkCounts {
@@ -74,8 +63,8 @@ public:
     PathTracer(const Scene& scene, const Decisions& decisions, int max_depth)
         : scene_(scene), decisions_(decisions), max_depth_(max_depth) {}
 
-    /// Radiance arriving along the ray. Where `vertices` is given, the walk's vertices are appended to it.
-    WalkResult trace(const Ray& ray, Sampler& sampler, std::vector<WalkVertex>* vertices) const;
+    /// Radiance arriving along the ray. Where a log is given, it is started anew and the walk written into it.
+    WalkResult trace(const Ray& ray, Sampler& sampler, guide::PathLog* log) const;
 
 private:
     class Walk;

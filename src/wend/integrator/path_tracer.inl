@@ -13,10 +13,13 @@ namespace wend {
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, Sampler& sampler, std::vector<WalkVertex>* vertices)
-        : tracer_(tracer), scene_(tracer.scene_), d_(tracer.decisions_), sampler_(sampler), vertices_(vertices) {}
+    Walk(const PathTracer& tracer, Sampler& sampler, guide::PathLog* log)
+        : tracer_(tracer), scene_(tracer.scene_), d_(tracer.decisions_), sampler_(sampler), log_(log) {}
 
     WalkResult run(const Ray& start) {
+        if (log_) {
+            log_->start();
+        }
         ray_ = start;
         medium_ = scene_.camera_medium();
         while (step()) {
@@ -35,8 +38,8 @@ private:
             const Medium& medium = scene_.medium(medium_);
             const Flight flight =
                 d_.distance.sample(medium, ray_, length, throughput_, sampler_.uniform(), sampler_.random());
-            radiance_ += throughput_ * flight.emitted;
-            throughput_ *= flight.weight;
+            gather(flight.emitted);
+            weigh(flight.weight);
             if (is_black(throughput_)) {
                 return false;
             }
@@ -47,7 +50,6 @@ private:
             pass_probability_ *= d_.distance.pass_probability(medium, ray_, length);
         }
         if (!hit) {
-            end_vertex(infinity);
             add_environment();
             return false;
         }
@@ -65,7 +67,7 @@ private:
     }
 
     bool scatter_in(const Medium& medium, float distance) {
-        end_vertex(travelled_);
+        meet();
         if (depth_ == 0) {
             remember_first(albedo(medium), {0, 0, 0});
         }
@@ -78,7 +80,7 @@ private:
     }
 
     bool scatter_at(const Hit& hit) {
-        end_vertex(travelled_);
+        meet();
         const SurfaceScattering f(scene_.bsdf(hit), hit.shading, ray_.direction);
         if (depth_ == 0) {
             remember_first(f.albedo(), hit.shading.n);
@@ -95,14 +97,14 @@ private:
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
         const auto directions = d_.direction.at(position, in_volume, f, boost_);
         if (!f.is_specular()) {
-            radiance_ += throughput_ * connect(f, directions, position, normal, in_volume);
+            gather(connect(f, directions, position, normal, in_volume));
         }
         const float u = sampler_.uniform();
         const auto s = directions.sample(u, sampler_.uniform2());
         if (!s) {
             return false;
         }
-        throughput_ *= s->weight();
+        scatter_into(*s, position, in_volume);
         boost_ *= s->boost;
         index_scale_ *= sqr(f.index_ratio(s->direction));
         specular_ = s->specular;
@@ -110,16 +112,12 @@ private:
         receiver_ = {position, normal};
         pass_probability_ = Rgb(1.0f);
         channels_ = channel_probabilities(throughput_);
-        if (vertices_ && !specular_) {
-            vertices_->push_back({position, s->direction, density_, infinity, in_volume, throughput_, radiance_});
-            open_vertex_ = true;
-        }
         const float expected = d_.survival.expected_continuations({throughput_, boost_, index_scale_, depth_});
         if (expected < 1) {
             if (!(sampler_.uniform() < expected)) {
                 return false;
             }
-            throughput_ *= 1 / expected;
+            weigh(Rgb(1 / expected));
         }
         if (in_volume) {
             ray_ = {position, s->direction};
@@ -226,7 +224,7 @@ private:
         const Rgb emitted =
             emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -ray_.direction);
         if (!is_black(emitted)) {
-            radiance_ += throughput_ * emitted * emission_weight(hit.light, hit.position, hit.normal);
+            gather(emitted * emission_weight(hit.light, hit.position, hit.normal));
         }
     }
 
@@ -234,7 +232,7 @@ private:
         for (const int light : scene_.infinite_lights()) {
             const Rgb arriving = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], ray_.direction);
             if (!is_black(arriving)) {
-                radiance_ += throughput_ * arriving * emission_weight(light, {}, {});
+                gather(arriving * emission_weight(light, {}, {}));
             }
         }
     }
@@ -245,11 +243,31 @@ private:
         result_.sample.depth = travelled_;
     }
 
-    /// Tells the last recorded vertex how far the walk flew from it.
-    void end_vertex(float distance) {
-        if (open_vertex_) {
-            vertices_->back().distance = distance;
-            open_vertex_ = false;
+    // What the walk multiplies and adds, told to the log as well.
+    void weigh(const Rgb& weight) {
+        throughput_ *= weight;
+        if (log_) {
+            log_->weigh(weight);
+        }
+    }
+    void gather(const Rgb& radiance) {
+        radiance_ += throughput_ * radiance;
+        if (log_) {
+            log_->gather(radiance);
+        }
+    }
+    void meet() {
+        if (log_) {
+            log_->meet(travelled_);
+        }
+    }
+    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
+        throughput_ *= s.weight();
+        if (log_) {
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume);
+            // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
+            log_->weigh(
+                {throughput_.r > 0 ? 1.0f : 0.0f, throughput_.g > 0 ? 1.0f : 0.0f, throughput_.b > 0 ? 1.0f : 0.0f});
         }
     }
 
@@ -260,7 +278,7 @@ private:
     const Scene& scene_;
     const Decisions& d_;
     Sampler& sampler_;
-    std::vector<WalkVertex>* vertices_;
+    guide::PathLog* log_;
 
     Ray ray_{};
     MediumId medium_ = vacuum;
@@ -272,7 +290,6 @@ private:
     int interfaces_ = 0;
     float travelled_ = 0;       ///< since the last vertex
     const Hit* hit_ = nullptr;  ///< of the surface vertex at hand
-    bool open_vertex_ = false;
 
     // The last vertex, as multiple importance sampling wants it.
     LightReceiver receiver_{};
@@ -285,8 +302,8 @@ private:
 };
 
 template <class Decisions>
-WalkResult PathTracer<Decisions>::trace(const Ray& ray, Sampler& sampler, std::vector<WalkVertex>* vertices) const {
-    return Walk(*this, sampler, vertices).run(ray);
+WalkResult PathTracer<Decisions>::trace(const Ray& ray, Sampler& sampler, guide::PathLog* log) const {
+    return Walk(*this, sampler, log).run(ray);
 }
 
 }  // namespace wend

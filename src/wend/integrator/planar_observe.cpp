@@ -27,6 +27,7 @@ public:
         move(depth, length, before);
         azimuth_ += sample_azimuth(g_, before, after, random_);
     }
+    void is_absorbed(double depth, double length, double cosine) { move(depth, length, cosine); }
     void arrives(double depth, double length, double cosine) { move(depth, length, cosine); }
 
     PlanarTrace trace;
@@ -52,24 +53,26 @@ public:
 
     void enters(double /*cosine*/) { first_ = true; }
     void collides(double depth, double /*length*/, double /*before*/, double after) {
-        if (!first_) {
-            return;
-        }
-        first_ = false;
-        const auto bin = static_cast<std::size_t>(depth / step_);
-        if (bin < depths.size()) {
-            ++depths[bin];
-        }
-        if (depth >= begin_ && depth < end_) {
+        if (first_ && depth >= begin_ && depth < end_) {
             const auto count = static_cast<double>(cosines.size());
             ++cosines[static_cast<std::size_t>(std::clamp((after + 1) / 2 * count, 0.0, count - 1))];
         }
+        count_depth(depth);
     }
+    void is_absorbed(double depth, double /*length*/, double /*cosine*/) { count_depth(depth); }
     void arrives(double /*depth*/, double /*length*/, double /*cosine*/) { first_ = false; }
 
     std::vector<std::uint64_t> depths, cosines;
 
 private:
+    void count_depth(double depth) {
+        const auto bin = static_cast<std::size_t>(depth / step_);
+        if (first_ && bin < depths.size()) {
+            ++depths[bin];
+        }
+        first_ = false;
+    }
+
     double step_, begin_, end_;
     bool first_ = true;
 };
@@ -100,7 +103,7 @@ PlanarHistogram histogram_planar(const PlanarExperiment& experiment, const Plana
     const double deepest = std::min(5.0, experiment.thickness);
     PlanarHistogram h;
     h.depth_begin = 0.1 * deepest;
-    h.depth_end = 0.15 * deepest;
+    h.depth_end = 0.16 * deepest;
     const double step = deepest / depth_bins;
     for (std::size_t i = 0; i <= depth_bins; ++i) {
         h.depth_edges.push_back(step * static_cast<double>(i));

@@ -21,6 +21,8 @@ struct UnobservedWalk {
     void enters(double /*cosine*/) {}
     /// A collision, after the direction was drawn.
     void collides(double /*depth*/, double /*length*/, double /*before*/, double /*after*/) {}
+    /// A collision that ends the walk.
+    void is_absorbed(double /*depth*/, double /*length*/, double /*cosine*/) {}
     /// The walk reaches a boundary at a depth.
     void arrives(double /*depth*/, double /*length*/, double /*cosine*/) {}
 };
@@ -98,6 +100,7 @@ private:
         ++now.collisions;
         std::swap(now.site, next);
         if (!Capture::survive(parts_.albedo, now.weight, random)) {
+            observer.is_absorbed(now.site.depth, length, now.cosine);
             return false;
         }
         const PlanarDirection direction = parts_.sampler->direction.sample(now.site.depth, now.cosine, random);

@@ -28,12 +28,14 @@ constexpr float classical_share = 0.5f;
 // Training ends after this many samples per pixel: from then on the field would change little.
 constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
+// More vertices of one walk say little that is new: they are correlated.
+constexpr std::size_t most_records = 64;
 
 /// A block of pixels, rendered by one thread at a time.
 struct Tile {
     PixelRect pixels;
     WalkCounts counts;
-    TrainingRecords records;
+    guide::PathRecords records;
 };
 
 std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -62,18 +64,18 @@ public:
           record_(record) {}
 
     void run(Tile& tile) const {
-        std::vector<WalkVertex> vertices;
+        guide::PathLog log;
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
                 for (int i = 0; i < count_; ++i) {
-                    sample({x, y}, first_ + i, tile, vertices);
+                    sample({x, y}, first_ + i, tile, log);
                 }
             }
         }
     }
 
 private:
-    void sample(const Vec2i& pixel, int index, Tile& tile, std::vector<WalkVertex>& vertices) const {
+    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log) const {
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
@@ -81,8 +83,7 @@ private:
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
-        vertices.clear();
-        WalkResult result = tracer_.trace(ray, sampler, record_ ? &vertices : nullptr);
+        WalkResult result = tracer_.trace(ray, sampler, record_ ? &log : nullptr);
         ++tile.counts.paths;
         tile.counts.segments += result.segments;
         if (!is_finite(result.sample.radiance)) {
@@ -91,7 +92,7 @@ private:
             return;
         }
         if (record_) {
-            tile.records.add_walk(vertices, result.sample.radiance);
+            tile.records.add(log.vertices(), most_records);
         }
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
@@ -184,7 +185,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         statistics.passes.push_back(count);
         if (record) {
             const Clock::time_point training_start = Clock::now();
-            std::vector<TrainingRecords> records(tiles.size());
+            std::vector<guide::PathRecords> records(tiles.size());
             for (std::size_t i = 0; i < tiles.size(); ++i) {
                 records[i] = std::exchange(tiles[i].records, {});
             }

@@ -6,6 +6,7 @@
 #include <wend/sampling/discrete.h>
 #include <wend/sampling/vmf.h>
 
+#include <array>
 #include <cmath>
 
 namespace wend {
@@ -26,6 +27,11 @@ AxialLobes::AxialLobes(std::span<const AxialLobe> lobes) : size_(static_cast<int
         kappa_[j] = lobes[j].kappa;
         amplitude_[j] = static_cast<float>(lobes[j].weight / total) * vmf_peak(std::abs(kappa_[j]));
     }
+}
+
+const AxialLobes& AxialLobes::cosine() {
+    static const AxialLobes lobe(std::array{AxialLobe{1, 2.18853f}});
+    return lobe;
 }
 
 AxialLobes AxialLobes::around(const Vec3& axis) const {

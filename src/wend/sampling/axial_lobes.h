@@ -27,6 +27,10 @@ public:
     /// 1 to `capacity` lobes around +z; weights are scaled to the sum 1, and one at least must be positive.
     explicit AxialLobes(std::span<const AxialLobe> lobes);
 
+    /// The cosine of a surface that reflects diffusely, clamped to its upper side, as a single lobe: the least-squares
+    /// fit's concentration (ruppert2020).
+    static const AxialLobes& cosine();
+
     /// The same lobes along another axis, of unit length.
     AxialLobes around(const Vec3& axis) const;
 

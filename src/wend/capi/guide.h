@@ -1,0 +1,238 @@
+/*
+ * The learned adjoint for C: records in, a field of incident radiance out, and distributions of directions that
+ * multiply with what scatters, sample and evaluate. It is C99, and C++ as well; link wend::guide.
+ *
+ * A renderer uses it like this:
+ *
+ *   1. wend_field_create() once for surfaces and once for volumes: fields that know nothing yet.
+ *   2. Render a pass. At every vertex: wend_field_incident(), wend_distribution_product() with the lobes of what
+ *      scatters, wend_distribution_sample(). Mix it with your own sampling (half and half is a good start) and
+ *      divide by the density of the mixture, and no field can bias the picture.
+ *   3. Keep the vertices of every walk; wend_records_of_path() makes records of them.
+ *   4. Between passes wend_field_fit() makes the next field of the last one and the records. Go on with 2.
+ *
+ * Rules that hold for all functions:
+ *
+ *   - They return a wend_status, take a wend_error that may be null as their last argument, and throw nothing.
+ *     Unless it is said otherwise, results are written only when the status is WEND_OK.
+ *   - A field is a value: it never changes once it is made, so any number of threads may ask it. There is no
+ *     other state.
+ *   - Directions have unit length (to 1e-3). Distances are in the units of the scene, densities in 1/sr.
+ *   - A null pointer where one is needed, a number that is not finite or out of its range, an object that was
+ *     not filled by this library: all these are WEND_BAD_ARGUMENT.
+ */
+#ifndef WEND_CAPI_GUIDE_H
+#define WEND_CAPI_GUIDE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#define WEND_NOEXCEPT noexcept
+#else
+#define WEND_NOEXCEPT
+#endif
+
+/* ---- Errors ---- */
+
+typedef enum wend_status {
+    WEND_OK = 0,
+    /* The field has not been fitted to any usable record: go on without a guide. Not a mistake. */
+    WEND_NOTHING_LEARNED = 1,
+    WEND_BAD_ARGUMENT = 2,
+    /* Bytes to load are no field, of another version, truncated, or were changed. */
+    WEND_BAD_BYTES = 3,
+    WEND_BUFFER_TOO_SMALL = 4,
+    WEND_OUT_OF_MEMORY = 5,
+    /* A mistake of the library. */
+    WEND_INTERNAL_ERROR = 6
+} wend_status;
+
+/* What went wrong, as a sentence that ends with a null byte; empty after success. */
+typedef struct wend_error {
+    char message[256];
+} wend_error;
+
+/* ---- Plain values ---- */
+
+typedef struct wend_vec3 {
+    float x, y, z;
+} wend_vec3;
+
+/* A box; finite, each coordinate of `min` at most that of `max`. */
+typedef struct wend_bounds {
+    wend_vec3 min, max;
+} wend_bounds;
+
+/* An estimate of the radiance that arrives at a point from one direction. Estimates of zero are as informative as
+ * others and must not be left out. */
+typedef struct wend_record {
+    wend_vec3 position;
+    wend_vec3 direction; /* towards where the radiance comes from */
+    float radiance;      /* as a scalar, for instance the mean of the colour channels; not negative */
+    float density;       /* the direction was drawn with; positive */
+    float distance;      /* to the next vertex along the direction; positive, infinite where there is none */
+} wend_record;
+
+/* How a field is fitted. Start from wend_fit_settings_default(). */
+typedef struct wend_fit_settings {
+    int lobes;                /* per cell, 1 to 16 */
+    double leaf_samples;      /* a cell that holds more records is split; at least 1 */
+    int max_depth;            /* most splits above a cell, 0 to 64 */
+    size_t max_bytes;         /* memory of a field, at least 64 KiB */
+    double decay;             /* how much the records of earlier fits count, 0 to 1 */
+    int max_iterations;       /* most rounds of expectation maximization, at least 1 */
+    double tolerance;         /* rounds end when lobes move less than this share; not negative */
+    double prior_weight;      /* records that each lobe is believed to have before any; positive */
+    double prior_mean_cosine; /* records of mean cosine 0 that each lobe is believed to have; positive */
+    float max_kappa;          /* concentrations stay below; positive, at most 1e5 */
+} wend_fit_settings;
+
+/* What a fit did. */
+typedef struct wend_fit_report {
+    size_t records;     /* given */
+    size_t ignored;     /* of these, with numbers out of range: they taught nothing */
+    size_t dark;        /* usable ones with zero radiance */
+    size_t cells;       /* of the field that was made */
+    size_t bytes;       /* its memory */
+    int memory_limited; /* whether cells stayed unsplit for lack of memory, 0 or 1 */
+} wend_fit_report;
+
+/* What a field holds. */
+typedef struct wend_field_summary {
+    wend_bounds bounds;
+    size_t cells;
+    size_t lobes;   /* of all cells */
+    size_t bytes;   /* in memory */
+    double records; /* that taught it, those of earlier fits counting less */
+    int learned;    /* whether it can be asked, 0 or 1 */
+} wend_field_summary;
+
+/* ---- Fields ---- */
+
+typedef struct wend_field wend_field;
+
+/* A field that knows nothing yet about a scene of these bounds. It belongs to the caller: wend_field_destroy(). */
+wend_status wend_field_create(wend_bounds bounds, wend_field** field, wend_error* error) WEND_NOEXCEPT;
+
+/* Null is allowed. */
+void wend_field_destroy(wend_field* field) WEND_NOEXCEPT;
+
+wend_fit_settings wend_fit_settings_default(void) WEND_NOEXCEPT;
+
+/* Makes the next field of the previous one, which stays as it is, and `count` records (fewer than 2^32 - 1; `records`
+ * may be null if there are none). The result depends on the order of the records but not on the number of threads, bit
+ * for bit. `settings` may be null for the default, `threads` is 0 (all) to 1024, `report` may be null. The next field
+ * belongs to the caller; `next` may be where `previous` is kept, but then destroy the previous one by another pointer.
+ */
+wend_status wend_field_fit(const wend_field* previous, const wend_record* records, size_t count,
+                           const wend_fit_settings* settings, int threads, wend_field** next, wend_fit_report* report,
+                           wend_error* error) WEND_NOEXCEPT;
+
+/* Cost is proportional to the number of cells. */
+wend_status wend_field_summarize(const wend_field* field, wend_field_summary* summary, wend_error* error) WEND_NOEXCEPT;
+
+/* The integral of the radiance over all directions, averaged over the position's cell: radiance times sr. */
+wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, float* fluence,
+                               wend_error* error) WEND_NOEXCEPT;
+
+/* Writes the field to `buffer` and the number of bytes to `size`. A null buffer only asks for the size; one with a
+ * `capacity` that is too small is left alone and answered with WEND_BUFFER_TOO_SMALL and the size. The bytes have a
+ * version and a checksum. */
+wend_status wend_field_save(const wend_field* field, void* buffer, size_t capacity, size_t* size,
+                            wend_error* error) WEND_NOEXCEPT;
+
+/* The field again: it answers the same, bit for bit, and can be fitted further. */
+wend_status wend_field_load(const void* bytes, size_t size, wend_field** field, wend_error* error) WEND_NOEXCEPT;
+
+/* ---- Distributions of directions ---- */
+
+/* A distribution in the caller's memory, aligned as this type is. It may be copied and forgotten, and refers to
+ * nothing, the field included. */
+typedef union wend_distribution {
+    long double alignment;
+    unsigned char bytes[1024];
+} wend_distribution;
+
+/* The shape of what scatters, as lobes around an axis that is given later: make one per material and keep it. */
+typedef union wend_lobes {
+    long double alignment;
+    unsigned char bytes[256];
+} wend_lobes;
+
+/* The cosine at a surface that reflects diffusely; its axis is the normal on the side where light arrives. A cosine is
+ * not quite a lobe, so the product reaches a little below the horizon: draws from there have the value 0. */
+wend_status wend_lobes_cosine(wend_lobes* lobes, wend_error* error) WEND_NOEXCEPT;
+
+/* A part of a phase function: Henyey and Greenstein's with mean cosine g in (-1, 1), and its positive relative weight.
+ */
+typedef struct wend_phase_part {
+    float weight;
+    float g;
+} wend_phase_part;
+
+/* A phase function of 1 to 4 parts; the axis is the direction in which the walk flew before the collision. The lobes
+ * stay within 2 % of the function up to |g| = 0.9 and within 25 % up to 0.99; beyond, they are those of 0.99. */
+wend_status wend_lobes_phase(const wend_phase_part* parts, size_t count, wend_lobes* lobes,
+                             wend_error* error) WEND_NOEXCEPT;
+
+/* Any shape: a von Mises-Fisher lobe of concentration kappa in [-1e5, 1e5], around the opposite of the axis if
+ * negative, and its relative weight, not negative. */
+typedef struct wend_axial_lobe {
+    float weight;
+    float kappa;
+} wend_axial_lobe;
+
+/* A shape of 1 to 24 lobes, one of which at least has a positive weight. */
+wend_status wend_lobes_custom(const wend_axial_lobe* parts, size_t count, wend_lobes* lobes,
+                              wend_error* error) WEND_NOEXCEPT;
+
+/* Directions in proportion to the incident radiance at a position. */
+wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wend_distribution* incident,
+                                wend_error* error) WEND_NOEXCEPT;
+
+/* Directions in proportion to the incident radiance times the lobes, normalized. `integral` may be null; it is that of
+ * the product of both densities, in 1/sr, so times the fluence it estimates the in-scattered radiance. Where the
+ * product is too small to tell, the integral is 0 and the product is the incident distribution. `product` may be
+ * `incident`; what is a product already has no further one. */
+wend_status wend_distribution_product(const wend_distribution* incident, const wend_lobes* lobes, wend_vec3 axis,
+                                      wend_distribution* product, float* integral, wend_error* error) WEND_NOEXCEPT;
+
+/* The direction that belongs to a point of the unit square, [0,1)^2, and its density, which may be null. */
+wend_status wend_distribution_sample(const wend_distribution* distribution, float u, float v, wend_vec3* direction,
+                                     float* density, wend_error* error) WEND_NOEXCEPT;
+
+/* The density of any direction. */
+wend_status wend_distribution_density(const wend_distribution* distribution, wend_vec3 direction, float* density,
+                                      wend_error* error) WEND_NOEXCEPT;
+
+/* ---- Records of walks ---- */
+
+/* A place where a walk drew a direction. A walk that was split is a tree: several vertices name the same parent.
+ * Weights and radiances have three colour channels. */
+typedef struct wend_path_vertex {
+    wend_vec3 position;
+    wend_vec3 direction;
+    float density;       /* of the direction; 0 for one of a discrete set, a mirror's */
+    float distance;      /* along the direction to what the walk met first; INFINITY where there was nothing */
+    float arrival[3];    /* weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
+    float scattering[3]; /* the scattering function, with its cosine, over the density of the direction */
+    float gathered[3];   /* radiance found after this direction and before the next one was drawn, times the weight
+                            gained since: light met and the next vertex's connection to a light, each with its weight
+                            of multiple importance sampling */
+    int32_t parent;      /* index of the vertex whose direction led here, lower than this one's; -1 for none */
+} wend_path_vertex;
+
+/* Makes a record of each vertex, in the same order, in time proportional to their number. Those of mirrors have density
+ * 0: leave them out, and give the others to the field of surfaces or of volumes. Nothing is clamped; wend_field_fit()
+ * ignores and counts records that are not finite. */
+wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wend_record* records,
+                                 wend_error* error) WEND_NOEXCEPT;
+
+#undef WEND_NOEXCEPT
+#ifdef __cplusplus
+}
+#endif
+
+#endif

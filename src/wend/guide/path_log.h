@@ -1,0 +1,70 @@
+// What a walk tells on its way, for path_records.h.
+#pragma once
+
+#include <wend/guide/path_records.h>
+
+#include <span>
+#include <vector>
+
+namespace wend::guide {
+
+/// Writes down the vertices of a walk. The walk tells every factor of its weight and every radiance it finds at the
+/// time it does; the log knows which vertex that belongs to. The estimate of the walk and its records so cannot differ.
+class PathLog {
+public:
+    /// Forgets the last walk.
+    void start() {
+        vertices_.clear();
+        at_ = {};
+    }
+
+    /// The walk's weight was multiplied by this: a flight, survival, a mirror.
+    void weigh(const Rgb& weight) { at_.weight *= weight; }
+
+    /// Radiance found here, its own weights included but not the walk's.
+    void gather(const Rgb& radiance) {
+        if (at_.vertex != PathVertex::root) {
+            current().gathered += at_.weight * radiance;
+        }
+    }
+
+    /// The walk met something at this distance from the last vertex. Only the first time counts.
+    void meet(float distance) {
+        if (at_.vertex != PathVertex::root && current().distance == std::numeric_limits<float>::infinity()) {
+            current().distance = distance;
+        }
+    }
+
+    /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density.
+    void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume) {
+        PathVertex v;
+        v.position = position;
+        v.direction = direction;
+        v.density = density;
+        v.arrival = at_.weight;
+        v.scattering = weight;
+        v.parent = at_.vertex;
+        v.in_volume = in_volume;
+        at_ = {static_cast<std::int32_t>(vertices_.size()), Rgb(1.0f)};
+        vertices_.push_back(v);
+    }
+
+    /// Where the walk is: where it is split, each copy goes on from the place kept before.
+    struct Branch {
+        std::int32_t vertex = PathVertex::root;
+        /// Gained since that vertex.
+        Rgb weight{1.0f};
+    };
+    const Branch& branch() const { return at_; }
+    void resume(const Branch& branch) { at_ = branch; }
+
+    std::span<const PathVertex> vertices() const { return vertices_; }
+
+private:
+    PathVertex& current() { return vertices_[static_cast<std::size_t>(at_.vertex)]; }
+
+    std::vector<PathVertex> vertices_;
+    Branch at_;
+};
+
+}  // namespace wend::guide
