@@ -92,6 +92,34 @@ double divergence(const Lamps& lamps, const Field& field, bool volume) {
     return sum / samples;
 }
 
+/// How far the error ln(fit/truth) changes on a step of a thousandth of the cube, in nats: across faces of cells and
+/// within them.
+struct Jumps {
+    double across = 0, within = 0;
+};
+
+Jumps mean_jumps(const Lamps& lamps, const Field& field) {
+    constexpr int samples = 1000000;
+    constexpr float step = 1e-3f;
+    Pcg32 random(98);
+    std::array<double, 2> sum{}, count{};
+    for (int i = 0; i < samples; ++i) {
+        const Vec3 from = position_in(true, random), to = from + Vmf{}.sample(random.uniform2()) * step;
+        const Region &a = *field.find(from), &b = *field.find(to);
+        const std::size_t crosses = &a != &b ? 1 : 0;
+        if (crosses == 0 && i % 32 != 0) {
+            continue;  // most steps
+        }
+        const Vec3 w = lamps.sample(from, random).direction;
+        const auto error = [&](const Region& region, const Vec3& position) {
+            return std::log(static_cast<double>(region.incident(position).density(w)) / lamps.density(position, w));
+        };
+        sum[crosses] += std::abs(error(b, to) - error(a, from));
+        ++count[crosses];
+    }
+    return {sum[1] / std::max(count[1], 1.0), sum[0] / std::max(count[0], 1.0)};
+}
+
 /// A million records, half on a surface and half in a volume, in passes that double, by default settings and one
 /// thread.
 void learning(benchmark::State& state, const Lamps& lamps, bool scattered) {
@@ -107,6 +135,7 @@ void learning(benchmark::State& state, const Lamps& lamps, bool scattered) {
         }
     }
     std::array<double, 2> kl{};
+    Jumps jumps;
     std::size_t cells = 0, bytes = 0;
     for (auto _ : state) {
         for (std::size_t field = 0; field < 2; ++field) {
@@ -117,6 +146,7 @@ void learning(benchmark::State& state, const Lamps& lamps, bool scattered) {
             }
             state.PauseTiming();
             kl[field] = divergence(lamps, learned, field == 1);
+            jumps = field == 1 ? mean_jumps(lamps, learned) : jumps;
             cells = learned.size();
             bytes = learned.bytes();
             state.ResumeTiming();
@@ -125,11 +155,37 @@ void learning(benchmark::State& state, const Lamps& lamps, bool scattered) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(2 * per_field));
     state.counters["KL_surface"] = kl[0];
     state.counters["KL_volume"] = kl[1];
+    state.counters["jump_across"] = jumps.across;
+    state.counters["jump_within"] = jumps.within;
     state.counters["bytes_per_cell"] = static_cast<double>(bytes) / static_cast<double>(cells);
     state.counters["cells"] = static_cast<double>(cells);
 }
 BENCHMARK_CAPTURE(learning, true_distances, three_lamps, false)->Unit(benchmark::kMillisecond)->Iterations(2);
 BENCHMARK_CAPTURE(learning, scattered_distances, three_lamps, true)->Unit(benchmark::kMillisecond)->Iterations(2);
 BENCHMARK_CAPTURE(learning, many_lamps, twelve_lamps(), false)->Unit(benchmark::kMillisecond)->Iterations(2);
+
+/// A hundred million records in passes of a million, within 4 MiB.
+void soak(benchmark::State& state) {
+    constexpr std::size_t passes = 100, per_pass = 1000000;
+    FitSettings settings;
+    settings.max_bytes = std::size_t{4} << 20;
+    std::vector<Records> records;
+    for (std::size_t i = 0; i < 4; ++i) {
+        records.push_back(lamp_records(three_lamps, true, false, per_pass, i));
+    }
+    for (auto _ : state) {
+        Field learned = Field::empty(Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)));
+        for (std::size_t pass = 0; pass < passes; ++pass) {
+            learned = fit(learned, records[pass % records.size()], settings, 1).field;
+        }
+        state.PauseTiming();
+        state.counters["KL_volume"] = divergence(three_lamps, learned, true);
+        state.counters["cells"] = static_cast<double>(learned.size());
+        state.counters["bytes"] = static_cast<double>(learned.bytes());
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(passes * per_pass));
+}
+BENCHMARK(soak)->Unit(benchmark::kSecond)->Iterations(1);
 
 }  // namespace

@@ -397,6 +397,22 @@ TEST(Fit, HonoursTheMemoryLimit) {
     EXPECT_EQ(limited.report.bytes, limited.field.bytes());
 }
 
+TEST(Fit, StreamsManyRecordsWithinTheLimit) {
+    FitSettings settings;
+    settings.leaf_samples = 200;
+    settings.max_bytes = 128 << 10;
+    const std::array<Records, 2> records = {records_of(target(), 250000, 80, true),
+                                            records_of(target(), 250000, 81, true)};
+    Field field = Field::empty(unit_box);
+    for (std::size_t pass = 0; pass < 20; ++pass) {
+        const FitResult result = fit(field, records[pass % 2], settings, 2);
+        ASSERT_LE(result.report.bytes, settings.max_bytes);
+        field = result.field;
+    }
+    EXPECT_TRUE(is_valid(field.find({0.5f, 0.5f, 0.5f})->mixture()));
+    EXPECT_LT(test::divergence(target(), field.find({0.5f, 0.5f, 0.5f})->mixture()), 0.005);
+}
+
 TEST(Fit, HonoursTheDepthLimit) {
     FitSettings settings;
     settings.leaf_samples = 10;

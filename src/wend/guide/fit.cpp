@@ -261,7 +261,7 @@ private:
     /// Whether a cell's halves differ, by a fit to a sample of its records on top of what earlier ones told. The fit is
     /// where those of the cell or its children start.
     SplitEvidence evidence_for(const Cell& cell) {
-        constexpr std::size_t enough = 512, share = 8;
+        constexpr std::size_t enough = 256, share = 8;
         const std::size_t stride = std::max<std::size_t>(cell.size() / std::max(enough, cell.size() / share), 1);
         settle(cell);
         Region& region = field_.regions_[region_of(cell)];

@@ -17,7 +17,7 @@ struct FitSettings {
     /// merged.
     int most_lobes = max_lobes;
     /// A cell holding more records than this is split where its halves differ; older records count less (see `decay`).
-    double leaf_samples = 4000;
+    double leaf_samples = 1000;
     /// A cell whose halves do not differ may hold this many times more, at least 1.
     double uniform_factor = 8;
     /// Halves differ when what is seen varies by more than this divergence in nats within the cell, and that is no
