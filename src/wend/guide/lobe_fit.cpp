@@ -11,7 +11,7 @@
 namespace wend::guide {
 namespace {
 
-/// Float sums of this many observations are added to the double ones.
+/// Sums of this many observations are added to the total: rounding errors grow with the number of blocks only.
 constexpr std::size_t block_size = 1024;
 
 /// The model in lanes.
