@@ -231,6 +231,23 @@ TEST(PathRecords, LeaveOutMirrorsButNotWhatTheyShow) {
     EXPECT_FLOAT_EQ(records.surface()[0].radiance, 3);
 }
 
+TEST(PathRecords, AreAppendedInOrder) {
+    const Path path = random_tree(20, true, 1), more = random_tree(30, true, 2);
+    PathRecords together, first, second;
+    together.add(path);
+    together.add(more);
+    first.add(path);
+    second.add(more);
+    first.append(second);
+    ASSERT_EQ(first.surface().size(), together.surface().size());
+    ASSERT_EQ(first.volume().size(), together.volume().size());
+    for (std::size_t i = 0; i < first.surface().size(); ++i) {
+        EXPECT_EQ(first.surface()[i].position, together.surface()[i].position);
+    }
+    first.clear();
+    EXPECT_TRUE(first.surface().empty() && first.volume().empty());
+}
+
 TEST(PathRecords, ThinLongWalksEvenly) {
     const Path path = random_tree(1000, true, 1);
     PathRecords some, all, none;

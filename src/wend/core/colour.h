@@ -40,6 +40,11 @@ constexpr float max_value(const Rgb& c) {
 constexpr float min_value(const Rgb& c) {
     return std::min({c.r, c.g, c.b});
 }
+/// Mean of the channels.
+constexpr float mean_value(const Rgb& c) {
+    return (c.r + c.g + c.b) / 3;
+}
+
 /// Relative luminance (ITU-R BT.709).
 constexpr float luminance(const Rgb& c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;

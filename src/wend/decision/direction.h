@@ -45,6 +45,7 @@ public:
         explicit Distribution(const F& f) : f_(f) {}
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
         float density(const Vec3& w) const { return f_.density(w); }
+        std::optional<float> in_scattered() const { return std::nullopt; }
 
     private:
         const F& f_;
@@ -80,8 +81,8 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        Distribution(const F& f, std::optional<Product> product, float classical_share)
-            : f_(f), product_(std::move(product)), classical_share_(classical_share) {}
+        Distribution(const F& f, std::optional<Product> product, float fluence, float classical_share)
+            : f_(f), product_(std::move(product)), fluence_(fluence), classical_share_(classical_share) {}
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
             if (!product_) {
@@ -111,6 +112,11 @@ public:
         }
         float density(const Vec3& w) const { return mixed(f_.density(w), w); }
 
+        /// The adjoint's ∫ f L dω over the albedo of f; nothing where it is not known.
+        std::optional<float> in_scattered() const {
+            return product_ ? std::optional(fluence_ * product_->integral()) : std::nullopt;
+        }
+
     private:
         float mixed(float classical, const Vec3& w) const {
             return product_ ? classical_share_ * classical + (1 - classical_share_) * product_->density(w) : classical;
@@ -118,6 +124,7 @@ public:
 
         const F& f_;
         std::optional<Product> product_;
+        float fluence_;
         float classical_share_;
     };
 
@@ -126,14 +133,16 @@ public:
     /// much trust goes on unguided.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
-        constexpr float least_boost = 0.25f;
+        static const float least_boost = getenv("LB") ? atof(getenv("LB")) : 0.25f;
         std::optional<Product> product;
+        float fluence = 0;
         if (f.is_guidable() && boost >= least_boost) {
             if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
                 product = adjoint->incident(position).product(f.lobes());
+                fluence = adjoint->fluence();
             }
         }
-        return Distribution<F>(f, std::move(product), classical_share_);
+        return Distribution<F>(f, std::move(product), fluence, classical_share_);
     }
 
 private:

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/decision/weight_window.h>
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 
 namespace wend {
 
@@ -21,10 +23,15 @@ struct WalkState {
     int depth = 0;  ///< vertices so far
 };
 
-/// Tells the expected number of continuations. (Only values up to 1 are asked of the classical walk.)
+/// Is asked twice at a vertex. `before_direction`: how many directions to draw, given the ratio of the walk's expected
+/// contribution from here on to the value that it estimates, and how many continuations there is room for; nothing if
+/// that is to be judged by the weight, once a direction is drawn. Then `after_direction` tells the probability of going
+/// on, at most 1.
 template <class D>
-concept SurvivalDecision = requires(const D& d, const WalkState& state) {
-    { d.expected_continuations(state) } -> std::same_as<float>;
+concept SurvivalDecision = requires(const D& d, std::optional<float> ratio, int room, Pcg32& random,
+                                    const WalkState& state) {
+    { d.before_direction(ratio, room, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
+    { d.after_direction(state) } -> std::same_as<float>;
 };
 
 /// Classical roulette: survive in proportion to the throughput that unguided directions would have left, once the walk
@@ -34,7 +41,11 @@ public:
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_boost = 1e4f;
 
-    float expected_continuations(const WalkState& state) const {
+    std::optional<WeightWindow::Outcome> before_direction(std::optional<float> /*ratio*/, int /*room*/,
+                                                          Pcg32& /*random*/) const {
+        return std::nullopt;
+    }
+    float after_direction(const WalkState& state) const {
         if (state.depth <= 1) {
             return 1;
         }
@@ -42,6 +53,29 @@ public:
     }
 };
 
+/// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known.
+class AdjointSurvival {
+public:
+    /// With either of the two off, its side of the window is open.
+    AdjointSurvival(bool roulette, bool splitting) : roulette_(roulette), splitting_(splitting) {}
+
+    std::optional<WeightWindow::Outcome> before_direction(std::optional<float> ratio, int room, Pcg32& random) const {
+        if (!ratio || (*ratio < window_.low && !roulette_) || (*ratio > window_.high && !splitting_)) {
+            return std::nullopt;
+        }
+        WeightWindow window = window_;
+        window.most = std::min(window.most, room);
+        return window.sample(*ratio, random);
+    }
+    float after_direction(const WalkState& state) const { return ClassicalSurvival().after_direction(state); }
+
+private:
+    bool roulette_, splitting_;
+    /// An estimate learned from noise calls too much worthless: what survives a less likely roulette would stand out.
+    WeightWindow window_{.least = 0.5};
+};
+
 static_assert(SurvivalDecision<ClassicalSurvival>);
+static_assert(SurvivalDecision<AdjointSurvival>);
 
 }  // namespace wend

@@ -35,4 +35,9 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     }
 }
 
+void PathRecords::append(const PathRecords& other) {
+    surface_.insert(surface_.end(), other.surface_.begin(), other.surface_.end());
+    volume_.insert(volume_.end(), other.volume_.begin(), other.volume_.end());
+}
+
 }  // namespace wend::guide

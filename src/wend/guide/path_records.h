@@ -57,6 +57,9 @@ public:
     /// fits. Nothing is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
     void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max());
 
+    /// Appends the records of another producer.
+    void append(const PathRecords& other);
+
     /// Forgets the records and keeps their memory.
     void clear() {
         surface_.clear();

@@ -48,11 +48,11 @@ struct ClassicalDecisions {
     ClassicalSurvival survival;
 };
 
-template <class Field>
-struct GuidedDirectionDecisions {
+template <class Field, class Survival>
+struct GuidedDecisions {
     ClassicalDistance distance;
     GuidedDirection<Field> direction;
-    ClassicalSurvival survival;
+    Survival survival;
 };
 
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
@@ -63,8 +63,9 @@ public:
     PathTracer(const Scene& scene, const Decisions& decisions, int max_depth)
         : scene_(scene), decisions_(decisions), max_depth_(max_depth) {}
 
-    /// Radiance arriving along the ray. Where a log is given, it is started anew and the walk written into it.
-    WalkResult trace(const Ray& ray, Sampler& sampler, guide::PathLog* log) const;
+    /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
+    /// none. Where a log is given, it is started anew and the walk written into it.
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log) const;
 
 private:
     class Walk;

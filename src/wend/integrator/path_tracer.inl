@@ -7,85 +7,115 @@
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 namespace wend {
 
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, Sampler& sampler, guide::PathLog* log)
-        : tracer_(tracer), scene_(tracer.scene_), d_(tracer.decisions_), sampler_(sampler), log_(log) {}
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, guide::PathLog* log)
+        : tracer_(tracer),
+          scene_(tracer.scene_),
+          d_(tracer.decisions_),
+          sampler_(sampler),
+          log_(log),
+          expected_(expected) {}
 
     WalkResult run(const Ray& start) {
         if (log_) {
             log_->start();
         }
-        ray_ = start;
-        medium_ = scene_.camera_medium();
-        while (step()) {
-        }
+        now_.ray = start;
+        now_.medium = scene_.camera_medium();
+        do {
+            while (step()) {
+            }
+        } while (take_up_pending());
         result_.sample.radiance = radiance_;
         return result_;
     }
 
 private:
+    /// Where a walk is. A walk that was split has several.
+    struct Branch {
+        Ray ray{};
+        MediumId medium = vacuum;
+        Rgb throughput{1.0f};
+        float boost = 1;
+        float index_scale = 1;
+        int depth = 0;
+        int interfaces = 0;
+        float travelled = 0;  ///< since the last vertex
+
+        // The last vertex, as multiple importance sampling wants it.
+        LightReceiver receiver{};
+        bool specular = false;
+        float density = 0;
+        Rgb channels;
+        Rgb pass_probability;
+
+        guide::PathLog::Branch logged{};
+    };
+
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.segments;
-        const std::optional<Hit> hit = scene_.intersect(ray_);
+        const std::optional<Hit> hit = scene_.intersect(now_.ray);
         const float length = hit ? hit->distance : farthest;
-        if (medium_ != vacuum) {
-            const Medium& medium = scene_.medium(medium_);
+        if (now_.medium != vacuum) {
+            const Medium& medium = scene_.medium(now_.medium);
             const Flight flight =
-                d_.distance.sample(medium, ray_, length, throughput_, sampler_.uniform(), sampler_.random());
+                d_.distance.sample(medium, now_.ray, length, now_.throughput, sampler_.uniform(), sampler_.random());
             gather(flight.emitted);
             weigh(flight.weight);
-            if (is_black(throughput_)) {
+            if (is_black(now_.throughput)) {
                 return false;
             }
             if (flight.scatters) {
-                travelled_ += flight.distance;
+                now_.travelled += flight.distance;
                 return scatter_in(medium, flight.distance);
             }
-            pass_probability_ *= d_.distance.pass_probability(medium, ray_, length);
+            now_.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
         }
         if (!hit) {
             add_environment();
             return false;
         }
-        travelled_ += hit->distance;
+        now_.travelled += hit->distance;
         if (hit->light >= 0) {
             add_emission(*hit);
         }
         if (scene_.is_interface(*hit)) {
-            medium_ = scene_.medium_beyond(*hit, ray_.direction, medium_);
-            ray_ = spawn_ray(hit->position, hit->normal, ray_.direction);
+            now_.medium = scene_.medium_beyond(*hit, now_.ray.direction, now_.medium);
+            now_.ray = spawn_ray(hit->position, hit->normal, now_.ray.direction);
             // A walk that meets hundreds of interfaces in a row is caught between coincident surfaces.
-            return ++interfaces_ < max_interfaces;
+            return ++now_.interfaces < max_interfaces;
         }
         return scatter_at(*hit);
     }
 
     bool scatter_in(const Medium& medium, float distance) {
         meet();
-        if (depth_ == 0) {
+        if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
         }
-        if (depth_++ >= tracer_.max_depth_) {
+        if (now_.depth++ >= tracer_.max_depth_) {
             return false;
         }
-        const Vec3 position = ray_.at(distance);
-        const VolumeScattering f(phase_function(medium), ray_.direction);
+        const Vec3 position = now_.ray.at(distance);
+        const VolumeScattering f(phase_function(medium), now_.ray.direction);
         return scatter(f, position, {0, 0, 0}, true);
     }
 
     bool scatter_at(const Hit& hit) {
         meet();
-        const SurfaceScattering f(scene_.bsdf(hit), hit.shading, ray_.direction);
-        if (depth_ == 0) {
+        const SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+        if (now_.depth == 0) {
             remember_first(f.albedo(), hit.shading.n);
         }
-        if (depth_++ >= tracer_.max_depth_) {
+        if (now_.depth++ >= tracer_.max_depth_) {
             return false;
         }
         hit_ = &hit;
@@ -95,37 +125,100 @@ private:
     /// Connects a vertex to a light, draws a direction, and decides on survival. `normal` is zero in a volume.
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
-        const auto directions = d_.direction.at(position, in_volume, f, boost_);
+        const auto directions = d_.direction.at(position, in_volume, f, now_.boost);
         if (!f.is_specular()) {
             gather(connect(f, directions, position, normal, in_volume));
         }
+        const std::optional<WeightWindow::Outcome> outcome =
+            d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
+        if (!outcome) {
+            return draw_direction(f, directions, position, normal, in_volume, false);
+        }
+        if (outcome->expected != 1) {
+            weigh(Rgb(static_cast<float>(1 / outcome->expected)));
+        }
+        for (int i = 1; i < outcome->copies; ++i) {
+            if (log_) {
+                now_.logged = log_->branch();
+            }
+            const Branch here = now_;
+            if (draw_direction(f, directions, position, normal, in_volume, true)) {
+                leave_pending();
+            }
+            go_on_from(here);
+        }
+        return outcome->copies > 0 && draw_direction(f, directions, position, normal, in_volume, true);
+    }
+
+    /// What the walk may yet bring over what all of it is expected to, if both are known.
+    template <class F, class Directions>
+    std::optional<float> expected_ratio(const F& f, const Directions& directions) const {
+        const std::optional<float> in_scattered = directions.in_scattered();
+        if (!in_scattered || !(expected_ > 0)) {
+            return std::nullopt;
+        }
+        return mean_value(now_.throughput * f.albedo()) * *in_scattered / expected_;
+    }
+
+    int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
+
+    void leave_pending() {
+        if (log_) {
+            now_.logged = log_->branch();
+        }
+        pending_.push_back(now_);
+    }
+
+    void go_on_from(const Branch& branch) {
+        now_ = branch;
+        if (log_) {
+            log_->resume(now_.logged);
+        }
+    }
+
+    bool take_up_pending() {
+        if (pending_.empty()) {
+            return false;
+        }
+        go_on_from(pending_.back());
+        pending_.pop_back();
+        return true;
+    }
+
+    /// Draws a direction, and decides on survival unless that has been `judged`; false where the walk ends.
+    template <class F, class Directions>
+    bool draw_direction(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
+                        bool in_volume, bool judged) {
         const float u = sampler_.uniform();
         const auto s = directions.sample(u, sampler_.uniform2());
         if (!s) {
             return false;
         }
         scatter_into(*s, position, in_volume);
-        boost_ *= s->boost;
-        index_scale_ *= sqr(f.index_ratio(s->direction));
-        specular_ = s->specular;
-        density_ = s->density;
-        receiver_ = {position, normal};
-        pass_probability_ = Rgb(1.0f);
-        channels_ = channel_probabilities(throughput_);
-        const float expected = d_.survival.expected_continuations({throughput_, boost_, index_scale_, depth_});
-        if (expected < 1) {
-            if (!(sampler_.uniform() < expected)) {
-                return false;
+        now_.boost *= s->boost;
+        now_.index_scale *= sqr(f.index_ratio(s->direction));
+        now_.specular = s->specular;
+        now_.density = s->density;
+        now_.receiver = {position, normal};
+        now_.pass_probability = Rgb(1.0f);
+        now_.channels = channel_probabilities(now_.throughput);
+        if (!judged) {
+            const float survival =
+                d_.survival.after_direction({now_.throughput, now_.boost, now_.index_scale, now_.depth});
+            if (survival < 1) {
+                if (!(sampler_.uniform() < survival)) {
+                    return false;
+                }
+                weigh(Rgb(1 / survival));
             }
-            weigh(Rgb(1 / expected));
         }
         if (in_volume) {
-            ray_ = {position, s->direction};
+            now_.ray = {position, s->direction};
         } else {
-            medium_ = scene_.medium_beyond(*hit_, s->direction, medium_);
-            ray_ = spawn_ray(position, normal, s->direction);
+            now_.medium = scene_.medium_beyond(*hit_, s->direction, now_.medium);
+            now_.ray = spawn_ray(position, normal, s->direction);
         }
-        travelled_ = 0;
+        now_.travelled = 0;
         return true;
     }
 
@@ -156,7 +249,7 @@ private:
             distance = length(rest);
             shadow.direction = rest / distance;
         }
-        const MediumId medium = in_volume ? medium_ : scene_.medium_beyond(*hit_, light->direction, medium_);
+        const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light->direction, now_.medium);
         const Passage passage = pass(shadow, distance, medium);
         if (is_black(passage.transmittance)) {
             return Rgb(0.0f);
@@ -164,7 +257,7 @@ private:
         const float light_density = chosen.probability * light->density;
         float weight = 1;
         if (!light->point_like) {
-            const Rgb channels = channel_probabilities(throughput_ * value);
+            const Rgb channels = channel_probabilities(now_.throughput * value);
             const float other = directions.density(light->direction) * dot(channels, passage.probability);
             weight = light_density / (light_density + other);
         }
@@ -209,20 +302,20 @@ private:
 
     /// Light that the walk ran into, weighted against the connection that could have found it.
     float emission_weight(int light, const Vec3& hit, const Vec3& normal) const {
-        if (depth_ == 0 || specular_) {
+        if (now_.depth == 0 || now_.specular) {
             return 1;
         }
         const float chosen =
-            std::visit([&](const auto& s) { return s.probability(receiver_, light); }, scene_.light_sampler());
-        const float other = chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)], receiver_.position,
-                                                   ray_.direction, hit, normal);
-        const float own = density_ * dot(channels_, pass_probability_);
+            std::visit([&](const auto& s) { return s.probability(now_.receiver, light); }, scene_.light_sampler());
+        const float other = chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
+                                                   now_.ray.direction, hit, normal);
+        const float own = now_.density * dot(now_.channels, now_.pass_probability);
         return own > 0 ? own / (own + other) : 0.0f;
     }
 
     void add_emission(const Hit& hit) {
         const Rgb emitted =
-            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -ray_.direction);
+            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -now_.ray.direction);
         if (!is_black(emitted)) {
             gather(emitted * emission_weight(hit.light, hit.position, hit.normal));
         }
@@ -230,7 +323,7 @@ private:
 
     void add_environment() {
         for (const int light : scene_.infinite_lights()) {
-            const Rgb arriving = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], ray_.direction);
+            const Rgb arriving = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
             if (!is_black(arriving)) {
                 gather(arriving * emission_weight(light, {}, {}));
             }
@@ -240,39 +333,40 @@ private:
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
         result_.sample.normal = normal;
-        result_.sample.depth = travelled_;
+        result_.sample.depth = now_.travelled;
     }
 
     // What the walk multiplies and adds, told to the log as well.
     void weigh(const Rgb& weight) {
-        throughput_ *= weight;
+        now_.throughput *= weight;
         if (log_) {
             log_->weigh(weight);
         }
     }
     void gather(const Rgb& radiance) {
-        radiance_ += throughput_ * radiance;
+        radiance_ += now_.throughput * radiance;
         if (log_) {
             log_->gather(radiance);
         }
     }
     void meet() {
         if (log_) {
-            log_->meet(travelled_);
+            log_->meet(now_.travelled);
         }
     }
     void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
-        throughput_ *= s.weight();
+        now_.throughput *= s.weight();
         if (log_) {
             log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume);
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
             log_->weigh(
-                {throughput_.r > 0 ? 1.0f : 0.0f, throughput_.g > 0 ? 1.0f : 0.0f, throughput_.b > 0 ? 1.0f : 0.0f});
+                {now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f, now_.throughput.b > 0 ? 1.0f : 0.0f});
         }
     }
 
     static constexpr float farthest = 1e30f;
     static constexpr int max_interfaces = 1000;
+    static constexpr int max_pending = 64;
 
     const PathTracer& tracer_;
     const Scene& scene_;
@@ -280,30 +374,18 @@ private:
     Sampler& sampler_;
     guide::PathLog* log_;
 
-    Ray ray_{};
-    MediumId medium_ = vacuum;
-    Rgb throughput_{1.0f};
+    Branch now_;
+    std::vector<Branch> pending_;
     Rgb radiance_;
-    float boost_ = 1;
-    float index_scale_ = 1;
-    int depth_ = 0;
-    int interfaces_ = 0;
-    float travelled_ = 0;       ///< since the last vertex
+    float expected_;
     const Hit* hit_ = nullptr;  ///< of the surface vertex at hand
-
-    // The last vertex, as multiple importance sampling wants it.
-    LightReceiver receiver_{};
-    bool specular_ = false;
-    float density_ = 0;
-    Rgb channels_;
-    Rgb pass_probability_;
 
     WalkResult result_;
 };
 
 template <class Decisions>
-WalkResult PathTracer<Decisions>::trace(const Ray& ray, Sampler& sampler, guide::PathLog* log) const {
-    return Walk(*this, sampler, log).run(ray);
+WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log) const {
+    return Walk(*this, expected, sampler, log).run(ray);
 }
 
 }  // namespace wend

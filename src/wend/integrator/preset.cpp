@@ -8,11 +8,13 @@ namespace wend {
 namespace {
 
 using Entry = std::pair<std::string_view, bool Preset::*>;
-constexpr std::array entries = {Entry{"direction", &Preset::direction}};
+constexpr std::array entries = {Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
+                                Entry{"splitting", &Preset::splitting}};
+constexpr Preset full = {.direction = true, .roulette = true, .splitting = true};
 
 [[noreturn]] void reject(std::string_view text) {
     std::string message =
-        "unknown sampling '" + std::string(text) + "': expected classical, or decisions joined by '+' from:";
+        "unknown sampling '" + std::string(text) + "': expected classical, full, or decisions joined by '+' from:";
     for (const auto& [name, member] : entries) {
         message += ' ' + std::string(name);
     }
@@ -25,6 +27,9 @@ Preset parse_preset(std::string_view text) {
     Preset preset;
     if (text == "classical") {
         return preset;
+    }
+    if (text == "full") {
+        return full;
     }
     std::string_view rest = text;
     for (;;) {
@@ -48,6 +53,9 @@ Preset parse_preset(std::string_view text) {
 }
 
 std::string to_string(const Preset& preset) {
+    if (preset == full) {
+        return "full";
+    }
     std::string text;
     for (const auto& [name, member] : entries) {
         if (preset.*member) {

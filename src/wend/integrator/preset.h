@@ -1,4 +1,4 @@
-// Names of what may be guided: "classical", or decisions joined by '+'.
+// Names of what may be guided: "classical", decisions joined by '+', or "full" for all of them.
 #pragma once
 
 #include <string>
@@ -10,8 +10,12 @@ namespace wend {
 /// Which decisions follow the learned field.
 struct Preset {
     bool direction = false;
+    bool roulette = false;
+    bool splitting = false;
 
-    bool is_classical() const { return !direction; }
+    bool is_classical() const { return *this == Preset(); }
+    /// Whether walks end or split by expected contribution.
+    bool guides_survival() const { return roulette || splitting; }
     friend bool operator==(const Preset&, const Preset&) = default;
 };
 

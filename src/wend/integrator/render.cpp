@@ -1,4 +1,5 @@
 #include <wend/core/parallel.h>
+#include <wend/integrator/pixel_estimate.h>
 #include <wend/integrator/render.h>
 #include <wend/integrator/training.h>
 #include <wend/integrator/path_tracer.inl>
@@ -12,12 +13,12 @@
 namespace wend {
 
 template class PathTracer<ClassicalDecisions>;
-template class PathTracer<GuidedDirectionDecisions<guide::Field>>;
+template class PathTracer<GuidedDecisions<guide::Field, ClassicalSurvival>>;
+template class PathTracer<GuidedDecisions<guide::Field, AdjointSurvival>>;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using GuidedDecisions = GuidedDirectionDecisions<guide::Field>;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -28,6 +29,8 @@ constexpr float classical_share = 0.5f;
 // Training ends after this many samples per pixel: from then on the field would change little.
 constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
+// Before, neither the field nor the pixels are known well enough to end or split walks by them.
+constexpr int samples_before_survival = 7;
 // More vertices of one walk say little that is new: they are correlated.
 constexpr std::size_t most_records = 64;
 
@@ -49,26 +52,33 @@ std::vector<Tile> tiles_of(const PixelRect& crop) {
     return tiles;
 }
 
+/// What one pass does.
+struct PassPlan {
+    int first;  ///< sample of each pixel
+    int count;
+    bool record;
+    /// Of each pixel of the crop, without exposure; empty where not known.
+    std::vector<float> estimates;
+};
+
 /// One pass, with the same decisions for all walks.
 template <class Decisions>
 class Pass {
 public:
-    Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions, int first,
-         int count, bool record)
+    Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
+         const PassPlan& plan)
         : tracer_(scene, decisions, settings.max_depth),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
-          first_(first),
-          count_(count),
-          record_(record) {}
+          plan_(plan) {}
 
     void run(Tile& tile) const {
         guide::PathLog log;
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
-                for (int i = 0; i < count_; ++i) {
-                    sample({x, y}, first_ + i, tile, log);
+                for (int i = 0; i < plan_.count; ++i) {
+                    sample({x, y}, plan_.first + i, tile, log);
                 }
             }
         }
@@ -83,7 +93,7 @@ private:
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
-        WalkResult result = tracer_.trace(ray, sampler, record_ ? &log : nullptr);
+        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, plan_.record ? &log : nullptr);
         ++tile.counts.paths;
         tile.counts.segments += result.segments;
         if (!is_finite(result.sample.radiance)) {
@@ -91,20 +101,27 @@ private:
             film_.reject(pixel);
             return;
         }
-        if (record_) {
+        if (plan_.record) {
             tile.records.add(log.vertices(), most_records);
         }
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
     }
 
+    float estimate(const Vec2i& pixel) const {
+        const PixelRect& crop = film_.crop();
+        return plan_.estimates.empty()
+                   ? 0.0f
+                   : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
+                                         static_cast<std::size_t>(crop.width()) +
+                                     static_cast<std::size_t>(pixel.x - crop.min.x)];
+    }
+
     PathTracer<Decisions> tracer_;
     const Camera& camera_;
     Film& film_;
     const RenderSettings& settings_;
-    int first_;
-    int count_;
-    bool record_;
+    const PassPlan& plan_;
 };
 
 /// Plans the passes: doubling while the field learns, then as long as time or samples allow.
@@ -171,19 +188,27 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         if (count <= 0) {
             break;
         }
-        const bool record = !settings.preset.is_classical() && statistics.samples < training_samples;
+        const Preset& preset = settings.preset;
+        PassPlan plan{statistics.samples, count, !preset.is_classical() && statistics.samples < training_samples, {}};
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene, film, settings, decisions, statistics.samples, count, record);
+            const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
-        if (settings.preset.direction) {
-            run_with(GuidedDecisions{{}, {&fields.surface, &fields.volume, classical_share}, {}});
+        const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);
+        if (preset.guides_survival() && statistics.samples >= samples_before_survival && settings.exposure > 0) {
+            plan.estimates = pixel_estimates(film.beauty(), statistics.samples);
+            for (float& estimate : plan.estimates) {
+                estimate /= settings.exposure;
+            }
+            run_with(GuidedDecisions{{}, direction, AdjointSurvival(preset.roulette, preset.splitting)});
+        } else if (preset.direction) {
+            run_with(GuidedDecisions{{}, direction, ClassicalSurvival()});
         } else {
             run_with(ClassicalDecisions{});
         }
         statistics.samples += count;
         statistics.passes.push_back(count);
-        if (record) {
+        if (plan.record) {
             const Clock::time_point training_start = Clock::now();
             std::vector<guide::PathRecords> records(tiles.size());
             for (std::size_t i = 0; i < tiles.size(); ++i) {

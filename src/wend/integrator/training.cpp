@@ -4,14 +4,12 @@
 namespace wend {
 
 GuidingFields learn(const GuidingFields& fields, std::span<const guide::PathRecords> records, int threads) {
-    guide::Records surface;
-    guide::Records volume;
+    guide::PathRecords all;
     for (const guide::PathRecords& part : records) {
-        surface.insert(surface.end(), part.surface().begin(), part.surface().end());
-        volume.insert(volume.end(), part.volume().begin(), part.volume().end());
+        all.append(part);
     }
-    return {guide::fit(fields.surface, surface, {}, threads).field,
-            guide::fit(fields.volume, volume, {}, threads).field};
+    return {guide::fit(fields.surface, all.surface(), {}, threads).field,
+            guide::fit(fields.volume, all.volume(), {}, threads).field};
 }
 
 }  // namespace wend

@@ -5,6 +5,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
+#include <wend/sampling/axial_lobes.h>
 
 #include <optional>
 #include <variant>
@@ -82,5 +83,12 @@ float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);
 
 /// Rough estimate of the share of light that a BSDF reflects or transmits from wo: for the albedo layer of a picture.
 Rgb directional_albedo(const Bsdf& bsdf, const Vec3& wo);
+
+/// The shape of evaluate() over wi, colour and scale apart, as lobes for a guide; uniform for a BSDF that is not
+/// pictured.
+AxialLobes lobes_of(const Bsdf& bsdf, const Vec3& wo);
+
+/// Whether lobes_of() is a fair picture, for wo on either side.
+bool is_pictured_by_lobes(const Bsdf& bsdf);
 
 }  // namespace wend
