@@ -1,4 +1,5 @@
 // Cost of asking the learned field and of training it.
+#include <wend/core/parallel.h>
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/path_records.h>
@@ -7,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <limits>
+#include <cmath>
 #include <vector>
 
 namespace {
@@ -18,28 +19,29 @@ using namespace wend::guide;
 const Box3 unit_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
 constexpr std::size_t queries = 1024;
 
-/// Radiance of three lamps at finite distances over a weak background.
-Records lamp_records(std::size_t count, std::uint64_t seed) {
-    const std::array<Vec3, 3> lamps = {Vec3(0.5f, 0.5f, 3), Vec3(-2, 0.2f, 0.5f), Vec3(0.4f, -1, -1)};
+/// Radiance of equal lamps on a spiral around the box, as many as cells are to have lobes.
+Records lamp_records(int lamps, std::size_t count, std::uint64_t seed) {
+    constexpr float golden_angle = 2.39996323f;
     Pcg32 random(seed);
     Records records;
     records.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec2 u = random.uniform2();
         const Vec3 position(u.x, u.y, random.uniform());
-        const Vec3& lamp = lamps[static_cast<std::size_t>(3 * random.uniform())];
-        const bool background = random.uniform() < 0.2f;
-        const Vmf lobe = background ? Vmf{} : Vmf{normalize(lamp - position), 50};
+        const auto lamp = std::floor(static_cast<float>(lamps) * random.uniform());
+        const float z = 1 - (2 * lamp + 1) / static_cast<float>(lamps), r = std::sqrt(1 - z * z);
+        const Vec3 centre = Vec3(0.5f, 0.5f, 0.5f) +
+                            Vec3(r * std::cos(golden_angle * lamp), r * std::sin(golden_angle * lamp), z) * 3.0f;
+        const Vmf lobe{normalize(centre - position), 50};
         const Vec3 w = lobe.sample(random.uniform2());
-        records.push_back({position, w, lobe.density(w), lobe.density(w),
-                           background ? std::numeric_limits<float>::infinity() : length(lamp - position)});
+        records.push_back({position, w, lobe.density(w), lobe.density(w), length(centre - position)});
     }
     return records;
 }
 
 FitSettings settings_with(int lobes) {
     FitSettings settings;
-    settings.lobes = lobes;
+    settings.lobes = settings.most_lobes = lobes;
     return settings;
 }
 
@@ -66,8 +68,12 @@ std::vector<Query> random_queries(const AxialLobes& lobes) {
 const AxialLobes& cosine = AxialLobes::cosine();
 const AxialLobes phase = lobes_of(HenyeyGreenstein{0.8f});
 
+Field trained_field(int lobes) {
+    return fit(Field::empty(unit_box), lamp_records(lobes, 200000, 1), settings_with(lobes), 1).field;
+}
+
 void field_step(benchmark::State& state, const AxialLobes& lobes, auto step) {
-    const Field field = fit(Field::empty(unit_box), lamp_records(200000, 1), settings_with(state.range(0)), 1).field;
+    const Field field = trained_field(static_cast<int>(state.range(0)));
     const std::vector<Query> all = random_queries(lobes);
     std::size_t i = 0;
     for (auto _ : state) {
@@ -138,47 +144,42 @@ BENCHMARK(density)->Arg(8)->Arg(16);
 
 /// Records per second of one thread, first fit and refinement alike.
 void training(benchmark::State& state) {
-    const Records first = lamp_records(200000, 1), second = lamp_records(200000, 2);
-    const Field start = fit(Field::empty(unit_box), first, settings_with(state.range(0)), 1).field;
+    const auto lobes = static_cast<int>(state.range(0));
+    const Records first = lamp_records(lobes, 200000, 1), second = lamp_records(lobes, 200000, 2);
+    const Field start = fit(Field::empty(unit_box), first, settings_with(lobes), 1).field;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(fit(Field::empty(unit_box), first, settings_with(state.range(0)), 1));
-        benchmark::DoNotOptimize(fit(start, second, settings_with(state.range(0)), 1));
+        benchmark::DoNotOptimize(fit(Field::empty(unit_box), first, settings_with(lobes), 1));
+        benchmark::DoNotOptimize(fit(start, second, settings_with(lobes), 1));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(first.size() + second.size()));
 }
 BENCHMARK(training)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
 
-/// Records of walks of 1,024 vertices, alternately on surfaces and in volumes, in colour.
-void path_records(benchmark::State& state) {
-    constexpr std::size_t vertices = 1024;
-    Pcg32 random(3);
-    std::vector<PathVertex> path(vertices);
-    for (std::size_t i = 0; i < vertices; ++i) {
-        const Vec2 u = random.uniform2();
-        path[i].position = Vec3(u.x, u.y, random.uniform());
-        path[i].direction = Vmf{}.sample(random.uniform2());
-        path[i].density = inv_4pi;
-        path[i].distance = 1;
-        path[i].scattering = Rgb(0.95f, 0.9f, 0.8f);
-        path[i].gathered = Rgb(random.uniform());
-        path[i].parent = static_cast<std::int32_t>(i) - 1;
-        path[i].in_volume = i % 2 == 0;
-    }
-    // As in training, walks share their records' memory; it is emptied before it outgrows the caches of a small
-    // machine.
-    constexpr std::size_t walks = 64;
-    PathRecords records;
-    std::size_t kept = 0;
+/// The same update on one thread and on two: compare with what two threads make of arithmetic alone.
+void update_on_threads(benchmark::State& state) {
+    const Records first = lamp_records(8, 400000, 1), second = lamp_records(8, 400000, 2);
+    const Field start = fit(Field::empty(unit_box), first, settings_with(8), 1).field;
     for (auto _ : state) {
-        if (kept++ == walks) {
-            records.clear();
-            kept = 0;
-        }
-        records.add(path);
-        benchmark::DoNotOptimize(records);
+        benchmark::DoNotOptimize(fit(start, second, settings_with(8), static_cast<int>(state.range(0))));
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(second.size()));
 }
-BENCHMARK(path_records)->Unit(benchmark::kMicrosecond);
+BENCHMARK(update_on_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void arithmetic_on_threads(benchmark::State& state) {
+    constexpr std::size_t tasks = 64;
+    constexpr int steps = 500000;
+    for (auto _ : state) {
+        parallel_for(tasks, static_cast<int>(state.range(0)), [](std::size_t task) {
+            float x = 0.3f + 0.001f * static_cast<float>(task);
+            for (int i = 0; i < steps; ++i) {
+                x = x * 0.999f + 1e-3f;
+            }
+            benchmark::DoNotOptimize(x);
+        });
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tasks));
+}
+BENCHMARK(arithmetic_on_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

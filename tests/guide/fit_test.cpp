@@ -119,6 +119,68 @@ TEST(Fit, ScaleOfRadianceChangesOnlyTheFluence) {
     EXPECT_LT(test::divergence(a.mixture(), b.mixture()), 1e-6);
 }
 
+TEST(Fit, RemembersSecondMoments) {
+    // Drawn by the target itself all weights are equal; where half of the records are dark, the relative variance is 1.
+    Records records = records_of(target(), 4000, 50, true);
+    const Vec3 anywhere(0.5f, 0.5f, 0.5f);
+    EXPECT_NEAR(trained(records, one_cell()).weight_moments(anywhere).relative_variance(), 0, 1e-6);
+    for (std::size_t i = 0; i < records.size(); i += 2) {
+        records[i].radiance = 0;
+    }
+    const WeightMoments moments = trained(records, one_cell()).weight_moments(anywhere);
+    EXPECT_EQ(moments.records, 4000);
+    EXPECT_NEAR(moments.mean, 0.5, 1e-6);
+    EXPECT_NEAR(moments.relative_variance(), 1, 1e-6);
+    EXPECT_EQ(Field::empty(unit_box).weight_moments(anywhere).mean_square, 0);
+}
+
+TEST(Fit, InScatteredRadianceIsTheIntegralOfTheTruth) {
+    const Field field = trained(records_of(target(), 40000, 51, true), one_cell());
+    const Vec3 position(0.5f, 0.5f, 0.5f);
+    for (const float kappa : {-20.0f, 0.0f, 2.0f, 20.0f}) {
+        const AxialLobes lobes = AxialLobes(std::array{AxialLobe{1, kappa}}).around(normalize(Vec3(1, 2, 2)));
+        const double truth = test::integrate_sphere(
+            [&](const Vec3& w) { return static_cast<double>(target().density(w)) * lobes.density(w); });
+        EXPECT_NEAR(in_scattered(*field.find(position), position, lobes), truth, 0.05 * truth) << kappa;
+    }
+}
+
+/// Equal narrow emitters around, drawn by their own density.
+VmfMixture emitters(int count) {
+    std::vector<WeightedVmf> lobes;
+    for (int i = 0; i < count; ++i) {
+        const float z = 1 - (2 * i + 1.0f) / count, r = std::sqrt(1 - z * z);
+        lobes.push_back({1, {Vec3(r * std::cos(2.4f * i), r * std::sin(2.4f * i), z), 200}});
+    }
+    return VmfMixture(lobes);
+}
+
+TEST(Fit, LobesGrowAsRecordsCallForThem) {
+    const auto learn = [](FitSettings settings) {
+        settings.leaf_samples = 1e9;
+        Field field = Field::empty(unit_box);
+        for (int pass = 0; pass < 5; ++pass) {
+            field = fit(field, records_of(emitters(12), 3000 << pass, 60 + pass, true), settings, 1).field;
+        }
+        return field;
+    };
+    const Field field = learn({});
+    EXPECT_GE(field.find({0, 0, 0})->mixture().size(), 12);
+    EXPECT_LT(test::divergence(emitters(12), field.find({0, 0, 0})->mixture(), 400), 0.02);
+    // The twin: eight are not enough.
+    FitSettings fixed;
+    fixed.most_lobes = fixed.lobes;
+    EXPECT_GT(test::divergence(emitters(12), learn(fixed).find({0, 0, 0})->mixture(), 400), 0.5);
+}
+
+TEST(Fit, LobesThatAreNotNeededAreMerged) {
+    for (const int count : {1, 3}) {
+        const Field field = trained(records_of(emitters(count), 20000, 70, true), one_cell());
+        EXPECT_LE(field.find({0, 0, 0})->mixture().size(), count + 1);
+        EXPECT_LT(test::divergence(emitters(count), field.find({0, 0, 0})->mixture(), 400), 0.005);
+    }
+}
+
 /// Two spherical lamps, given as what a position sees of them.
 struct TwoLamps {
     static VmfMixture seen_from(const Vec3& position) {
@@ -188,9 +250,16 @@ TEST(Fit, DirectionsTellDistancesThatRecordsDoNot) {
     EXPECT_LT(mean_divergence_from_lamps(trained(records_of_lamps(20000, 6, exponential), one_cell())), 0.12);
 }
 
-TEST(Fit, CellsFollowTheRecords) {
+/// Splits by count alone.
+FitSettings leaves_of(double samples) {
     FitSettings settings;
-    settings.leaf_samples = 500;
+    settings.leaf_samples = samples;
+    settings.uniform_factor = 1;
+    return settings;
+}
+
+TEST(Fit, CellsFollowTheRecords) {
+    const FitSettings settings = leaves_of(500);
     Records records = records_of(target(), 8000, 8, true);
     for (std::size_t i = 0; i < records.size(); ++i) {  // most of them in one corner, many without radiance
         records[i].position *= i % 4 == 0 ? 1.0f : 0.1f;
@@ -205,9 +274,72 @@ TEST(Fit, CellsFollowTheRecords) {
     EXPECT_NEAR(result.field.find({0.05f, 0.05f, 0.05f})->fluence(), 0.5f, 0.2f);
 }
 
-TEST(Fit, ChildrenInheritWhatTheirParentKnew) {
+TEST(Fit, WhereNothingDiffersCellsStayLarge) {
     FitSettings settings;
-    settings.leaf_samples = 5000;
+    settings.uniform_factor = 64;
+    const auto train = [](const FitSettings& s) {
+        Field field = Field::empty(unit_box);
+        for (int pass = 0; pass < 3; ++pass) {
+            field = fit(field, records_of(target(), 10000 << pass, 30 + pass, false), s, 1).field;
+        }
+        return field;
+    };
+    const Field field = train(settings), by_count = train(leaves_of(settings.leaf_samples));
+    EXPECT_LE(field.size(), 2u);
+    EXPECT_GE(by_count.size(), 8 * field.size());
+    // Nothing is lost.
+    EXPECT_LT(test::divergence(target(), field.find({0.1f, 0.1f, 0.1f})->mixture()),
+              test::divergence(target(), by_count.find({0.1f, 0.1f, 0.1f})->mixture()));
+}
+
+/// Records of the target, most of its light being absent where shadowed(x).
+template <class Shadow>
+Records shadowed_records(int count, std::uint64_t seed, const Shadow& shadowed) {
+    const VmfMixture shade(std::array<WeightedVmf, 1>{{{1, {normalize(Vec3(-3, 1, 0)), 8}}}});
+    Pcg32 random(seed);
+    Records records;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 position = position_in_box(random);
+        const bool dim = shadowed(position);
+        const VmfMixture radiance = dim ? shade : target();
+        const Vec3 w = radiance.sample(random.uniform2());
+        records.push_back({position, w, radiance.density(w) * (dim ? 0.3f : 1.0f), radiance.density(w), infinity});
+    }
+    return records;
+}
+
+TEST(Fit, CellsRefineAtTheEdgeOfAShadow) {
+    FitSettings settings;
+    settings.leaf_samples = 500;
+    settings.uniform_factor = 64;
+    Field field = Field::empty(unit_box);
+    for (int pass = 0; pass < 4; ++pass) {
+        const auto shadowed = [](const Vec3& x) { return x.x < 0.3f; };
+        field = fit(field, shadowed_records(3000 << pass, 40 + pass, shadowed), settings, 1).field;
+    }
+    field.for_each_cell([&](const Box3& box, const Region&, double) {
+        if (box.min.x <= 0.3f && box.max.x >= 0.3f) {
+            EXPECT_LT(box.max.x - box.min.x, 0.1f);
+        }
+        // Along the edge there is no reason to split.
+        EXPECT_GT(box.max.y - box.min.y, 0.2f);
+        EXPECT_GT(box.max.z - box.min.z, 0.2f);
+    });
+    EXPECT_GE(field.size(), 4u);
+    EXPECT_LE(field.size(), 24u);
+    EXPECT_NEAR(field.find({0.1f, 0.5f, 0.5f})->fluence(), 0.3f, 0.02f);
+    EXPECT_NEAR(field.find({0.7f, 0.5f, 0.5f})->fluence(), 1, 0.02f);
+    // The twin: without the edge there is no reason to split.
+    field = Field::empty(unit_box);
+    for (int pass = 0; pass < 4; ++pass) {
+        field =
+            fit(field, shadowed_records(3000 << pass, 40 + pass, [](const Vec3&) { return false; }), settings, 1).field;
+    }
+    EXPECT_LE(field.size(), 2u);
+}
+
+TEST(Fit, ChildrenInheritWhatTheirParentKnew) {
+    const FitSettings settings = leaves_of(5000);
     const Field parent = fit(Field::empty(unit_box), records_of(target(), 4500, 9, true), settings, 1).field;
     ASSERT_EQ(parent.size(), 1u);
     const Field field = fit(parent, records_of(target(), 2000, 10, true), settings, 1).field;
@@ -219,7 +351,7 @@ TEST(Fit, ChildrenInheritWhatTheirParentKnew) {
 
 TEST(Fit, IsTheSameForAnyNumberOfThreads) {
     FitSettings settings;
-    settings.leaf_samples = 300;
+    settings.leaf_samples = 100;
     const auto train = [&](int threads) {
         Field field = Field::empty(unit_box);
         for (int pass = 0; pass < 3; ++pass) {
@@ -265,6 +397,22 @@ TEST(Fit, HonoursTheMemoryLimit) {
     EXPECT_EQ(limited.report.bytes, limited.field.bytes());
 }
 
+TEST(Fit, StreamsManyRecordsWithinTheLimit) {
+    FitSettings settings;
+    settings.leaf_samples = 200;
+    settings.max_bytes = 128 << 10;
+    const std::array<Records, 2> records = {records_of(target(), 250000, 80, true),
+                                            records_of(target(), 250000, 81, true)};
+    Field field = Field::empty(unit_box);
+    for (std::size_t pass = 0; pass < 20; ++pass) {
+        const FitResult result = fit(field, records[pass % 2], settings, 2);
+        ASSERT_LE(result.report.bytes, settings.max_bytes);
+        field = result.field;
+    }
+    EXPECT_TRUE(is_valid(field.find({0.5f, 0.5f, 0.5f})->mixture()));
+    EXPECT_LT(test::divergence(target(), field.find({0.5f, 0.5f, 0.5f})->mixture()), 0.005);
+}
+
 TEST(Fit, HonoursTheDepthLimit) {
     FitSettings settings;
     settings.leaf_samples = 10;
@@ -277,9 +425,7 @@ TEST(Fit, DarknessLeavesAValidField) {
     for (Record& r : records) {
         r.radiance = 0;
     }
-    FitSettings settings;
-    settings.leaf_samples = 1000;
-    Field field = trained(records, settings);
+    Field field = trained(records, leaves_of(1000));
     const Region* region = field.find({0.2f, 0.2f, 0.2f});
     ASSERT_NE(region, nullptr);
     EXPECT_GT(field.size(), 1u);
@@ -376,7 +522,11 @@ TEST(Fit, RefusesSettingsOutOfRange) {
     };
     refused([](FitSettings& s) { s.lobes = 0; });
     refused([](FitSettings& s) { s.lobes = max_lobes + 1; });
+    refused([](FitSettings& s) { s.most_lobes = max_lobes + 1; });
+    refused([](FitSettings& s) { s.most_lobes = s.lobes - 1; });
     refused([](FitSettings& s) { s.leaf_samples = 0; });
+    refused([](FitSettings& s) { s.uniform_factor = 0.5; });
+    refused([](FitSettings& s) { s.variation = std::numeric_limits<double>::quiet_NaN(); });
     refused([](FitSettings& s) { s.max_depth = 100; });
     refused([](FitSettings& s) { s.max_bytes = 0; });
     refused([](FitSettings& s) { s.decay = 1.5; });

@@ -19,6 +19,18 @@ TEST(FastExp, StaysWithinItsStatedError) {
     EXPECT_GT(worst, 1e-8);  // or nothing was measured
 }
 
+TEST(FastExpm1, KeepsTheDigitsOfSmallArguments) {
+    double worst = 0;
+    for (double size = 1e-8; size < 80; size *= 1.0037) {
+        for (const auto x : {static_cast<float>(size), static_cast<float>(-size)}) {
+            worst = std::max(worst, std::abs(fast_expm1(x) / std::expm1(static_cast<double>(x)) - 1));
+        }
+    }
+    EXPECT_LT(worst, 1e-6);
+    // The twin: subtracting 1 afterwards loses them.
+    EXPECT_GT(std::abs((fast_exp(1e-6f) - 1) / std::expm1(1e-6) - 1), 1e-3);
+}
+
 TEST(FastExp, IsOneAtZeroAndNeverZeroOrInfinite) {
     EXPECT_EQ(fast_exp(0), 1);
     for (const float x :

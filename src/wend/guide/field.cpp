@@ -18,6 +18,14 @@ const Region* Field::find(const Vec3& position) const {
     return trained_ ? &regions_[nodes_[leaf_of(position)].child] : nullptr;
 }
 
+WeightMoments Field::weight_moments(const Vec3& position) const {
+    const Statistics& statistics = memories_[nodes_[leaf_of(position)].child].statistics;
+    if (!(statistics.count > 0)) {
+        return {};
+    }
+    return {statistics.count, statistics.fluence / statistics.count, statistics.fluence_square / statistics.count};
+}
+
 std::size_t Field::bytes() const {
     return regions_.size() * sizeof(Region) + memories_.size() * sizeof(Memory) + nodes_.size() * sizeof(Node);
 }

@@ -5,12 +5,24 @@
 #include <wend/guide/region.h>
 #include <wend/guide/statistics.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace wend::guide {
+
+/// The weights radiance / density of the records of a cell, those of zero included; older ones count less.
+struct WeightMoments {
+    double records = 0;
+    /// The fluence, in radiance times sr.
+    double mean = 0;
+    double mean_square = 0;
+
+    /// Variance over squared mean: of an estimate of the fluence by one more such record. 0 in darkness.
+    double relative_variance() const { return mean > 0 ? std::max(0.0, mean_square / (mean * mean) - 1) : 0.0; }
+};
 
 /// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
 /// number of threads.
@@ -22,6 +34,9 @@ public:
     /// The region of a position; null as long as the field has learned nothing. Positions outside the bounds belong to
     /// the nearest cells along the tree's planes.
     const Region* find(const Vec3& position) const;
+
+    /// First and second moments of the records of a position's cell; zero as long as the field has learned nothing.
+    WeightMoments weight_moments(const Vec3& position) const;
 
     const Box3& bounds() const { return bounds_; }
     /// Number of cells.
@@ -56,6 +71,11 @@ private:
         float radius = 0;
         /// Whether the region's reference point has been chosen.
         bool anchored = false;
+        /// Records since then, older ones counting less, and of the vectors from them to the reference point and of
+        /// their squares the sums.
+        float located = 0;
+        Vec3 offset{0, 0, 0};
+        Vec3 offset_square{0, 0, 0};
         Statistics statistics;
     };
 

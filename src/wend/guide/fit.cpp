@@ -3,6 +3,8 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
+#include <wend/guide/evidence.h>
+#include <wend/guide/lobe_revision.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +24,11 @@ void validate(const FitSettings& s) {
         }
     };
     require(s.lobes >= 1 && s.lobes <= max_lobes, "the number of lobes must be 1 to 16");
+    require(s.most_lobes >= s.lobes && s.most_lobes <= max_lobes,
+            "the largest number of lobes must be between the number at first and 16");
     require(s.leaf_samples >= 1, "the samples of a leaf must be at least 1");
+    require(s.uniform_factor >= 1, "the factor of uniform leaves must be at least 1");
+    require(s.variation >= 0, "the variation must not be negative");
     require(s.max_depth >= 0 && s.max_depth <= 64, "the depth must be 0 to 64");
     require(s.max_bytes >= (std::size_t{64} << 10), "the memory must be at least 64 KiB");
     require(s.decay >= 0 && s.decay <= 1, "the decay must be 0 to 1");
@@ -58,17 +64,19 @@ double total_weight(const std::array<LobeSums, max_lobes>& sums) {
                            [](double t, const LobeSums& s) { return t + static_cast<double>(s.weight); });
 }
 
-std::array<LobeSums, max_lobes> operator+(std::array<LobeSums, max_lobes> a, const std::array<LobeSums, max_lobes>& b) {
+/// All sums, of earlier records and new ones. Where only the weight of earlier ones is known, as of a lobe that was
+/// split, they are taken to be like the new ones.
+std::array<LobeSums, max_lobes> continued(const std::array<LobeSums, max_lobes>& earlier,
+                                          std::array<LobeSums, max_lobes> sums) {
     for (int i = 0; i < max_lobes; ++i) {
-        a[i].weight += b[i].weight;
-        a[i].weight_square += b[i].weight_square;
-        a[i].direction += b[i].direction;
-        a[i].inverse_distance += b[i].inverse_distance;
-        a[i].inverse_distance_square += b[i].inverse_distance_square;
-        a[i].turn += b[i].turn;
-        a[i].spread += b[i].spread;
+        if (earlier[i].weight > 0 && earlier[i].weight_square == 0 && sums[i].weight > 0) {
+            const double factor = 1 + static_cast<double>(earlier[i].weight) / sums[i].weight;
+            sums[i] = sums[i].scaled(factor, factor * factor);
+        } else {
+            sums[i] += earlier[i];
+        }
     }
-    return a;
+    return sums;
 }
 
 /// Sum over the lobes of how far their resultant vectors are apart.
@@ -93,7 +101,11 @@ public:
 
     FitResult run() && {
         for (Field::Memory& memory : field_.memories_) {
+            const auto decay = static_cast<float>(settings_.decay);
             memory.statistics = memory.statistics.decayed(settings_.decay);
+            memory.located *= decay;
+            memory.offset *= decay;
+            memory.offset_square *= decay;
         }
         sort_into_leaves();
         grow();
@@ -126,6 +138,15 @@ private:
     struct Plane {
         int axis = no_axis;
         float position = 0;
+    };
+
+    /// The records of a cell that carry radiance, as seen from its reference point.
+    struct View {
+        std::vector<Observation> observations;
+        /// What a weight of 1 stands for, in radiance times sr.
+        double unit = 0;
+        /// Sums of the weights before freaks are cut, and of their squares.
+        double fluence = 0, fluence_square = 0;
     };
 
     const Record& record(std::size_t i) const { return records_[order_[i].record]; }
@@ -196,13 +217,25 @@ private:
         cells_ = std::move(closed);
     }
 
-    /// The plane through the mean position, across the axis of largest variance, both of a regular sample of the
-    /// records; no axis where the cell is to stay whole.
-    Plane choose_plane(const Cell& cell) const {
+    /// Where to split a cell; no axis where it is to stay whole.
+    Plane choose_plane(const Cell& cell) {
         if (count_of(cell) <= settings_.leaf_samples || cell.size() < 2 ||
             memory_of(cell).depth >= static_cast<std::uint32_t>(settings_.max_depth)) {
             return {};
         }
+        if (count_of(cell) > settings_.uniform_factor * settings_.leaf_samples) {
+            return plane_across(cell, no_axis);
+        }
+        const SplitEvidence evidence = evidence_for(cell);
+        constexpr double beyond_chance = 5;
+        return evidence.significance > beyond_chance && evidence.gain > settings_.variation
+                   ? plane_across(cell, evidence.axis)
+                   : Plane{};
+    }
+
+    /// The plane through the mean position, across the given axis or otherwise that of largest variance, both of a
+    /// regular sample of the records.
+    Plane plane_across(const Cell& cell, int axis) const {
         constexpr std::size_t enough = 1024;
         const std::size_t stride = std::max<std::size_t>(cell.size() / enough, 1);
         const Imath::V3d mean = mean_position(cell, stride);
@@ -212,15 +245,38 @@ private:
             const Vec3& position = order_[i].position;
             const Imath::V3d d = Imath::V3d(position) - mean;
             variance += d * d;
-            for (int axis = 0; axis < 3; ++axis) {
-                lowest[axis] = std::min(lowest[axis], position[axis]);
+            for (int a = 0; a < 3; ++a) {
+                lowest[a] = std::min(lowest[a], position[a]);
             }
         }
-        int axis = variance.x >= variance.y ? 0 : 1;
-        axis = variance[axis] >= variance.z ? axis : 2;
+        if (axis == no_axis) {
+            axis = variance.x >= variance.y ? 0 : 1;
+            axis = variance[axis] >= variance.z ? axis : 2;
+        }
         const float position = static_cast<float>(mean[axis]);
         // Otherwise the positions are too close for a float between them, and one side would stay empty.
         return position > lowest[axis] ? Plane{axis, position} : Plane{};
+    }
+
+    /// Whether a cell's halves differ, by a fit to a sample of its records on top of what earlier ones told. The fit is
+    /// where those of the cell or its children start.
+    SplitEvidence evidence_for(const Cell& cell) {
+        constexpr std::size_t enough = 256, share = 8;
+        const std::size_t stride = std::max<std::size_t>(cell.size() / std::max(enough, cell.size() / share), 1);
+        settle(cell);
+        Region& region = field_.regions_[region_of(cell)];
+        Field::Memory seen = memory_of(cell);
+        const View view = look(cell, stride, seen);
+        if (view.observations.empty()) {
+            return {};
+        }
+        Statistics& statistics = memory_of(cell).statistics;
+        statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+        const LearnedLobes learned = find_lobes(start(region), statistics.lobes, view.observations,
+                                                view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
+        region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence());
+        const Vec3 mean = seen.offset / seen.located;
+        return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
 
     /// The mean of every stride-th position.
@@ -277,7 +333,6 @@ private:
         Field::Memory memory = field_.memories_[region];
         ++memory.depth;
         memory.anchored = false;
-        memory.radius = 0;
         const double share = static_cast<double>(middle - cell.begin) / static_cast<double>(cell.size());
         Field::Memory other = memory;
         memory.statistics = memory.statistics.share(share);
@@ -300,102 +355,151 @@ private:
 
     /// Fits a cell, which has at least one record.
     void fit_cell(const Cell& cell) {
+        settle(cell);
         Region& region = field_.regions_[region_of(cell)];
         Field::Memory& memory = memory_of(cell);
-        if (!memory.anchored) {
-            anchor(region, memory, Vec3(mean_position(cell, 1)));
-        }
-
-        std::vector<double> weights;
-        std::vector<Observation> observations;
-        observe(cell, region.reference(), memory, weights, observations);
+        Statistics& statistics = memory.statistics;
+        const View view = look(cell, 1, memory);
+        statistics.fluence += view.fluence;
+        statistics.fluence_square += view.fluence_square;
+        statistics.count += static_cast<double>(cell.size());
 
         LobeModel model{region.mixture(), region.inverse_distance()};
-        if (!observations.empty()) {
+        if (!view.observations.empty()) {
+            statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+            const LearnedLobes learned =
+                fit_lobes(start(region), statistics.lobes, view, view.unit / statistics.unit, memory.radius);
+            model = learned.model;
+            statistics.lobes = learned.sums;
+        }
+        region = Region(region.reference(), model.mixture, model.inverse_distance,
+                        static_cast<float>(statistics.fluence / statistics.count));
+    }
+
+    /// Where a cell's fit starts.
+    LobeModel start(const Region& region) const {
+        return region.mixture().size() > 1 ? LobeModel{region.mixture(), region.inverse_distance()}
+                                           : initial_lobes(settings_.lobes);
+    }
+
+    /// Sees every stride-th record of a cell from its reference point, and adds where they are to the memory.
+    View look(const Cell& cell, std::size_t stride, Field::Memory& memory) const {
+        constexpr float largest_inverse_distance = 1e12f;  // the sum of many squares is a float
+        const Vec3 reference = field_.regions_[region_of(cell)].reference();
+        View view;
+        std::vector<double> weights;
+        weights.reserve(cell.size() / stride + 1);
+        view.observations.reserve(cell.size() / stride + 1);
+        float radius_squared = sqr(memory.radius);
+        Imath::V3d offsets(0, 0, 0), squares(0, 0, 0);
+        double seen = 0;
+        for (std::size_t i = cell.begin; i < cell.end; i += stride) {
+            const Record& r = record(i);
+            const Vec3 offset = reference - r.position;
+            radius_squared = std::max(radius_squared, length_squared(offset));
+            offsets += Imath::V3d(offset);
+            squares += Imath::V3d(offset) * Imath::V3d(offset);
+            ++seen;
+            const double weight = weight_of(r);
+            if (weight > 0) {
+                view.fluence += weight;
+                view.fluence_square += weight * weight;
+                weights.push_back(weight);
+                view.observations.push_back(
+                    {r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
+            }
+        }
+        memory.located += static_cast<float>(seen);
+        memory.offset += Vec3(offsets);
+        memory.offset_square += Vec3(squares);
+        memory.radius = std::sqrt(radius_squared);
+        if (!weights.empty()) {
             const double limit = weight_limit(weights);
             double sum = 0;
             for (double& w : weights) {
                 w = std::min(w, limit);
                 sum += w;
             }
-            const double unit = sum / static_cast<double>(weights.size());
+            view.unit = sum / static_cast<double>(weights.size());
             for (std::size_t i = 0; i < weights.size(); ++i) {
-                observations[i].weight = static_cast<float>(weights[i] / unit);
-            }
-            model = fit_lobes(model, observations, unit, memory);
-        }
-        region = Region(region.reference(), model.mixture, model.inverse_distance,
-                        static_cast<float>(memory.statistics.fluence / memory.statistics.count));
-    }
-
-    /// Sees all records of a cell from its reference point: counts them all, and lists those that carry radiance.
-    void observe(const Cell& cell, const Vec3& reference, Field::Memory& memory, std::vector<double>& weights,
-                 std::vector<Observation>& observations) const {
-        constexpr float largest_inverse_distance = 1e15f;  // its square is a float
-        weights.reserve(cell.size());
-        observations.reserve(cell.size());
-        float radius_squared = sqr(memory.radius);
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            const Record& r = record(i);
-            const Vec3 offset = reference - r.position;
-            radius_squared = std::max(radius_squared, length_squared(offset));
-            const double weight = weight_of(r);
-            if (weight > 0) {
-                weights.push_back(weight);
-                observations.push_back({r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
-                memory.statistics.fluence += weight;
+                view.observations[i].weight = static_cast<float>(weights[i] / view.unit);
             }
         }
-        memory.statistics.count += static_cast<double>(cell.size());
-        memory.radius = std::sqrt(radius_squared);
+        return view;
     }
 
     /// Stepwise expectation maximization: the sums of earlier fits stay, those of the observations are found anew in
     /// each round. Most rounds, which only have to find the neighbourhood, see a sample of the observations, large
     /// enough for their unequal weights (kish1965); the last one sees all.
-    LobeModel fit_lobes(LobeModel model, std::span<const Observation> observations, double unit,
-                        Field::Memory& memory) const {
+    LearnedLobes fit_lobes(const LobeModel& model, std::array<LobeSums, max_lobes> earlier, const View& view,
+                           double unit, double radius) const {
         constexpr double enough = 256;
-        if (!(total_weight(memory.statistics.lobes) > 0)) {
-            model = initial_lobes(settings_.lobes);
-        }
-        const std::array<LobeSums, max_lobes> earlier = memory.statistics.lobes;
+        const std::span all(view.observations);
         double squares = 0;
-        for (const Observation& o : observations) {
+        for (const Observation& o : all) {
             squares += static_cast<double>(sqr(o.weight));
         }
-        const auto size = static_cast<double>(observations.size());  // and the sum of the weights
+        const auto size = static_cast<double>(all.size());  // and the sum of the weights
         const auto stride = static_cast<std::size_t>(size * size / squares / enough);
         if (stride <= 1) {
-            return improve(model, observations, unit, earlier, settings_.max_iterations, memory);
+            return find_lobes(model, earlier, all, unit, radius);
         }
         std::vector<Observation> sample;
-        sample.reserve(observations.size() / stride + 1);
-        for (std::size_t i = 0; i < observations.size(); i += stride) {
-            sample.push_back(observations[i]);
+        sample.reserve(all.size() / stride + 1);
+        for (std::size_t i = 0; i < all.size(); i += stride) {
+            sample.push_back(all[i]);
         }
-        const double scale = static_cast<double>(observations.size()) / static_cast<double>(sample.size());
-        model = improve(model, sample, unit * scale, earlier, settings_.max_iterations, memory);
-        return improve(model, observations, unit, earlier, 1, memory);
+        const double scale = size / static_cast<double>(sample.size());
+        const LobeModel near = find_lobes(model, earlier, sample, unit * scale, radius).model;
+        return improve(near, earlier, all, unit, 1, radius);
     }
 
-    LobeModel improve(LobeModel model, std::span<const Observation> observations, double unit,
-                      const std::array<LobeSums, max_lobes>& earlier, int rounds, Field::Memory& memory) const {
-        std::array<LobeSums, max_lobes>& sums = memory.statistics.lobes;
+    /// Lobes and their number; the earlier sums follow the number.
+    LearnedLobes find_lobes(const LobeModel& model, std::array<LobeSums, max_lobes>& earlier,
+                            std::span<const Observation> observations, double unit, double radius) const {
+        constexpr int splitting_revisions = 2, revisions = 3;
+        LearnedLobes learned = improve(model, earlier, observations, unit, settings_.max_iterations, radius);
+        for (int i = 0; i < revisions; ++i) {
+            // The shape of the records is to be seen from where the lobes are now.
+            learned.sums = continued(earlier, expectation(learned.model, observations, unit));
+            // The last one cleans up: it only merges.
+            const int most = i < splitting_revisions ? settings_.most_lobes : learned.model.mixture.size();
+            if (!revise_lobes(learned, earlier, most)) {
+                break;
+            }
+            learned = improve(learned.model, earlier, observations, unit, (settings_.max_iterations + 1) / 2, radius);
+        }
+        return learned;
+    }
+
+    /// Rounds of expectation maximization, until the lobes hardly move.
+    LearnedLobes improve(const LobeModel& model, const std::array<LobeSums, max_lobes>& earlier,
+                         std::span<const Observation> observations, double unit, int rounds, double radius) const {
+        LearnedLobes learned{model, earlier};
         for (int round = 0; round < rounds; ++round) {
-            const std::array<LobeSums, max_lobes> last = sums;
-            sums = earlier + expectation(model, observations, unit);
-            model = maximization(sums, model, settings_.priors, memory.radius);
-            if (round > 0 && movement(sums, last) < settings_.tolerance * total_weight(sums)) {
+            const std::array<LobeSums, max_lobes> last = learned.sums;
+            learned.sums = continued(earlier, expectation(learned.model, observations, unit));
+            learned.model = maximization(learned.sums, learned.model, settings_.priors, radius);
+            if (round > 0 && movement(learned.sums, last) < settings_.tolerance * total_weight(learned.sums)) {
                 break;
             }
         }
-        return model;
+        return learned;
     }
 
-    /// Chooses the reference point of a new cell; what was inherited is re-aimed at it.
+    /// Chooses a new cell's reference point.
+    void settle(const Cell& cell) {
+        if (Field::Memory& memory = memory_of(cell); !memory.anchored) {
+            anchor(field_.regions_[region_of(cell)], memory, Vec3(mean_position(cell, 1)));
+        }
+    }
+
+    /// Moves a region to a reference point; what was inherited is re-aimed at it.
     static void anchor(Region& region, Field::Memory& memory, const Vec3& reference) {
         memory.anchored = true;
+        memory.radius = 0;
+        memory.located = 0;
+        memory.offset = memory.offset_square = Vec3(0, 0, 0);
         const Vec3 offset = region.reference() - reference;
         const VmfMixture mixture = region.incident(reference);
         Lanes inverse_distance;
@@ -405,7 +509,9 @@ private:
             inverse_distance[i] = inverse / std::max(length(to_source), 1e-3f);
             LobeSums& sums = memory.statistics.lobes[i];
             sums.direction = Vec3(Imath::V3d(mixture.lobe(i).vmf.mean) * Imath::V3d(sums.direction).length());
-            sums.turn = static_cast<double>(inverse_distance[i]) * sums.spread;
+            sums.turn = inverse_distance[i] * sums.spread;
+            // Where in the new cell the earlier records were is not known.
+            sums.offset = Vec3(0, 0, 0);
         }
         region = Region(reference, mixture, inverse_distance, region.fluence());
     }

@@ -11,10 +11,18 @@
 namespace wend::guide {
 
 struct FitSettings {
-    /// Lobes per cell, 1 to max_lobes.
+    /// Lobes that a cell begins with, 1 to max_lobes.
     int lobes = 8;
-    /// A cell holding more records than this is split; older records count less (see `decay`).
-    double leaf_samples = 4000;
+    /// Lobes that a cell may have where its records call for them, `lobes` to max_lobes; where they do not, lobes are
+    /// merged.
+    int most_lobes = max_lobes;
+    /// A cell holding more records than this is split where its halves differ; older records count less (see `decay`).
+    double leaf_samples = 1000;
+    /// A cell whose halves do not differ may hold this many times more, at least 1.
+    double uniform_factor = 8;
+    /// Halves differ when what is seen varies by more than this divergence in nats within the cell, and that is no
+    /// chance; not negative.
+    double variation = 0.002;
     /// Most splits above a cell, at most 64.
     int max_depth = 32;
     /// The field's memory, Field::bytes(), stays below; at least 64 KiB. The most used cells are split first.

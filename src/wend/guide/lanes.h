@@ -1,6 +1,8 @@
 // Numbers of all lobes of a mixture side by side, in a form that compilers turn into vector instructions.
 #pragma once
 
+#include <cstring>
+
 namespace wend::guide {
 
 /// Most lobes of a mixture.
@@ -15,6 +17,14 @@ constexpr int blocks_for(int lobes) {
 /// One number per lobe.
 struct alignas(16) Lanes {
     float value[max_lobes] = {};
+
+    Lanes() = default;
+    // Written out, since compilers copy a structure of many lanes by a slow string instruction otherwise.
+    Lanes(const Lanes& other) { std::memcpy(value, other.value, sizeof value); }
+    Lanes& operator=(const Lanes& other) {
+        std::memcpy(value, other.value, sizeof value);
+        return *this;
+    }
 
     float& operator[](int i) { return value[i]; }
     float operator[](int i) const { return value[i]; }

@@ -1,6 +1,8 @@
 #include <wend/guide/lobe_fit.h>
 
 #include <wend/core/contracts.h>
+#include <wend/core/frame.h>
+#include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
@@ -9,13 +11,13 @@
 namespace wend::guide {
 namespace {
 
-/// Float sums of this many observations are added to the double ones.
+/// Sums of this many observations are added to the total: rounding errors grow with the number of blocks only.
 constexpr std::size_t block_size = 1024;
 
 /// The model in lanes.
 struct LobeLanes {
     int blocks;
-    Lanes x, y, z, half_kappa, log_amplitude, inverse_distance;
+    Lanes x, y, z, u_x, u_y, u_z, v_x, v_y, v_z, half_kappa, log_amplitude, inverse_distance;
 
     explicit LobeLanes(const LobeModel& model)
         : blocks(blocks_for(model.mixture.size())), inverse_distance(model.inverse_distance) {
@@ -26,6 +28,13 @@ struct LobeLanes {
             x[i] = vmf.mean.x;
             y[i] = vmf.mean.y;
             z[i] = vmf.mean.z;
+            const Frame frame = Frame::from_z(vmf.mean);
+            u_x[i] = frame.s.x;
+            u_y[i] = frame.s.y;
+            u_z[i] = frame.s.z;
+            v_x[i] = frame.t.x;
+            v_y[i] = frame.t.y;
+            v_z[i] = frame.t.z;
             half_kappa[i] = 0.5f * vmf.kappa;
             log_amplitude[i] = weight > 0 ? std::log(weight) + std::log(vmf_peak(vmf.kappa)) : log_of_nothing;
         }
@@ -34,72 +43,90 @@ struct LobeLanes {
 
 /// The sums of LobeSums in lanes.
 struct SumLanes {
-    Lanes weight, weight_square, x, y, z, inverse_distance, inverse_distance_square, turn, spread;
+    Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
+        spread, straight, oblique, beyond_square;
 
     void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
         for (int i = 0; i < max_lobes; ++i) {
-            sums[i].weight += static_cast<float>(unit * weight[i]);
-            sums[i].weight_square += unit * unit * weight_square[i];
-            sums[i].direction += Vec3(Imath::V3d(x[i], y[i], z[i]) * unit);
-            sums[i].inverse_distance += unit * inverse_distance[i];
-            sums[i].inverse_distance_square += unit * inverse_distance_square[i];
-            sums[i].turn += unit * turn[i];
-            sums[i].spread += unit * spread[i];
+            const LobeSums own{weight[i],
+                               weight_square[i],
+                               {x[i], y[i], z[i]},
+                               {offset_x[i], offset_y[i], offset_z[i]},
+                               inverse_distance[i],
+                               inverse_distance_square[i],
+                               turn[i],
+                               spread[i],
+                               straight[i],
+                               oblique[i],
+                               beyond_square[i]};
+            sums[i] += own.scaled(unit, unit * unit);
         }
     }
 };
 
-void add_observation(const LobeLanes& lobes, const Observation& o, SumLanes& sums) {
-    const Vec3 w = o.direction, t = o.offset;
-    const float along = dot(w, t);
-    const float offset_squared = length_squared(t);
-    const float across = std::max(0.0f, offset_squared - along * along);
+WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
+    SumLanes sums;
+    for (const Observation& o : observations) {
+        const Vec3 w = o.direction, t = o.offset;
+        const float along = dot(w, t);
+        const float offset_squared = length_squared(t);
+        const float across = std::max(0.0f, offset_squared - along * along);
 
-    Lanes x, y, z, exponent;
-    for_lanes(lobes.blocks, [&](int i) {
-        // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
-        // reference point.
-        const float b = lobes.inverse_distance[i];
-        const float inside = 1 - b * b * across;
-        const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
-        x[i] = distance * w.x - b * t.x;
-        y[i] = distance * w.y - b * t.y;
-        z[i] = distance * w.z - b * t.z;
-        const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
-        exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * (dx * dx + dy * dy + dz * dz);
-    });
-    const float largest = largest_lane(lobes.blocks, exponent);
-    Lanes density;
-    for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
-    const float scale = o.weight / sum_lanes(lobes.blocks, density);
+        float x[max_lobes], y[max_lobes], z[max_lobes], beyond[max_lobes];
+        Lanes exponent;
+        for_lanes(lobes.blocks, [&](int i) {
+            // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
+            // reference point.
+            const float b = lobes.inverse_distance[i];
+            const float inside = 1 - b * b * across;
+            const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
+            x[i] = distance * w.x - b * t.x;
+            y[i] = distance * w.y - b * t.y;
+            z[i] = distance * w.z - b * t.z;
+            const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
+            beyond[i] = dx * dx + dy * dy + dz * dz;
+            exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
+        });
+        const float largest = largest_lane(lobes.blocks, exponent);
+        Lanes density;
+        for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
+        const float scale = o.weight / sum_lanes(lobes.blocks, density);
 
-    for_lanes(lobes.blocks, [&](int i) {
-        const float weight = density[i] * scale;
-        const float weighted_inverse = weight * o.inverse_distance;
-        sums.weight[i] += weight;
-        sums.weight_square[i] += weight * weight;
-        sums.x[i] += weight * x[i];
-        sums.y[i] += weight * y[i];
-        sums.z[i] += weight * z[i];
-        sums.inverse_distance[i] += weighted_inverse;
-        sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
-        // What is left of the turning after re-aiming, and what re-aiming has taken away.
-        const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
-        const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
-        const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
-        const float spread = weight * (offset_squared - mean_offset * mean_offset);
-        sums.turn[i] += weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
-        sums.spread[i] += spread;
-    });
+        for_lanes(lobes.blocks, [&](int i) {
+            const float weight = density[i] * scale;
+            const float weighted_inverse = weight * o.inverse_distance;
+            sums.weight[i] += weight;
+            sums.weight_square[i] += weight * weight;
+            sums.x[i] += weight * x[i];
+            sums.y[i] += weight * y[i];
+            sums.z[i] += weight * z[i];
+            sums.offset_x[i] += weight * t.x;
+            sums.offset_y[i] += weight * t.y;
+            sums.offset_z[i] += weight * t.z;
+            sums.inverse_distance[i] += weighted_inverse;
+            sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
+            // What is left of the turning after re-aiming, and what re-aiming has taken away.
+            const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
+            const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
+            const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
+            const float spread = weight * (offset_squared - mean_offset * mean_offset);
+            sums.turn[i] +=
+                weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
+            sums.spread[i] += spread;
+            const float u = x[i] * lobes.u_x[i] + y[i] * lobes.u_y[i] + z[i] * lobes.u_z[i];
+            const float v = x[i] * lobes.v_x[i] + y[i] * lobes.v_y[i] + z[i] * lobes.v_z[i];
+            sums.straight[i] += weight * (u * u - v * v);
+            sums.oblique[i] += weight * (2 * u * v);
+            // 1 - cos is half the squared chord.
+            sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
+        });
+    }
+    return sums;
 }
 
 /// 1 up to `good`, 0 from `bad`, linear between.
 double ramp_down(double x, double good, double bad) {
     return std::clamp((bad - x) / (bad - good), 0.0, 1.0);
-}
-
-double effective_records(const LobeSums& s) {
-    return s.weight_square > 0 ? static_cast<double>(s.weight) * s.weight / s.weight_square : 0.0;
 }
 
 /// The lobe's inverse distance from three witnesses, each with its precision: the distances that records tell, which
@@ -150,11 +177,7 @@ std::array<LobeSums, max_lobes> expectation(const LobeModel& model, std::span<co
     std::array<LobeSums, max_lobes> sums{};
     while (!observations.empty()) {
         const auto block = observations.first(std::min(block_size, observations.size()));
-        SumLanes block_sums;
-        for (const Observation& o : block) {
-            add_observation(lobes, o, block_sums);
-        }
-        block_sums.add_to(sums, weight_unit);
+        sums_of(lobes, block).add_to(sums, weight_unit);
         observations = observations.subspan(block.size());
     }
     return sums;

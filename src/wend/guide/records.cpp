@@ -16,8 +16,4 @@ bool is_usable(const Record& record) {
            record.distance > 0 && weight_of(record) <= largest_weight;
 }
 
-double weight_of(const Record& record) {
-    return static_cast<double>(record.radiance) / record.density;
-}
-
 }  // namespace wend::guide

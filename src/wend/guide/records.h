@@ -30,6 +30,8 @@ using Records = std::vector<Record>;
 bool is_usable(const Record& record);
 
 /// The record's share in ∫ L dω: radiance / density, in radiance times sr.
-double weight_of(const Record& record);
+inline double weight_of(const Record& record) {
+    return static_cast<double>(record.radiance) / record.density;
+}
 
 }  // namespace wend::guide

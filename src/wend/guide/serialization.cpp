@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little,
               "fields of big-endian machines need a signature of their own");
 
 constexpr std::string_view signature = "WENDFLD\x1a";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 std::uint32_t checksum(std::string_view bytes) {
     boost::crc_32_type crc;
@@ -123,13 +123,14 @@ Region take_region(Reader& in) {
 }
 
 void put_statistics(std::string& out, const Statistics& statistics) {
-    put(out, statistics.count);
-    put(out, statistics.fluence);
+    for (const double sum : {statistics.count, statistics.fluence, statistics.fluence_square, statistics.unit}) {
+        put(out, sum);
+    }
     for (const LobeSums& lobe : statistics.lobes) {
-        put(out, lobe.weight);
         put(out, lobe.direction);
-        for (const double sum :
-             {lobe.weight_square, lobe.inverse_distance, lobe.inverse_distance_square, lobe.turn, lobe.spread}) {
+        put(out, lobe.offset);
+        for (const float sum : {lobe.weight, lobe.weight_square, lobe.inverse_distance, lobe.inverse_distance_square,
+                                lobe.turn, lobe.spread, lobe.straight, lobe.oblique, lobe.beyond_square}) {
             put(out, sum);
         }
     }
@@ -137,15 +138,16 @@ void put_statistics(std::string& out, const Statistics& statistics) {
 
 Statistics take_statistics(Reader& in) {
     Statistics statistics;
-    statistics.count = in.take_finite<double>();
-    statistics.fluence = in.take_finite<double>();
-    Reader::require(statistics.count >= 0 && statistics.fluence >= 0);
+    for (double* sum : {&statistics.count, &statistics.fluence, &statistics.fluence_square, &statistics.unit}) {
+        *sum = in.take_finite<double>();
+        Reader::require(*sum >= 0);
+    }
     for (LobeSums& lobe : statistics.lobes) {
-        lobe.weight = in.take_finite<float>();
         lobe.direction = in.take_vector();
-        for (double* sum :
-             {&lobe.weight_square, &lobe.inverse_distance, &lobe.inverse_distance_square, &lobe.turn, &lobe.spread}) {
-            *sum = in.take_finite<double>();
+        lobe.offset = in.take_vector();
+        for (float* sum : {&lobe.weight, &lobe.weight_square, &lobe.inverse_distance, &lobe.inverse_distance_square,
+                           &lobe.turn, &lobe.spread, &lobe.straight, &lobe.oblique, &lobe.beyond_square}) {
+            *sum = in.take_finite<float>();
         }
         Reader::require(lobe.weight >= 0 && lobe.weight_square >= 0);
     }
@@ -175,6 +177,9 @@ public:
             put(out, memory.depth);
             put(out, memory.radius);
             put(out, static_cast<std::uint8_t>(memory.anchored));
+            put(out, memory.located);
+            put(out, memory.offset);
+            put(out, memory.offset_square);
             put_statistics(out, memory.statistics);
         }
         return out;
@@ -203,6 +208,9 @@ public:
             memory.depth = in.take<std::uint32_t>();
             memory.radius = in.take_finite<float>();
             memory.anchored = in.take<std::uint8_t>() != 0;
+            memory.located = in.take_finite<float>();
+            memory.offset = in.take_vector();
+            memory.offset_square = in.take_vector();
             memory.statistics = take_statistics(in);
         }
         require_tree(field);

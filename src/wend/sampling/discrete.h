@@ -11,18 +11,24 @@ namespace wend {
 /// An index with a probability in proportion to its weight, for few weights that add up to `total`, none of them
 /// negative and one at least positive. What is left of `u` in [0,1) is put back there, uniform in [0,1) again.
 inline int select(std::span<const float> weights, float total, float& u) {
+    // No branch depends on u: the processor could not guess it.
+    const float target = u * total;
     std::size_t chosen = 0;
-    float rest = u * total;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (weights[i] > 0) {
-            chosen = i;
-            if (rest < weights[i]) {
-                break;
-            }
-            rest -= weights[i];
-        }
+    float sum = 0, below = 0;
+    for (const float weight : weights) {
+        sum += weight;
+        const bool passed = sum <= target;
+        chosen += passed ? 1 : 0;
+        below = passed ? sum : below;
     }
-    u = std::min(one_minus_epsilon, rest / weights[chosen]);
+    if (chosen == weights.size()) {  // by rounding
+        do {
+            --chosen;
+        } while (!(weights[chosen] > 0));
+        u = one_minus_epsilon;
+    } else {
+        u = std::min(one_minus_epsilon, (target - below) / weights[chosen]);
+    }
     return static_cast<int>(chosen);
 }
 

@@ -2,6 +2,8 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/frame.h>
+#include <wend/numeric/fast_log.h>
+#include <wend/numeric/fast_turn.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,10 +55,11 @@ float Vmf::density(const Vec3& direction) const {
 Vec3 Vmf::sample(Vec2 u) const {
     WEND_EXPECT(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
     // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}).
-    const float s = kappa > 0 ? std::min(2.0f, -std::log1p(u.x * std::expm1(-2 * kappa)) / kappa) : 2 * u.x;
+    const float beyond = std::min(one_minus_epsilon, u.x * kappa * vmf_spread(kappa));
+    const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) / kappa) : 2 * u.x;
     const float sine = safe_sqrt(s * (2 - s));
-    const float azimuth = 2 * pi * u.y;
-    return Frame::from_z(mean).to_world({sine * std::cos(azimuth), sine * std::sin(azimuth), 1 - s});
+    const Turn azimuth = fast_turn(u.y);
+    return Frame::from_z(mean).to_world({sine * azimuth.cosine, sine * azimuth.sine, 1 - s});
 }
 
 Vmf convolve(const Vmf& lobe, float kappa) {
