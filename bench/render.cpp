@@ -57,7 +57,7 @@ void walks(benchmark::State& state, const char* name) {
     for (auto _ : state) {
         Sampler sampler(SamplerKind::sobol, 1, i % 1000, i / 1000);
         ++i;
-        const WalkResult result = tracer.trace(camera_ray(loaded, sampler), sampler, nullptr);
+        const WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler, nullptr);
         segments += result.segments;
         benchmark::DoNotOptimize(result);
     }

@@ -70,7 +70,8 @@ TEST_P(Reproducible, TheSamePictureForAnyNumberOfThreads) {
     EXPECT_NE(render_image(scene, GetParam(), 20, 4, 2).pixels, one.pixels) << "another seed must give another picture";
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, Reproducible, testing::Values("classical", "direction", "full", "roulette", "splitting"));
+INSTANTIATE_TEST_SUITE_P(Presets, Reproducible,
+                         testing::Values("classical", "direction", "full", "roulette", "splitting"));
 
 TEST(Reproducible, TheListOfPassesRepeatsATimedRun) {
     const Scene scene(foggy_room());

@@ -100,7 +100,7 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max
     Moments moments;
     for (int i = 0; i < walks; ++i) {
         Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));
-        moments.add(mean(tracer.trace(ray, sampler, nullptr).sample.radiance));
+        moments.add(mean(tracer.trace(ray, 0, sampler, nullptr).sample.radiance));
     }
     return {moments.mean(), moments.standard_error()};
 }

@@ -46,8 +46,7 @@ void run_demo(const DemoOptions& options, const Streams& streams) {
     constexpr int seeds = 3;
     options.common.note(streams, fmt::format("rendering {} for {:g} s classically and {:g} s guided, {} times",
                                              scene.file, options.seconds, options.seconds, seeds));
-    Preset guided;
-    guided = parse_preset("full");
+    const Preset guided = parse_preset("full");
     const auto rows =
         compare_presets(session, {Preset{}, guided}, options.seconds, seeds, reference, options.common, streams);
     write_comparison(options.folder, session, rows, reference, options.seconds, seeds);

@@ -28,7 +28,9 @@ public:
     }
 
 private:
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x); }
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x);
+    }
 
     std::size_t stride_;
     std::vector<double> sums_;

@@ -113,11 +113,10 @@ private:
 
     float estimate(const Vec2i& pixel) const {
         const PixelRect& crop = film_.crop();
-        return plan_.estimates.empty()
-                   ? 0.0f
-                   : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
-                                         static_cast<std::size_t>(crop.width()) +
-                                     static_cast<std::size_t>(pixel.x - crop.min.x)];
+        return plan_.estimates.empty() ? 0.0f
+                                       : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
+                                                             static_cast<std::size_t>(crop.width()) +
+                                                         static_cast<std::size_t>(pixel.x - crop.min.x)];
     }
 
     PathTracer<Decisions> tracer_;

@@ -15,8 +15,8 @@ AxialLobes cosine_lobes(const Vec3& wo) {
 }
 
 /// GGX facets tilted by an angle t have the density (1 + x)^(-2) with x = tan² t / alpha². They reflect by twice the
-/// angle, in the plane of incidence; across it by less, as the cosine of incidence. So around the mirror direction, at an
-/// angle of cosine c, x is about (1 - c) / (2 alpha² cosine), and
+/// angle, in the plane of incidence; across it by less, as the cosine of incidence. So around the mirror direction, at
+/// an angle of cosine c, x is about (1 - c) / (2 alpha² cosine), and
 ///     (1 + x)^(-2) ≈ Σ amplitude_j exp(-rate_j x)
 /// within 1.042 either way up to x = 100 (least largest |log ratio|); each term is a lobe.
 AxialLobes mirror_lobes(const ConductorBsdf& b, const Vec3& wo) {
