@@ -155,7 +155,7 @@ private:
         origin_ = position;
         direction_ = s->direction;
         density_ = s->density;
-        const float survival = wend::ClassicalSurvival().expected_continuations({throughput_, boost_, 1, ++depth_});
+        const float survival = wend::ClassicalSurvival().after_direction({throughput_, boost_, 1, ++depth_});
         if (random_.uniform() >= survival) {
             return false;
         }

@@ -53,7 +53,7 @@ Bsdf conductor(float alpha) {
 TEST(BsdfLobes, ADiffuseSurfaceIsItsCosine) {
     for (const float side : {1.0f, -1.0f}) {
         const Bsdf bsdf = LambertBsdf{Rgb(0.7f)};
-        EXPECT_GT(overlap(bsdf, incident(30, side), lobes_of(bsdf, incident(30, side))), 0.9);
+        EXPECT_GT(overlap(bsdf, incident(30, side), lobes_of(bsdf, incident(30, side))), 0.85);
         EXPECT_LT(overlap(bsdf, incident(30, side), lobes_of(bsdf, incident(30, -side))), 0.3);
     }
 }
@@ -63,7 +63,7 @@ TEST(BsdfLobes, ARoughConductorIsAPeakAroundTheMirrorDirection) {
         for (const float degrees : {0.0f, 30.0f, 60.0f}) {
             for (const float side : {1.0f, -1.0f}) {
                 const Vec3 wo = incident(degrees, side);
-                EXPECT_GT(overlap(conductor(alpha), wo, lobes_of(conductor(alpha), wo)), degrees > 45 ? 0.75 : 0.85)
+                EXPECT_GT(overlap(conductor(alpha), wo, lobes_of(conductor(alpha), wo)), degrees > 45 ? 0.7 : 0.85)
                     << "alpha " << alpha << ", incidence " << degrees;
             }
         }
