@@ -66,7 +66,7 @@ private:
 
 Flight fly(const Medium& medium, const Rgb& throughput, Pcg32& random) {
     const float u = random.uniform();
-    return ClassicalDistance().sample(medium, ray, segment, throughput, u, random);
+    return ClassicalDistance().sample(medium, {ray, segment, throughput, 1, {}}, u, random);
 }
 
 /// P-value of the distances of collisions in a grey medium, and of their share, against extinctions `scale` times the

@@ -18,15 +18,7 @@ Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput,
             flight.distance = t;
         }
     }
-    if (!is_black(medium.emission)) {
-        // The light of the whole segment, whether the walk goes on from its end or not: its expected value has no
-        // variance.
-        for (int c = 0; c < 3; ++c) {
-            const float sigma = extinction[c];
-            flight.emitted[c] =
-                medium.emission[c] * (sigma * length > 1e-4f ? -std::expm1(-sigma * length) / sigma : length);
-        }
-    }
+    flight.emitted = emitted_along(medium, length);
     const Rgb transmitted = transmittance(medium, flight.distance);
     if (flight.scatters) {
         const float density = dot(probability, extinction * transmitted);
@@ -101,12 +93,11 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
 
 }  // namespace
 
-Flight ClassicalDistance::sample(const Medium& medium, const Ray& ray, float length, const Rgb& throughput, float u,
-                                 Pcg32& random) const {
+Flight ClassicalDistance::sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
     if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-        return fly(*homogeneous, length, throughput, u);
+        return fly(*homogeneous, start.length, start.throughput, u);
     }
-    return fly(std::get<GridMedium>(medium), ray, length, throughput, random);
+    return fly(std::get<GridMedium>(medium), start.ray, start.length, start.throughput, random);
 }
 
 Rgb ClassicalDistance::pass_probability(const Medium& medium, const Ray&, float length) const {

@@ -15,25 +15,50 @@ struct Flight {
     float distance = 0;  ///< of the collision; the segment's length if it does not scatter
     Rgb weight;
     Rgb emitted;  ///< radiance picked up from an emissive medium on the way, before `weight`
+    float boost = 1;  ///< density over what classical sampling would have had
+};
+
+/// What a walk knows about the end of a flight's segment when the flight is drawn, for decisions that ask what lies
+/// ahead.
+struct FlightEnd {
+    enum class Kind { nothing, surface, interface };
+
+    Kind kind = Kind::nothing;
+    Vec3 position{0, 0, 0};  ///< of the surface or interface
+    /// Radiance of lights at the end, with their weights of multiple importance sampling, as a scalar.
+    float emitted = 0;
+};
+
+/// What is known before a flight.
+struct FlightStart {
+    Ray ray;
+    float length = 0;  ///< to the end of the segment; may be beyond any scene
+    /// Of the walk so far: chooses among colour channels.
+    Rgb throughput{1.0f};
+    /// Product of the boosts of guided decisions so far (WalkState).
+    float boost = 1;
+    FlightEnd end;
 };
 
 /// A decision about flights: draws one, and tells the probability, under each colour channel, of flying through a
 /// segment without a collision. Where that cannot be told (null-collision tracking) it is 1: it only enters multiple
 /// importance sampling weights, where any function of the path will do.
 template <class D>
-concept DistanceDecision = requires(const D& d, const Medium& m, const Ray& ray, float length, const Rgb& throughput,
-                                    float u, Pcg32& random) {
-    { d.sample(m, ray, length, throughput, u, random) } -> std::same_as<Flight>;
-    { d.pass_probability(m, ray, length) } -> std::same_as<Rgb>;
+concept DistanceDecision = requires(const D& d, const Medium& m, const FlightStart& start, float u, Pcg32& random) {
+    { d.sample(m, start, u, random) } -> std::same_as<Flight>;
+    { d.pass_probability(m, start.ray, start.length) } -> std::same_as<Rgb>;
+    /// Whether FlightStart::end matters.
+    { D::looks_ahead } -> std::convertible_to<bool>;
 };
 
 /// Classical sampling: in proportion to transmittance times extinction, absorption by weight. Homogeneous media by
 /// inversion; grids by delta tracking against the local majorant.
 class ClassicalDistance {
 public:
-    /// `throughput` is that of the walk so far and chooses among colour channels; `u` is uniform in [0,1).
-    Flight sample(const Medium& medium, const Ray& ray, float length, const Rgb& throughput, float u,
-                  Pcg32& random) const;
+    static constexpr bool looks_ahead = false;
+
+    /// `u` is uniform in [0,1).
+    Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const;
     Rgb pass_probability(const Medium& medium, const Ray& ray, float length) const;
 };
 

@@ -6,7 +6,7 @@
 
 namespace wend::guide {
 
-Field::Field(const Box3& bounds) : bounds_(bounds), nodes_(1), regions_(1), memories_(1) {
+Field::Field(const Box3& bounds) : bounds_(bounds), nodes_(1), regions_(1), scattered_(1), memories_(1) {
 }
 
 Field Field::empty(const Box3& bounds) {
@@ -27,7 +27,7 @@ WeightMoments Field::weight_moments(const Vec3& position) const {
 }
 
 std::size_t Field::bytes() const {
-    return regions_.size() * sizeof(Region) + memories_.size() * sizeof(Memory) + nodes_.size() * sizeof(Node);
+    return regions_.size() * (sizeof(Region) + sizeof(ScatteredLight)) + memories_.size() * sizeof(Memory) + nodes_.size() * sizeof(Node);
 }
 
 void Field::for_each_cell(const std::function<void(const Box3&, const Region&, double)>& visit) const {

@@ -1,8 +1,10 @@
 // The learned field: space divided into cells, each with a mixture of incident radiance.
 #pragma once
 
+#include <wend/core/ray.h>
 #include <wend/core/vector.h>
 #include <wend/guide/region.h>
+#include <wend/guide/scattered_light.h>
 #include <wend/guide/statistics.h>
 
 #include <algorithm>
@@ -38,7 +40,20 @@ public:
     /// First and second moments of the records of a position's cell; zero as long as the field has learned nothing.
     WeightMoments weight_moments(const Vec3& position) const;
 
+    /// What rays are told at a position; null as long as the field has learned nothing.
+    const ScatteredLight* scattered_light(const Vec3& position) const {
+        return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
+    }
+
+    /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end.
+    /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.
+    template <class Visit>
+    void walk(const Ray& ray, float t0, float t1, Visit&& visit) const;
+
     const Box3& bounds() const { return bounds_; }
+    /// Most splits above a cell.
+    static constexpr int max_depth = 64;
+
     /// Number of cells.
     std::size_t size() const { return regions_.size(); }
     /// Memory of the cells and of the tree.
@@ -53,6 +68,7 @@ public:
 
 private:
     friend class Fitting;
+    friend class ScatterFitting;
     friend class FieldBytes;
 
     /// An inner node has its children side by side at `child` and `child` + 1; a leaf has its region in `child`.
@@ -77,6 +93,7 @@ private:
         Vec3 offset{0, 0, 0};
         Vec3 offset_square{0, 0, 0};
         Statistics statistics;
+        ScatterSums scattered;
     };
 
     explicit Field(const Box3& bounds);
@@ -93,13 +110,54 @@ private:
     Box3 bounds_;
     bool trained_ = false;
     std::vector<Node> nodes_;
-    /// One region and one memory per leaf, under the same index.
+    /// One of each per leaf, under the same index.
     std::vector<Region> regions_;
+    std::vector<ScatteredLight> scattered_;
     std::vector<Memory> memories_;
 };
 
 constexpr std::size_t Field::bytes_per_cell() {
-    return sizeof(Region) + sizeof(Memory) + 2 * sizeof(Node);
+    return sizeof(Region) + sizeof(ScatteredLight) + sizeof(Memory) + 2 * sizeof(Node);
+}
+
+template <class Visit>
+void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
+    struct Part {
+        std::uint32_t node;
+        float t_in, t_out;
+    };
+    // One far side waits for each level of the tree at most.
+    Part waiting[max_depth + 1];
+    int count = 0;
+    Part part{0, t0, t1};
+    for (;;) {
+        const Node& node = nodes_[part.node];
+        if (node.axis == Node::leaf) {
+            if (part.t_in < part.t_out && !visit(scattered_[node.child], part.t_in, part.t_out)) {
+                return;
+            }
+            if (count == 0) {
+                return;
+            }
+            part = waiting[--count];
+            continue;
+        }
+        const auto axis = static_cast<int>(node.axis);
+        const float d = ray.direction[axis], distance = node.plane - ray.origin[axis];
+        const std::uint32_t above = distance <= 0 ? 1 : 0;
+        // The side of the origin comes first; the other one only where the ray gets across.
+        const float t = d != 0 ? distance / d : -1.0f;
+        const std::uint32_t near = node.child + above, far = node.child + 1 - above;
+        if (!(t > 0) || t >= part.t_out) {
+            const bool starts_on_plane_and_leaves = distance == 0 && d < 0;
+            part.node = starts_on_plane_and_leaves ? far : near;
+        } else if (t <= part.t_in) {
+            part.node = far;
+        } else {
+            waiting[count++] = {far, t, part.t_out};
+            part = {near, part.t_in, t};
+        }
+    }
 }
 
 }  // namespace wend::guide

@@ -5,6 +5,7 @@
 #include <wend/core/parallel.h>
 #include <wend/guide/evidence.h>
 #include <wend/guide/lobe_revision.h>
+#include <wend/guide/weight_limit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ void validate(const FitSettings& s) {
     require(s.leaf_samples >= 1, "the samples of a leaf must be at least 1");
     require(s.uniform_factor >= 1, "the factor of uniform leaves must be at least 1");
     require(s.variation >= 0, "the variation must not be negative");
-    require(s.max_depth >= 0 && s.max_depth <= 64, "the depth must be 0 to 64");
+    require(s.max_depth >= 0 && s.max_depth <= Field::max_depth, "the depth must be 0 to 64");
     require(s.max_bytes >= (std::size_t{64} << 10), "the memory must be at least 64 KiB");
     require(s.decay >= 0 && s.decay <= 1, "the decay must be 0 to 1");
     require(s.max_iterations >= 1, "the iterations must be at least 1");
@@ -37,26 +38,6 @@ void validate(const FitSettings& s) {
     require(s.priors.weight > 0 && s.priors.mean_cosine > 0, "the priors must be positive");
     require(s.priors.max_kappa > 0 && s.priors.max_kappa <= Vmf::max_kappa,
             "the largest concentration must be above 0 and at most 1e5");
-}
-
-/// The weight above which a record is cut, for fitting only: sqrt(n) times the mean of the n cut weights (ionides2008,
-/// with the mean made robust). One freak among ordinary records counts as sqrt(n) of them, and nothing is cut from many
-/// equals.
-double weight_limit(const std::vector<double>& weights) {
-    constexpr int most_rounds = 8;
-    double limit = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < most_rounds; ++round) {
-        double sum = 0;
-        for (const double w : weights) {
-            sum += std::min(w, limit);
-        }
-        const double next = sum / std::sqrt(static_cast<double>(weights.size()));
-        if (next >= limit) {
-            break;
-        }
-        limit = next;
-    }
-    return limit;
 }
 
 double total_weight(const std::array<LobeSums, max_lobes>& sums) {
@@ -337,10 +318,13 @@ private:
         Field::Memory other = memory;
         memory.statistics = memory.statistics.share(share);
         other.statistics = other.statistics.share(1 - share);
+        memory.scattered = memory.scattered.scaled(static_cast<float>(share));
+        other.scattered = other.scattered.scaled(static_cast<float>(1 - share));
 
         field_.memories_[region] = memory;
         field_.memories_.push_back(other);
         field_.regions_.push_back(Region(field_.regions_[region]));
+        field_.scattered_.push_back(ScatteredLight(field_.scattered_[region]));
         Field::Node& node = field_.nodes_[cell.node];
         node.plane = plane.position;
         node.axis = static_cast<std::uint32_t>(plane.axis) & 3u;

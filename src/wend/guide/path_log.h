@@ -28,6 +28,14 @@ public:
         }
     }
 
+    /// The vertex at hand was connected to a light: `fluence` is the radiance over the density of the direction, and
+    /// `brought` that times the scattering function, which the walk gathers too.
+    void connect(const Vec3& to_light, float fluence, const Rgb& brought) {
+        at_.to_light = to_light;
+        at_.light_fluence = fluence;
+        at_.connected = brought;
+    }
+
     /// The walk met something at this distance from the last vertex. Only the first time counts.
     void meet(float distance) {
         if (at_.vertex != PathVertex::root && current().distance == std::numeric_limits<float>::infinity()) {
@@ -45,7 +53,11 @@ public:
         v.scattering = weight;
         v.parent = at_.vertex;
         v.in_volume = in_volume;
-        at_ = {static_cast<std::int32_t>(vertices_.size()), Rgb(1.0f)};
+        v.connected = at_.connected;
+        v.to_light = at_.to_light;
+        v.light_fluence = at_.light_fluence;
+        at_ = {};
+        at_.vertex = static_cast<std::int32_t>(vertices_.size());
         vertices_.push_back(v);
     }
 
@@ -54,6 +66,10 @@ public:
         std::int32_t vertex = PathVertex::root;
         /// Gained since that vertex.
         Rgb weight{1.0f};
+        /// Of the vertex at hand, whose direction is not drawn yet.
+        Rgb connected;
+        Vec3 to_light{0, 0, 0};
+        float light_fluence = 0;
     };
     const Branch& branch() const { return at_; }
     void resume(const Branch& branch) { at_ = branch; }

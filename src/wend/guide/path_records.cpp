@@ -22,22 +22,22 @@ Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incide
 void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     WEND_EXPECT(most > 0);
     incident_radiance(path, incident_);
-    const auto teaches = [](const PathVertex& v) { return v.density != 0; };
-    const auto count = static_cast<std::size_t>(std::count_if(path.begin(), path.end(), teaches));
-    const std::size_t stride = count <= most ? 1 : (count - 1) / most + 1;
-    std::size_t left_out = stride - 1;
-    for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t stride = path.size() <= most ? 1 : (path.size() - 1) / most + 1;
+    for (std::size_t i = stride - 1; i < path.size(); i += stride) {
         const PathVertex& v = path[i];
-        if (teaches(v) && ++left_out == stride) {
-            left_out = 0;
+        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i]));
+        if (v.density != 0) {
             (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }
     }
 }
 
 void PathRecords::append(const PathRecords& other) {
-    surface_.insert(surface_.end(), other.surface_.begin(), other.surface_.end());
-    volume_.insert(volume_.end(), other.volume_.begin(), other.volume_.end());
+    const auto extend = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+    extend(surface_, other.surface_);
+    extend(volume_, other.volume_);
+    extend(surface_scattered_, other.surface_scattered_);
+    extend(volume_scattered_, other.volume_scattered_);
 }
 
 }  // namespace wend::guide

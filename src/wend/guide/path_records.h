@@ -32,6 +32,12 @@ struct PathVertex {
     /// direction was drawn: light met, the medium's own, and the next vertex's connection to a light, each with its
     /// weight of multiple importance sampling.
     Rgb gathered;
+    /// What a connection to a light brought at this vertex, the scattering function included, and the direction of the
+    /// light and the connection's estimate of its fluence. For records of scattered light alone: what arrives at the
+    /// parent has it among what was gathered there.
+    Rgb connected;
+    Vec3 to_light{0, 0, 0};
+    float light_fluence = 0;
     /// The vertex whose direction led here: a lower index, or root.
     std::int32_t parent = root;
     bool in_volume = false;
@@ -49,12 +55,18 @@ inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
     return {vertex.position, vertex.direction, mean(incident), vertex.density, vertex.distance};
 }
 
+/// What the vertex tells of the light scattered there.
+inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& incident) {
+    return {vertex.position, mean(vertex.connected + vertex.scattering * incident), vertex.light_fluence,
+            vertex.to_light};
+}
+
 /// Records of many walks, kept apart by the field they belong to.
 class PathRecords {
 public:
-    /// Appends the records of a walk, one for each vertex whose direction has a density; a record's radiance is the
-    /// mean of the colour channels. Of walks with more than `most` of them every k-th is kept, with the least k that
-    /// fits. Nothing is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
+    /// Appends the records of a walk: one for each vertex whose direction has a density, with the mean of the colour
+    /// channels as radiance, and one of the scattered light for every vertex. Of walks with more than `most` vertices
+    /// every k-th is kept, with the least k that fits. Nothing is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
     void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max());
 
     /// Appends the records of another producer.
@@ -64,13 +76,19 @@ public:
     void clear() {
         surface_.clear();
         volume_.clear();
+        surface_scattered_.clear();
+        volume_scattered_.clear();
     }
 
     const Records& surface() const { return surface_; }
     const Records& volume() const { return volume_; }
+    /// Of every vertex that also has a record, and of those whose direction has no density.
+    const ScatterRecords& surface_scattered() const { return surface_scattered_; }
+    const ScatterRecords& volume_scattered() const { return volume_scattered_; }
 
 private:
     Records surface_, volume_;
+    ScatterRecords surface_scattered_, volume_scattered_;
     std::vector<Rgb> incident_;
 };
 

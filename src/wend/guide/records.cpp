@@ -4,14 +4,29 @@
 
 namespace wend::guide {
 
-bool is_usable(const Record& record) {
-    constexpr float unit_tolerance = 1e-3f;
+namespace {
+
+constexpr float unit_tolerance = 1e-3f;
+constexpr float largest_weight = 1e30f;
+
+bool in_space(const Vec3& p) {
     // Far beyond any scene, and far enough from overflow for squares and sums.
     constexpr float largest_coordinate = 1e15f;
-    constexpr double largest_weight = 1e30;
-    const auto in_space = [](float x) { return std::abs(x) <= largest_coordinate; };
-    return in_space(record.position.x) && in_space(record.position.y) && in_space(record.position.z) &&
-           std::abs(length_squared(record.direction) - 1) <= unit_tolerance && record.radiance >= 0 &&
+    const auto near = [](float x) { return std::abs(x) <= largest_coordinate; };
+    return near(p.x) && near(p.y) && near(p.z);
+}
+
+}  // namespace
+
+bool is_usable(const ScatterRecord& record) {
+    constexpr float largest = 1e15f;
+    return in_space(record.position) && record.leaving >= 0 && record.leaving <= largest && record.connected >= 0 &&
+           record.connected <= largest &&
+           (record.connected == 0 || std::abs(length_squared(record.to_light) - 1) <= unit_tolerance);
+}
+
+bool is_usable(const Record& record) {
+    return in_space(record.position) && std::abs(length_squared(record.direction) - 1) <= unit_tolerance && record.radiance >= 0 &&
            std::isfinite(record.radiance) && record.density > 0 && std::isfinite(record.density) &&
            record.distance > 0 && weight_of(record) <= largest_weight;
 }

@@ -21,13 +21,28 @@ struct Record {
     float distance;
 };
 
+/// What a vertex of a walk says about the light that is scattered there: decisions about flights ask how much of it
+/// there is ahead.
+struct ScatterRecord {
+    Vec3 position;
+    /// Estimate of the radiance that leaves to where the walk came from, as a scalar.
+    float leaving;
+    /// What a connection to a light found there: an estimate of the fluence of the light that connections account for,
+    /// in radiance times sr, and the direction to the light, which means nothing where the estimate is 0.
+    float connected;
+    Vec3 to_light;
+};
+
 /// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,
 /// sample and vertex.
 using Records = std::vector<Record>;
 
+using ScatterRecords = std::vector<ScatterRecord>;
+
 /// Whether the field can learn from a record: finite numbers in their ranges (the distance may be infinite),
 /// coordinates up to 1e15 and a weight up to 1e30.
 bool is_usable(const Record& record);
+bool is_usable(const ScatterRecord& record);
 
 /// The record's share in ∫ L dω: radiance / density, in radiance times sr.
 inline double weight_of(const Record& record) {

@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/guide/scatter_fit.h>
 #include <wend/guide/serialization.h>
 
 #include <boost/crc.hpp>
@@ -17,7 +18,7 @@ static_assert(std::endian::native == std::endian::little,
               "fields of big-endian machines need a signature of their own");
 
 constexpr std::string_view signature = "WENDFLD\x1a";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 std::uint32_t checksum(std::string_view bytes) {
     boost::crc_32_type crc;
@@ -136,6 +137,23 @@ void put_statistics(std::string& out, const Statistics& statistics) {
     }
 }
 
+void put_scattered(std::string& out, const ScatterSums& sums) {
+    for (const float sum : {sums.records, sums.leaving, sums.leaving_square, sums.connected}) {
+        put(out, sum);
+    }
+    put(out, sums.connected_direction);
+}
+
+ScatterSums take_scattered(Reader& in) {
+    ScatterSums sums;
+    for (float* sum : {&sums.records, &sums.leaving, &sums.leaving_square, &sums.connected}) {
+        *sum = in.take_finite<float>();
+        Reader::require(*sum >= 0);
+    }
+    sums.connected_direction = in.take_vector();
+    return sums;
+}
+
 Statistics take_statistics(Reader& in) {
     Statistics statistics;
     for (double* sum : {&statistics.count, &statistics.fluence, &statistics.fluence_square, &statistics.unit}) {
@@ -181,6 +199,7 @@ public:
             put(out, memory.offset);
             put(out, memory.offset_square);
             put_statistics(out, memory.statistics);
+            put_scattered(out, memory.scattered);
         }
         return out;
     }
@@ -212,7 +231,9 @@ public:
             memory.offset = in.take_vector();
             memory.offset_square = in.take_vector();
             memory.statistics = take_statistics(in);
+            memory.scattered = take_scattered(in);
         }
+        field.scattered_.resize(field.regions_.size());
         require_tree(field);
         return field;
     }
@@ -260,7 +281,8 @@ Field field_from_bytes(std::string_view bytes) {
     if (stored != checksum(covered)) {
         refuse("the checksum does not fit: the bytes are truncated or were changed");
     }
-    Field field = FieldBytes::field(in);
+    // What rays are told follows from the sums.
+    Field field = fit_scattered(FieldBytes::field(in), {}, 1);
     if (!in.empty()) {
         refuse("there are more bytes than a field has");
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <wend/decision/direction.h>
-#include <wend/decision/distance.h>
+#include <wend/decision/guided_distance.h>
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
 #include <wend/guide/path_log.h>
@@ -48,9 +48,9 @@ struct ClassicalDecisions {
     ClassicalSurvival survival;
 };
 
-template <class Field, class Survival>
+template <class Field, class Distance, class Survival>
 struct GuidedDecisions {
-    ClassicalDistance distance;
+    Distance distance;
     GuidedDirection<Field> direction;
     Survival survival;
 };

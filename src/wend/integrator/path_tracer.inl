@@ -66,10 +66,14 @@ private:
         const float length = hit ? hit->distance : farthest;
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
-            const Flight flight =
-                d_.distance.sample(medium, now_.ray, length, now_.throughput, sampler_.uniform(), sampler_.random());
+            FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}};
+            if constexpr (decltype(d_.distance)::looks_ahead) {
+                start.end = end_of_segment(hit);
+            }
+            const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
             gather(flight.emitted);
             weigh(flight.weight);
+            now_.boost *= flight.boost;
             if (is_black(now_.throughput)) {
                 return false;
             }
@@ -80,12 +84,16 @@ private:
             now_.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
         }
         if (!hit) {
-            add_environment();
+            if (const Rgb arriving = environment(); !is_black(arriving)) {
+                gather(arriving);
+            }
             return false;
         }
         now_.travelled += hit->distance;
         if (hit->light >= 0) {
-            add_emission(*hit);
+            if (const Rgb arriving = emission(*hit); !is_black(arriving)) {
+                gather(arriving);
+            }
         }
         if (scene_.is_interface(*hit)) {
             now_.medium = scene_.medium_beyond(*hit, now_.ray.direction, now_.medium);
@@ -94,6 +102,18 @@ private:
             return ++now_.interfaces < max_interfaces;
         }
         return scatter_at(*hit);
+    }
+
+    FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
+        FlightEnd end;
+        if (!hit) {
+            end.emitted = mean_value(environment());
+            return end;
+        }
+        end.kind = scene_.is_interface(*hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
+        end.position = hit->position;
+        end.emitted = hit->light >= 0 ? mean_value(emission(*hit)) : 0.0f;
+        return end;
     }
 
     bool scatter_in(const Medium& medium, float distance) {
@@ -127,7 +147,12 @@ private:
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
         const auto directions = d_.direction.at(position, in_volume, f, now_.boost);
         if (!f.is_specular()) {
-            gather(connect(f, directions, position, normal, in_volume));
+            const Connection found = connect(f, directions, position, normal, in_volume);
+            const Rgb brought = found.scattering * found.light;
+            gather(brought);
+            if (log_) {
+                log_->connect(found.to_light, mean_value(found.light), brought);
+            }
         }
         const std::optional<WeightWindow::Outcome> outcome =
             d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
@@ -222,24 +247,30 @@ private:
         return true;
     }
 
-    /// Next-event estimation: the contribution of one connection to one light, per unit of throughput.
+    /// What one connection to one light finds: its direction, an estimate of the light's fluence, weighted for multiple
+    /// importance sampling, and how much of it is scattered here.
+    struct Connection {
+        Vec3 to_light{0, 0, 0};
+        Rgb light;
+        Rgb scattering;
+    };
     template <class F, class Directions>
-    Rgb connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
+    Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
         const LightReceiver receiver{position, normal};
         const ChosenLight chosen =
             std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
         if (chosen.index < 0) {
-            return Rgb(0.0f);
+            return {};
         }
         const auto light = sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], position, u2);
         if (!light) {
-            return Rgb(0.0f);
+            return {};
         }
         const Rgb value = f.evaluate(light->direction);
         if (is_black(value)) {
-            return Rgb(0.0f);
+            return {};
         }
         Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);
         float distance = light->distance;
@@ -252,7 +283,7 @@ private:
         const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light->direction, now_.medium);
         const Passage passage = pass(shadow, distance, medium);
         if (is_black(passage.transmittance)) {
-            return Rgb(0.0f);
+            return {};
         }
         const float light_density = chosen.probability * light->density;
         float weight = 1;
@@ -261,7 +292,7 @@ private:
             const float other = directions.density(light->direction) * dot(channels, passage.probability);
             weight = light_density / (light_density + other);
         }
-        return value * light->radiance * passage.transmittance * (weight / light_density);
+        return {light->direction, light->radiance * passage.transmittance * (weight / light_density), value};
     }
 
     /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the
@@ -313,21 +344,23 @@ private:
         return own > 0 ? own / (own + other) : 0.0f;
     }
 
-    void add_emission(const Hit& hit) {
+    /// Light of the surface that was hit, with its weight of multiple importance sampling.
+    Rgb emission(const Hit& hit) const {
         const Rgb emitted =
             emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -now_.ray.direction);
-        if (!is_black(emitted)) {
-            gather(emitted * emission_weight(hit.light, hit.position, hit.normal));
-        }
+        return is_black(emitted) ? emitted : emitted * emission_weight(hit.light, hit.position, hit.normal);
     }
 
-    void add_environment() {
+    /// Light from beyond the scene, likewise.
+    Rgb environment() const {
+        Rgb sum;
         for (const int light : scene_.infinite_lights()) {
             const Rgb arriving = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
             if (!is_black(arriving)) {
-                gather(arriving * emission_weight(light, {}, {}));
+                sum += arriving * emission_weight(light, {}, {});
             }
         }
+        return sum;
     }
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {

@@ -8,9 +8,10 @@ namespace wend {
 namespace {
 
 using Entry = std::pair<std::string_view, bool Preset::*>;
-constexpr std::array entries = {Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
+constexpr std::array entries = {Entry{"scatter", &Preset::scatter}, Entry{"distance", &Preset::distance},
+                                Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
                                 Entry{"splitting", &Preset::splitting}};
-constexpr Preset full = {.direction = true, .roulette = true, .splitting = true};
+constexpr Preset full = {.scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true};
 
 [[noreturn]] void reject(std::string_view text) {
     std::string message =
@@ -39,6 +40,8 @@ Preset parse_preset(std::string_view text) {
         for (const auto& [entry, member] : entries) {
             if (entry == name) {
                 preset.*member = true;
+                // Where to scatter is chosen along with whether to.
+                preset.scatter = preset.scatter || preset.distance;
                 known = true;
             }
         }
@@ -58,7 +61,7 @@ std::string to_string(const Preset& preset) {
     }
     std::string text;
     for (const auto& [name, member] : entries) {
-        if (preset.*member) {
+        if (preset.*member && !(member == &Preset::scatter && preset.distance)) {
             text += (text.empty() ? "" : "+") + std::string(name);
         }
     }

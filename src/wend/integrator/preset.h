@@ -9,11 +9,14 @@ namespace wend {
 
 /// Which decisions follow the learned field.
 struct Preset {
+    bool scatter = false;   ///< whether to scatter in a medium or reach its end
+    bool distance = false;  ///< where to scatter as well
     bool direction = false;
     bool roulette = false;
     bool splitting = false;
 
     bool is_classical() const { return *this == Preset(); }
+    bool guides_distance() const { return scatter || distance; }
     /// Whether walks end or split by expected contribution.
     bool guides_survival() const { return roulette || splitting; }
     friend bool operator==(const Preset&, const Preset&) = default;

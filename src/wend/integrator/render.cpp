@@ -14,8 +14,10 @@
 namespace wend {
 
 template class PathTracer<ClassicalDecisions>;
-template class PathTracer<GuidedDecisions<guide::Field, ClassicalSurvival>>;
-template class PathTracer<GuidedDecisions<guide::Field, AdjointSurvival>>;
+template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, ClassicalSurvival>>;
+template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, AdjointSurvival>>;
+template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, ClassicalSurvival>>;
+template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, AdjointSurvival>>;
 
 namespace {
 
@@ -197,15 +199,25 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
+        const GuidedDistance distance(&fields.surface, &fields.volume, classical_share,
+                                      preset.distance ? DistanceGuiding::scatter_and_distance
+                                                      : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);
+        const auto run_guided = [&](const auto& survival) {
+            if (preset.guides_distance()) {
+                run_with(GuidedDecisions{distance, direction, survival});
+            } else {
+                run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
+            }
+        };
         if (preset.guides_survival() && statistics.samples >= warm_up_samples && settings.exposure > 0) {
             plan.estimates = pixel_estimates(film.beauty(), statistics.samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings.exposure;
             }
-            run_with(GuidedDecisions{{}, direction, AdjointSurvival(preset.roulette, preset.splitting)});
-        } else if (preset.direction) {
-            run_with(GuidedDecisions{{}, direction, ClassicalSurvival()});
+            run_guided(AdjointSurvival(preset.roulette, preset.splitting));
+        } else if (!preset.is_classical()) {
+            run_guided(ClassicalSurvival());
         } else {
             run_with(ClassicalDecisions{});
         }

@@ -1,4 +1,5 @@
 #include <wend/guide/fit.h>
+#include <wend/guide/scatter_fit.h>
 #include <wend/integrator/training.h>
 
 namespace wend {
@@ -8,8 +9,14 @@ GuidingFields learn(const GuidingFields& fields, std::span<const guide::PathReco
     for (const guide::PathRecords& part : records) {
         all.append(part);
     }
-    return {guide::fit(fields.surface, all.surface(), {}, threads).field,
-            guide::fit(fields.volume, all.volume(), {}, threads).field};
+    const auto next = [&](const guide::Field& field, const guide::Records& arrived,
+                          const guide::ScatterRecords& scattered) {
+        const guide::FitSettings settings;
+        return guide::fit_scattered(guide::fit(field, arrived, settings, threads).field, scattered, settings.decay,
+                                    threads);
+    };
+    return {next(fields.surface, all.surface(), all.surface_scattered()),
+            next(fields.volume, all.volume(), all.volume_scattered())};
 }
 
 }  // namespace wend

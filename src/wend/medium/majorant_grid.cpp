@@ -13,6 +13,21 @@ Vec3 ceil(const Vec3& v) {
     return {std::ceil(v.x), std::ceil(v.y), std::ceil(v.z)};
 }
 
+/// From eight points of a cell.
+float mean_density(const Grid& grid, const Vec3& low, const Vec3& size, const Grid::Range& range) {
+    if (range.min == range.max) {
+        return range.max;
+    }
+    float sum = 0;
+    for (int i = 0; i < 8; ++i) {
+        const auto at = [i](int axis) { return (i >> axis) % 2 == 0 ? 0.25f : 0.75f; };
+        sum += grid.interpolate(low + size * Vec3(at(0), at(1), at(2)));
+    }
+    // What the points missed may be seen by a walk all the same.
+    constexpr float least_share = 0.02f;
+    return std::max(sum / 8, least_share * range.max);
+}
+
 }  // namespace
 
 MajorantGrid::MajorantGrid(const Grid& grid, const Box3& box, float cell_size) : box_(box) {
@@ -34,7 +49,7 @@ MajorantGrid::MajorantGrid(const Grid& grid, const Box3& box, float cell_size) :
                 const Vec3 high = low + cell_size_;
                 // Whole voxels, since stochastic interpolation returns the value of any voxel around a point.
                 const Grid::Range range = grid.range(Box3(floor(low - Vec3(margin)), ceil(high + Vec3(margin))));
-                cells_.push_back({range.min, range.max});
+                cells_.push_back({range.min, range.max, mean_density(grid, low, cell_size_, range)});
             }
         }
     }

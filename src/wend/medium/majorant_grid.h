@@ -16,6 +16,8 @@ public:
     struct Cell {
         float minimum = 0;
         float maximum = 0;
+        /// About the mean density in the cell, not 0 where the maximum is not: for guesses, bounds have to hold.
+        float mean = 0;
     };
 
     MajorantGrid() = default;

@@ -39,6 +39,14 @@ float HenyeyGreensteinMixture::mean_cosine() const {
     return sum / total_;
 }
 
+float HenyeyGreensteinMixture::blurred(const Vec3& before, const Vec3& mean) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+        sum += weight_[i] * lobe_[i].blurred(before, mean);
+    }
+    return sum / total_;
+}
+
 PhaseFunction::PhaseFunction(Variant kind)
     : kind_(std::move(kind)), lobes_(std::visit([](const auto& p) { return lobes_of(p); }, kind_)) {
 }

@@ -33,6 +33,14 @@ struct HenyeyGreenstein {
     }
 
     float mean_cosine() const { return g; }
+
+    /// Convolved with a function of this kind with mean cosine length(mean), around the direction of `mean`, which is
+    /// shorter than 1: the mean cosines multiply.
+    float blurred(const Vec3& before, const Vec3& mean) const {
+        const float square = std::min(g * g * dot(mean, mean), 0.9999f);
+        const float d = std::max(1 + square - 2 * g * dot(before, mean), 1e-8f);
+        return inv_4pi * (1 - square) / (d * std::sqrt(d));
+    }
 };
 
 /// A convex combination of up to four Henyey-Greenstein functions.
@@ -51,6 +59,7 @@ public:
     float evaluate(float cosine) const;
     float sample_cosine(float u) const;
     float mean_cosine() const;
+    float blurred(const Vec3& before, const Vec3& mean) const;
 
 private:
     int count_ = 0;
@@ -77,6 +86,11 @@ public:
     }
     float mean_cosine() const {
         return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
+    }
+    /// ∫ p(before, ω) h(ω) dω for Henyey and Greenstein's function h around the direction of `mean`, whose mean cosine
+    /// is the length of `mean`, less than 1.
+    float blurred(const Vec3& before, const Vec3& mean) const {
+        return std::visit([&](const auto& p) { return p.blurred(before, mean); }, kind_);
     }
     /// Its picture in von Mises-Fisher lobes (phase_lobes.h), given the direction of propagation before the collision.
     AxialLobes lobes(const Vec3& before) const { return lobes_.around(before); }

@@ -12,6 +12,21 @@ inline Rgb transmittance(const HomogeneousMedium& medium, float distance) {
     return {std::exp(-tau.r), std::exp(-tau.g), std::exp(-tau.b)};
 }
 
+/// The light that the medium emits towards the start of a segment, in radiance: its expected value, which has no
+/// variance.
+inline Rgb emitted_along(const HomogeneousMedium& medium, float distance) {
+    if (is_black(medium.emission)) {
+        return Rgb(0.0f);
+    }
+    Rgb sum;
+    const Rgb extinction = medium.extinction();
+    for (int c = 0; c < 3; ++c) {
+        const float tau = extinction[c] * distance;
+        sum[c] = medium.emission[c] * (tau > 1e-4f ? -std::expm1(-tau) / extinction[c] : distance);
+    }
+    return sum;
+}
+
 /// Residual ratio tracking (novak2014) from 0 to `distance` along the ray: in each cell of the majorant grid the
 /// smallest density is the control, whose transmittance is exact, and only the residual is estimated. Estimates that
 /// have become small are ended by roulette, so that a dense medium costs no more than a few mean free paths.

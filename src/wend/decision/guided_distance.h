@@ -1,0 +1,149 @@
+// Decision 1, guided: scatter or reach the end, and where, in proportion to the light that comes from there.
+#pragma once
+
+#include <wend/decision/distance.h>
+#include <wend/decision/flight_pieces.h>
+#include <wend/medium/transmittance.h>
+
+#include <algorithm>
+
+namespace wend {
+
+/// Adjoints along rays: cells with the light that is scattered in them (guide::Field).
+template <class F>
+concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ray, const PhaseFunction& phase) {
+    { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
+    { field.scattered_light(p)->leaving } -> std::convertible_to<float>;
+    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving > 0; });
+    { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
+};
+
+/// Which part of the decision follows the light.
+enum class DistanceGuiding { scatter_alone, scatter_and_distance };
+
+/// Flights whose density is that of FlightPieces over the cells of the volume's field and of the medium. Homogeneous
+/// media have an exact weight, grids an estimate of their transmittance. Media that are a grid and emit light fly
+/// classically, since their light is found on the way.
+template <AdjointAlongRays Field>
+class GuidedDistance {
+public:
+    static constexpr bool looks_ahead = true;
+
+    /// The fields are not owned. `classical_share` in (0,1] bounds the weight by 1/classical_share times the classical
+    /// one.
+    GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding)
+        : surface_(surface), volume_(volume), classical_share_(classical_share), guiding_(guiding) {}
+
+    Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
+        if (start.boost < least_boost || !volume_->scattered_light(start.ray.origin)) {
+            return classical_.sample(medium, start, u, random);
+        }
+        if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+            return fly(*homogeneous, start, u);
+        }
+        const auto& grid = std::get<GridMedium>(medium);
+        return grid.emission() ? classical_.sample(medium, start, u, random) : fly(grid, start, u, random);
+    }
+
+    /// That of classical flights: a guided one's would take a walk through all cells for every connection.
+    Rgb pass_probability(const Medium& medium, const Ray& ray, float length) const {
+        return classical_.pass_probability(medium, ray, length);
+    }
+
+private:
+    /// A walk that did what the guide did not foresee goes on unguided (direction.h).
+    static constexpr float least_boost = 0.05f;
+
+    Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
+        FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
+        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
+            pieces.add(t_in, t_out, 1, light.in_scattered(start.ray.direction, medium.phase));
+            return true;
+        });
+        Flight flight = choose(pieces, start, u);
+        const Rgb transmitted = transmittance(medium, flight.distance);
+        flight.weight *= flight.scatters ? medium.scattering * transmitted : transmitted;
+        flight.emitted = emitted_along(medium, start.length);
+        return flight;
+    }
+
+    Flight fly(const GridMedium& medium, const FlightStart& start, float u, Pcg32& random) const {
+        FlightPieces pieces(medium.extinction(), medium.scattering(), channel_probabilities(start.throughput),
+                            doubtful_share);
+        add_pieces(pieces, medium, start);
+        Flight flight = choose(pieces, start, u);
+        flight.weight *= estimate_transmittance(medium, start.ray, flight.distance, random);
+        if (flight.scatters) {
+            flight.weight *=
+                medium.scattering() * medium.density().interpolate(medium.to_index(start.ray).at(flight.distance));
+        }
+        return flight;
+    }
+
+    /// The cells of the grid, cut where those of the field end.
+    void add_pieces(FlightPieces& pieces, const GridMedium& medium, const FlightStart& start) const {
+        struct Lit {
+            float t_out, in_scattered;
+        };
+        constexpr int most = 128;
+        Lit lit[most];
+        int count = 0;
+        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float, float t_out) {
+            lit[count++] = {t_out, light.in_scattered(start.ray.direction, medium.phase())};
+            return count < most;
+        });
+        const Lit* here = lit;
+        const Lit* const last = lit + count - 1;
+        const auto index_ray = medium.to_index(start.ray);
+        medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length,
+                                [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+                                    while (cell.maximum > 0 && t_in < t_out) {
+                                        while (here != last && here->t_out <= t_in) {
+                                            ++here;
+                                        }
+                                        const float t = here == last ? t_out : std::min(t_out, here->t_out);
+                                        pieces.add(t_in, t, cell.mean, here->in_scattered);
+                                        t_in = t;
+                                    }
+                                    return true;
+                                });
+    }
+
+    /// A flight whose weight is 1 over its density.
+    Flight choose(FlightPieces& pieces, const FlightStart& start, float u) const {
+        pieces.finish(start.length, ahead(start), guiding_ == DistanceGuiding::scatter_alone);
+        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share_ : 1.0f, u);
+        Flight flight;
+        flight.scatters = outcome.scatters;
+        flight.distance = outcome.distance;
+        flight.weight = Rgb(outcome.density > 0 ? 1 / outcome.density : 0.0f);
+        flight.emitted = Rgb(0.0f);
+        flight.boost = outcome.classical > 0 ? outcome.density / outcome.classical : 1.0f;
+        return flight;
+    }
+
+    /// The radiance to be expected behind the end of the segment.
+    float ahead(const FlightStart& start) const {
+        const FlightEnd& end = start.end;
+        if (end.kind == FlightEnd::Kind::surface) {
+            const auto* light = surface_->scattered_light(end.position);
+            return end.emitted + (light ? light->leaving : 0.0f);
+        }
+        if (end.kind == FlightEnd::Kind::interface) {
+            const auto* adjoint = volume_->find(end.position);
+            return end.emitted + adjoint->fluence() * adjoint->incident(end.position).density(start.ray.direction);
+        }
+        return end.emitted;
+    }
+
+    /// The cells' densities are means: some rays meet less.
+    static constexpr float doubtful_share = 0.25f;
+
+    const Field* surface_;
+    const Field* volume_;
+    float classical_share_;
+    DistanceGuiding guiding_;
+    ClassicalDistance classical_;
+};
+
+}  // namespace wend

@@ -1,0 +1,107 @@
+#include <wend/guide/scatter_fit.h>
+
+#include <wend/core/error.h>
+#include <wend/core/parallel.h>
+#include <wend/guide/weight_limit.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace wend::guide {
+namespace {
+
+/// What a mixture looks like as a mean direction.
+Vec3 mean_direction(const VmfMixture& mixture) {
+    Vec3 sum(0, 0, 0);
+    for (int i = 0; i < mixture.size(); ++i) {
+        const auto [weight, vmf] = mixture.lobe(i);
+        sum += vmf.mean * (weight * vmf_mean_cosine(vmf.kappa));
+    }
+    return sum;
+}
+
+/// The records of a cell summed up, freaks cut.
+ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std::uint32_t> chosen) {
+    std::vector<double> leaving, connected;
+    leaving.reserve(chosen.size());
+    connected.reserve(chosen.size());
+    for (const std::uint32_t i : chosen) {
+        leaving.push_back(records[i].leaving);
+        connected.push_back(records[i].connected);
+    }
+    const double most_leaving = weight_limit(leaving), most_connected = weight_limit(connected);
+    double leaving_sum = 0, leaving_square = 0, connected_sum = 0;
+    Imath::V3d direction(0, 0, 0);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const double out = std::min(leaving[i], most_leaving), in = std::min(connected[i], most_connected);
+        leaving_sum += out;
+        leaving_square += out * out;
+        connected_sum += in;
+        if (in > 0) {
+            direction += Imath::V3d(records[chosen[i]].to_light) * in;
+        }
+    }
+    return {static_cast<float>(chosen.size()), static_cast<float>(leaving_sum), static_cast<float>(leaving_square),
+            static_cast<float>(connected_sum), Vec3(direction)};
+}
+
+ScatteredLight light_of(const ScatterSums& sums, const Region& region) {
+    ScatteredLight light;
+    light.walked = {region.fluence(), mean_direction(region.mixture())};
+    if (sums.records > 0) {
+        light.connected.fluence = sums.connected / sums.records;
+        light.leaving = sums.leaving / sums.records;
+    }
+    if (sums.connected > 0) {
+        light.connected.mean = sums.connected_direction / sums.connected;
+    }
+    if (light.leaving > 0) {
+        light.noise = std::max(1.0f, sums.leaving_square / sums.records / (light.leaving * light.leaving));
+    }
+    return light;
+}
+
+}  // namespace
+
+/// Sees a field's inside.
+class ScatterFitting {
+public:
+    static Field fit(Field field, std::span<const ScatterRecord> records, double decay, int threads) {
+        // A counting sort of the usable records by cell.
+        std::vector<std::uint32_t> begin(field.size() + 1, 0), cell_of(records.size());
+        constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            cell_of[i] = is_usable(records[i]) ? field.nodes_[field.leaf_of(records[i].position)].child : none;
+            if (cell_of[i] != none) {
+                ++begin[cell_of[i] + 1];
+            }
+        }
+        for (std::size_t cell = 0; cell < field.size(); ++cell) {
+            begin[cell + 1] += begin[cell];
+        }
+        std::vector<std::uint32_t> order(begin.back()), next = begin;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            if (cell_of[i] != none) {
+                order[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+            }
+        }
+        parallel_for(field.size(), threads, [&](std::size_t cell) {
+            ScatterSums& sums = field.memories_[cell].scattered;
+            sums = sums.scaled(static_cast<float>(decay));
+            sums += sums_of(records, std::span(order).subspan(begin[cell], begin[cell + 1] - begin[cell]));
+            field.scattered_[cell] = light_of(sums, field.regions_[cell]);
+        });
+        return field;
+    }
+};
+
+Field fit_scattered(Field field, std::span<const ScatterRecord> records, double decay, int threads) {
+    if (!(decay >= 0 && decay <= 1)) {
+        throw InputError("guiding field: the decay must be 0 to 1");
+    }
+    return ScatterFitting::fit(std::move(field), records, decay, threads);
+}
+
+}  // namespace wend::guide
