@@ -25,6 +25,7 @@ struct FlightEnd {
 
     Kind kind = Kind::nothing;
     Vec3 position{0, 0, 0};  ///< of the surface or interface
+    Vec3 normal{0, 0, 0};    ///< of a surface, towards the segment
     /// Radiance of lights at the end, with their weights of multiple importance sampling, as a scalar.
     float emitted = 0;
 };

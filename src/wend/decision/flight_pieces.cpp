@@ -12,13 +12,12 @@ constexpr float deepest = 40;
 
 }  // namespace
 
-FlightPieces::FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels, float doubtful)
+FlightPieces::FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels)
     : extinction_(extinction),
       rate_(extinction * channels),
       scattering_rate_(scattering * channels),
       channels_(channels),
-      grey_(extinction.r == extinction.g && extinction.g == extinction.b),
-      doubtful_(doubtful) {
+      grey_(extinction.r == extinction.g && extinction.g == extinction.b) {
     for (int c = 0; c < 3; ++c) {
         albedo_[c] = extinction[c] > 0 ? channels[c] * scattering[c] / extinction[c] : 0.0f;
     }
@@ -67,14 +66,6 @@ void FlightPieces::finish(float length, float ahead, bool level) {
     total_ = lit + ahead * attenuated(channels_, depth_);
 }
 
-float FlightPieces::with_doubt(float sure, float scale, const Rgb& weights, const Rgb& passed) const {
-    if (doubtful_ == 0) {
-        return sure;
-    }
-    const Rgb half(std::sqrt(passed.r), std::sqrt(passed.g), std::sqrt(passed.b));
-    return (1 - doubtful_) * sure + doubtful_ * scale * dot(weights, half);
-}
-
 FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float depth, float classical_share) const {
     Outcome o;
     o.scatters = true;
@@ -82,7 +73,7 @@ FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float depth
     o.distance = std::clamp(piece.t_in + (depth - piece.depth) / piece.density, piece.t_in, piece.t_out);
     const Rgb passed = transmitted(depth);
     o.classical = piece.density * dot(rate_, passed);
-    o.density = classical_share * with_doubt(o.classical, 0.5f * piece.density, rate_, passed);
+    o.density = classical_share * o.classical;
     if (classical_share < 1) {
         o.density += (1 - classical_share) * piece.density * piece.in_scattered / total_ * dot(scattering_rate_, passed);
     }
@@ -105,7 +96,7 @@ FlightPieces::Outcome FlightPieces::end(float classical_share) const {
     o.depth = depth_;
     const Rgb passed = transmitted(depth_);
     o.classical = dot(channels_, passed);
-    o.density = classical_share * with_doubt(o.classical, 1, channels_, passed);
+    o.density = classical_share * o.classical;
     if (classical_share < 1) {
         o.density += (1 - classical_share) * ahead_ / total_ * o.classical;
     }
@@ -116,9 +107,7 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
     const auto rescaled = [](float v) { return std::clamp(v, 0.0f, 0x1.fffffep-1f); };
     if (u < classical_share) {
         u = rescaled(u / classical_share);
-        const bool doubts = u < doubtful_;
-        u = rescaled(doubts ? u / doubtful_ : (u - doubtful_) / (1 - doubtful_));
-        const float rate = extinction_[choose_channel(channels_, u)] * (doubts ? 0.5f : 1.0f);
+        const float rate = extinction_[choose_channel(channels_, u)];
         const float depth = rate > 0 ? -std::log1p(-u) / rate : std::numeric_limits<float>::infinity();
         const Piece* piece = std::partition_point(pieces_, pieces_ + count_,
                                                   [&](const Piece& p) { return depth_after(p) <= depth; });

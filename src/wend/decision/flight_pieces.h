@@ -12,8 +12,7 @@ namespace wend {
 /// and the end, behind which radiance A comes, with probability
 ///     α Σ_c w_c e^{-σ_c X} + (1 - α) A / Z · Σ_c w_c e^{-σ_c X},
 /// where α is the classical share, w_c are the weights of the colour channels and Z makes the second terms add up to 1.
-/// Where densities are guesses, a part of the classical flights takes them for half of that, which bounds the weight of
-/// those that get through where the guess is too high. A value of fixed size without heap memory.
+/// A value of fixed size without heap memory.
 class FlightPieces {
 public:
     /// A place in a flight and its density or, at the end, probability.
@@ -27,9 +26,8 @@ public:
         float classical = 0;
     };
 
-    /// Coefficients at density 1, and weights of the channels that add up to 1. `doubtful` is the part of the classical
-    /// flights for which densities are halved, 0 to 1.
-    FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels, float doubtful = 0);
+    /// Coefficients at density 1, and weights of the channels that add up to 1.
+    FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels);
 
     /// The next piece, behind the last one; what is between them is empty. `density` and `in_scattered` are not
     /// negative. Beyond the room for pieces, or where hardly any light gets to, it is joined to the last one.
@@ -65,9 +63,6 @@ private:
     /// e^{-σ_c depth}.
     Rgb transmitted(float depth) const;
     float attenuated(const Rgb& weights, float depth) const { return dot(weights, transmitted(depth)); }
-    /// The classical density with its doubtful part, from the sure one and the transmittances: those of half the density
-    /// are their roots.
-    float with_doubt(float sure, float scale, const Rgb& weights, const Rgb& passed) const;
     Outcome collision_in(const Piece& piece, float depth, float classical_share) const;
 
     static constexpr int capacity = 160;
@@ -76,7 +71,6 @@ private:
     /// w_c times σ_c, σs_c, 1 and σs_c / σ_c.
     Rgb rate_, scattering_rate_, channels_, albedo_;
     bool grey_;
-    float doubtful_;
     int count_ = 0;
     float length_ = 0;
     float depth_ = 0;

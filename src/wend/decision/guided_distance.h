@@ -3,6 +3,7 @@
 
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
+#include <wend/decision/guided_tracking.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
@@ -13,17 +14,16 @@ namespace wend {
 template <class F>
 concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ray, const PhaseFunction& phase) {
     { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
-    { field.scattered_light(p)->leaving } -> std::convertible_to<float>;
-    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving > 0; });
+    { field.scattered_light(p)->leaving_to(p) } -> std::same_as<float>;
+    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving_to({}) > 0; });
     { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
 };
 
 /// Which part of the decision follows the light.
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
-/// Flights whose density is that of FlightPieces over the cells of the volume's field and of the medium. Homogeneous
-/// media have an exact weight, grids an estimate of their transmittance. Media that are a grid and emit light fly
-/// classically, since their light is found on the way.
+/// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous media
+/// by FlightPieces, through grids by GuidedTracking.
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
@@ -41,8 +41,7 @@ public:
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
             return fly(*homogeneous, start, u);
         }
-        const auto& grid = std::get<GridMedium>(medium);
-        return grid.emission() ? classical_.sample(medium, start, u, random) : fly(grid, start, u, random);
+        return fly(std::get<GridMedium>(medium), start, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -60,28 +59,27 @@ private:
             pieces.add(t_in, t_out, 1, light.in_scattered(start.ray.direction, medium.phase));
             return true;
         });
-        Flight flight = choose(pieces, start, u);
+        pieces.finish(start.length, ahead(start), levels());
+        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share_ : 1.0f, u);
+        Flight flight;
+        flight.scatters = outcome.scatters;
+        flight.distance = outcome.distance;
+        flight.boost = outcome.classical > 0 ? outcome.density / outcome.classical : 1.0f;
         const Rgb transmitted = transmittance(medium, flight.distance);
-        flight.weight *= flight.scatters ? medium.scattering * transmitted : transmitted;
+        flight.weight = (flight.scatters ? medium.scattering * transmitted : transmitted) *
+                        (outcome.density > 0 ? 1 / outcome.density : 0.0f);
         flight.emitted = emitted_along(medium, start.length);
         return flight;
     }
 
-    Flight fly(const GridMedium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        FlightPieces pieces(medium.extinction(), medium.scattering(), channel_probabilities(start.throughput),
-                            doubtful_share);
-        add_pieces(pieces, medium, start);
-        Flight flight = choose(pieces, start, u);
-        flight.weight *= estimate_transmittance(medium, start.ray, flight.distance, random);
-        if (flight.scatters) {
-            flight.weight *=
-                medium.scattering() * medium.density().interpolate(medium.to_index(start.ray).at(flight.distance));
-        }
-        return flight;
+    Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
+        GuidedTracking tracking(medium, start, classical_share_);
+        add_pieces(tracking, medium, start);
+        return tracking.fly(ahead(start), levels(), random);
     }
 
     /// The cells of the grid, cut where those of the field end.
-    void add_pieces(FlightPieces& pieces, const GridMedium& medium, const FlightStart& start) const {
+    void add_pieces(GuidedTracking& tracking, const GridMedium& medium, const FlightStart& start) const {
         struct Lit {
             float t_out, in_scattered;
         };
@@ -102,32 +100,21 @@ private:
                                             ++here;
                                         }
                                         const float t = here == last ? t_out : std::min(t_out, here->t_out);
-                                        pieces.add(t_in, t, cell.mean, here->in_scattered);
+                                        tracking.add(t_in, t, cell, here->in_scattered);
                                         t_in = t;
                                     }
                                     return true;
                                 });
     }
 
-    /// A flight whose weight is 1 over its density.
-    Flight choose(FlightPieces& pieces, const FlightStart& start, float u) const {
-        pieces.finish(start.length, ahead(start), guiding_ == DistanceGuiding::scatter_alone);
-        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share_ : 1.0f, u);
-        Flight flight;
-        flight.scatters = outcome.scatters;
-        flight.distance = outcome.distance;
-        flight.weight = Rgb(outcome.density > 0 ? 1 / outcome.density : 0.0f);
-        flight.emitted = Rgb(0.0f);
-        flight.boost = outcome.classical > 0 ? outcome.density / outcome.classical : 1.0f;
-        return flight;
-    }
+    bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }
 
     /// The radiance to be expected behind the end of the segment.
     float ahead(const FlightStart& start) const {
         const FlightEnd& end = start.end;
         if (end.kind == FlightEnd::Kind::surface) {
             const auto* light = surface_->scattered_light(end.position);
-            return end.emitted + (light ? light->leaving : 0.0f);
+            return end.emitted + (light ? light->leaving_to(end.normal) : 0.0f);
         }
         if (end.kind == FlightEnd::Kind::interface) {
             const auto* adjoint = volume_->find(end.position);
@@ -135,9 +122,6 @@ private:
         }
         return end.emitted;
     }
-
-    /// The cells' densities are means: some rays meet less.
-    static constexpr float doubtful_share = 0.25f;
 
     const Field* surface_;
     const Field* volume_;

@@ -44,7 +44,9 @@ public:
     }
 
     /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density.
-    void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume) {
+    /// `normal` is that of a surface on the side that the walk came from.
+    void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume,
+                 const Vec3& normal = {0, 0, 0}) {
         PathVertex v;
         v.position = position;
         v.direction = direction;
@@ -53,6 +55,7 @@ public:
         v.scattering = weight;
         v.parent = at_.vertex;
         v.in_volume = in_volume;
+        v.normal = normal;
         v.connected = at_.connected;
         v.to_light = at_.to_light;
         v.light_fluence = at_.light_fluence;

@@ -38,6 +38,8 @@ struct PathVertex {
     Rgb connected;
     Vec3 to_light{0, 0, 0};
     float light_fluence = 0;
+    /// Of the surface, on the side that the walk came from; zero in a volume.
+    Vec3 normal{0, 0, 0};
     /// The vertex whose direction led here: a lower index, or root.
     std::int32_t parent = root;
     bool in_volume = false;
@@ -57,7 +59,7 @@ inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
 
 /// What the vertex tells of the light scattered there.
 inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& incident) {
-    return {vertex.position, mean(vertex.connected + vertex.scattering * incident), vertex.light_fluence,
+    return {vertex.position, vertex.normal, mean(vertex.connected + vertex.scattering * incident), vertex.light_fluence,
             vertex.to_light};
 }
 

@@ -25,6 +25,8 @@ struct Record {
 /// there is ahead.
 struct ScatterRecord {
     Vec3 position;
+    /// Of the surface, on the side that the walk came from; zero in a volume.
+    Vec3 normal;
     /// Estimate of the radiance that leaves to where the walk came from, as a scalar.
     float leaving;
     /// What a connection to a light found there: an estimate of the fluence of the light that connections account for,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace wend::guide {
@@ -32,33 +33,47 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
         connected.push_back(records[i].connected);
     }
     const double most_leaving = weight_limit(leaving), most_connected = weight_limit(connected);
-    double leaving_sum = 0, leaving_square = 0, connected_sum = 0;
+    std::array<double, sides> count{}, leaving_sum{};
+    double leaving_square = 0, connected_sum = 0;
     Imath::V3d direction(0, 0, 0);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const double out = std::min(leaving[i], most_leaving), in = std::min(connected[i], most_connected);
-        leaving_sum += out;
+        const auto side = static_cast<std::size_t>(side_of(records[chosen[i]].normal));
+        ++count[side];
+        leaving_sum[side] += out;
         leaving_square += out * out;
         connected_sum += in;
         if (in > 0) {
             direction += Imath::V3d(records[chosen[i]].to_light) * in;
         }
     }
-    return {static_cast<float>(chosen.size()), static_cast<float>(leaving_sum), static_cast<float>(leaving_square),
-            static_cast<float>(connected_sum), Vec3(direction)};
+    ScatterSums sums;
+    std::copy(count.begin(), count.end(), sums.records.begin());
+    std::copy(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin());
+    sums.leaving_square = static_cast<float>(leaving_square);
+    sums.connected = static_cast<float>(connected_sum);
+    sums.connected_direction = Vec3(direction);
+    return sums;
 }
 
 ScatteredLight light_of(const ScatterSums& sums, const Region& region) {
     ScatteredLight light;
     light.walked = {region.fluence(), mean_direction(region.mixture())};
-    if (sums.records > 0) {
-        light.connected.fluence = sums.connected / sums.records;
-        light.leaving = sums.leaving / sums.records;
+    const float records = std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
+    const float leaving = std::accumulate(sums.leaving.begin(), sums.leaving.end(), 0.0f);
+    if (records > 0) {
+        light.connected.fluence = sums.connected / records;
+        // What is known of a side that few saw is little: it is drawn to the mean.
+        constexpr float prior = 4;
+        for (std::size_t side = 0; side < sides; ++side) {
+            light.leaving[side] = (sums.leaving[side] + prior * leaving / records) / (sums.records[side] + prior);
+        }
     }
     if (sums.connected > 0) {
         light.connected.mean = sums.connected_direction / sums.connected;
     }
-    if (light.leaving > 0) {
-        light.noise = std::max(1.0f, sums.leaving_square / sums.records / (light.leaving * light.leaving));
+    if (leaving > 0) {
+        light.noise = std::max(1.0f, sums.leaving_square * records / sqr(leaving));
     }
     return light;
 }

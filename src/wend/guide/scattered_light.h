@@ -4,6 +4,9 @@
 #include <wend/core/vector.h>
 #include <wend/medium/phase.h>
 
+#include <array>
+#include <cmath>
+
 namespace wend::guide {
 
 /// Light that arrives from everywhere, known by its amount and its mean direction alone.
@@ -14,16 +17,27 @@ struct ArrivingLight {
     Vec3 mean{0, 0, 0};
 };
 
+/// Sides of a surface: the axis that is nearest to its normal, and its sign.
+inline constexpr int sides = 6;
+inline int side_of(const Vec3& normal) {
+    const Vec3 size(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
+    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+    return 2 * axis + (normal[axis] < 0 ? 1 : 0);
+}
+
 /// The light scattered in a cell. As a function of direction, what arrives is taken for Henyey and Greenstein's
 /// function around its mean direction: that kind is closed under convolution, so the in-scattered radiance for a phase
 /// function of that kind costs one evaluation.
 struct ScatteredLight {
     /// What walks found on their way, and what their connections to lights did: together all the light.
     ArrivingLight walked, connected;
-    /// Radiance that leaves the vertices of the cell towards where walks came from.
-    float leaving = 0;
+    /// Radiance that leaves the vertices of the cell towards where walks came from, by the side that they came from: a
+    /// wall may be bright on one side and dark on the other.
+    std::array<float, sides> leaving{};
     /// Mean square of its estimates over the square of their mean, at least 1.
     float noise = 1;
+
+    float leaving_to(const Vec3& normal) const { return leaving[static_cast<std::size_t>(side_of(normal))]; }
 
     /// ∫ p(before, ω) L(ω) dω, in radiance.
     float in_scattered(const Vec3& before, const PhaseFunction& phase) const {
@@ -34,19 +48,28 @@ struct ScatteredLight {
 
 /// Sums over the records of a cell, older ones counting less.
 struct ScatterSums {
-    float records = 0;
-    float leaving = 0;
+    /// By side.
+    std::array<float, sides> records{}, leaving{};
     float leaving_square = 0;
     float connected = 0;
     Vec3 connected_direction{0, 0, 0};
 
     ScatterSums scaled(float factor) const {
-        return {records * factor,        leaving * factor,   leaving_square * factor,
-                connected * factor,      connected_direction * factor};
+        ScatterSums result = *this;
+        for (int side = 0; side < sides; ++side) {
+            result.records[side] *= factor;
+            result.leaving[side] *= factor;
+        }
+        result.leaving_square *= factor;
+        result.connected *= factor;
+        result.connected_direction *= factor;
+        return result;
     }
     ScatterSums& operator+=(const ScatterSums& o) {
-        records += o.records;
-        leaving += o.leaving;
+        for (int side = 0; side < sides; ++side) {
+            records[side] += o.records[side];
+            leaving[side] += o.leaving[side];
+        }
         leaving_square += o.leaving_square;
         connected += o.connected;
         connected_direction += o.connected_direction;

@@ -4,6 +4,7 @@
 
 #include <boost/crc.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -138,18 +139,23 @@ void put_statistics(std::string& out, const Statistics& statistics) {
 }
 
 void put_scattered(std::string& out, const ScatterSums& sums) {
-    for (const float sum : {sums.records, sums.leaving, sums.leaving_square, sums.connected}) {
-        put(out, sum);
-    }
+    put(out, sums.records);
+    put(out, sums.leaving);
+    put(out, sums.leaving_square);
+    put(out, sums.connected);
     put(out, sums.connected_direction);
 }
 
 ScatterSums take_scattered(Reader& in) {
     ScatterSums sums;
-    for (float* sum : {&sums.records, &sums.leaving, &sums.leaving_square, &sums.connected}) {
-        *sum = in.take_finite<float>();
-        Reader::require(*sum >= 0);
-    }
+    const auto take = [&in](float& sum) {
+        sum = in.take_finite<float>();
+        Reader::require(sum >= 0);
+    };
+    std::for_each(sums.records.begin(), sums.records.end(), take);
+    std::for_each(sums.leaving.begin(), sums.leaving.end(), take);
+    take(sums.leaving_square);
+    take(sums.connected);
     sums.connected_direction = in.take_vector();
     return sums;
 }

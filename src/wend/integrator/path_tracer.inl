@@ -112,9 +112,13 @@ private:
         }
         end.kind = scene_.is_interface(*hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
         end.position = hit->position;
+        end.normal = faced(*hit);
         end.emitted = hit->light >= 0 ? mean_value(emission(*hit)) : 0.0f;
         return end;
     }
+
+    /// The normal on the side that the walk comes from.
+    Vec3 faced(const Hit& hit) const { return dot(hit.normal, now_.ray.direction) < 0 ? hit.normal : -hit.normal; }
 
     bool scatter_in(const Medium& medium, float distance) {
         meet();
@@ -219,7 +223,7 @@ private:
         if (!s) {
             return false;
         }
-        scatter_into(*s, position, in_volume);
+        scatter_into(*s, position, in_volume ? Vec3(0, 0, 0) : faced(*hit_), in_volume);
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
@@ -387,10 +391,10 @@ private:
             log_->meet(now_.travelled);
         }
     }
-    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
+    void scatter_into(const DirectionSample& s, const Vec3& position, const Vec3& normal, bool in_volume) {
         now_.throughput *= s.weight();
         if (log_) {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume);
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, normal);
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
             log_->weigh(
                 {now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f, now_.throughput.b > 0 ? 1.0f : 0.0f});

@@ -199,7 +199,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
-        const GuidedDistance distance(&fields.surface, &fields.volume, classical_share,
+        const GuidedDistance distance(&fields.surface, &fields.volume, getenv("DS")?atof(getenv("DS")):classical_share,
                                       preset.distance ? DistanceGuiding::scatter_and_distance
                                                       : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);

@@ -1,0 +1,126 @@
+#include <wend/decision/guided_tracking.h>
+
+#include <wend/decision/channels.h>
+#include <wend/sampling/warp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+// How many times more tentative collisions than the majorant's there may be.
+constexpr float most_stretching = 4;
+
+}  // namespace
+
+GuidedTracking::GuidedTracking(const GridMedium& medium, const FlightStart& start, float classical_share)
+    : medium_(medium), start_(start), classical_share_(classical_share) {
+    const Rgb channels = channel_probabilities(start.throughput);
+    extinction_ = dot(channels, medium.extinction());
+    albedo_ = extinction_ > 0 ? dot(channels, medium.scattering()) / extinction_ : 0.0f;
+}
+
+void GuidedTracking::add(float t_in, float t_out, const MajorantGrid::Cell& cell, float in_scattered) {
+    if (count_ < capacity) {
+        pieces_[count_++] = {t_in, t_out, cell, in_scattered};
+        return;
+    }
+    Piece& last = pieces_[count_ - 1];
+    const float share = (t_out - t_in) / (t_out - last.t_in);
+    last.density = {0, std::max(last.density.maximum, cell.maximum),
+                    last.density.mean + share * (cell.mean - last.density.mean)};
+    last.in_scattered += share * (in_scattered - last.in_scattered);
+    last.t_out = t_out;
+}
+
+float GuidedTracking::expected(const Piece& piece, float length) const {
+    const float passed = std::exp(-extinction_ * piece.density.mean * length);
+    return albedo_ * piece.in_scattered * (1 - passed) + passed * piece.behind;
+}
+
+void GuidedTracking::look_ahead(float ahead) {
+    for (int i = count_; i-- > 0;) {
+        pieces_[i].behind = ahead;
+        ahead = expected(pieces_[i], pieces_[i].t_out - pieces_[i].t_in);
+    }
+}
+
+void GuidedTracking::level_out() {
+    float depth = 0, lit = 0;
+    for (int i = 0; i < count_; ++i) {
+        const float before = depth;
+        depth += extinction_ * pieces_[i].density.mean * (pieces_[i].t_out - pieces_[i].t_in);
+        lit += pieces_[i].in_scattered * (std::exp(-before) - std::exp(-depth));
+    }
+    const float mean = depth > 0 ? lit / -std::expm1(-depth) : 0.0f;
+    for (int i = 0; i < count_; ++i) {
+        pieces_[i].in_scattered = mean;
+    }
+}
+
+Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
+    if (level) {
+        level_out();
+    }
+    look_ahead(ahead);
+
+    Flight flight;
+    flight.distance = start_.length;
+    flight.weight = Rgb(1.0f);
+    flight.emitted = Rgb(0.0f);
+    const Rgb& extinction = medium_.extinction();
+    const float largest = max_value(extinction);
+    const Rgb relative = extinction / largest;
+    const GridEmission* emission = medium_.emission();
+    const auto index_ray = medium_.to_index(start_.ray);
+    Rgb channels = channel_probabilities(start_.throughput);
+    const bool grey = relative.r == relative.g && relative.g == relative.b;
+
+    for (int i = 0; i < count_; ++i) {
+        const Piece& piece = pieces_[i];
+        const float length = piece.t_out - piece.t_in;
+        const float foretold = expected(piece, length);
+        const float bright = albedo_ * piece.in_scattered;
+        // Collisions should come at this many times the rate of the medium; tentative ones come twice as often, so that
+        // there is a choice.
+        const float wanted = foretold > 0 ? bright / foretold : 1.0f;
+        const float rate = largest * std::max(piece.density.maximum,
+                                              std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
+                                                       most_stretching * piece.density.maximum));
+        // Double: steps in a very dense cell can be below the spacing of floats.
+        for (double t_exact = piece.t_in;;) {
+            t_exact += to_exponential(random.uniform(), rate);
+            if (t_exact >= piece.t_out) {
+                break;
+            }
+            const auto t = static_cast<float>(t_exact);
+            const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+            const float density = medium_.density().sample_nearest(index_ray.at(t), corner);
+            if (emission) {
+                flight.emitted +=
+                    flight.weight * medium_.absorption() * emission->at(start_.ray.at(t)) * (density / rate);
+            }
+            const float classical = largest * density * (grey ? 1.0f : dot(channels, relative)) / rate;
+            const float here = classical * bright;
+            const float on = (1 - classical) * expected(piece, piece.t_out - t);
+            const float guided = here + on > 0 ? here / (here + on) : classical;
+            const float real = classical_share_ * classical + (1 - classical_share_) * guided;
+            if (random.uniform() < real) {
+                flight.scatters = true;
+                flight.distance = t;
+                flight.weight *= medium_.scattering() * (density / (rate * real));
+                flight.boost *= real / classical;
+                return flight;
+            }
+            flight.weight *= (Rgb(1.0f) - extinction * (density / rate)) * (1 / (1 - real));
+            flight.boost *= classical < 1 ? (1 - real) / (1 - classical) : 1.0f;
+            if (!grey) {
+                channels = channel_probabilities(start_.throughput * flight.weight);
+            }
+        }
+    }
+    return flight;
+}
+
+}  // namespace wend
