@@ -14,11 +14,15 @@ constexpr int blocks_for(int lobes) {
     return (lobes + lanes_per_block - 1) / lanes_per_block;
 }
 
+/// Asks for lanes without numbers: every lane of a used block must be written before it is read.
+struct Unset {};
+
 /// One number per lobe.
 struct alignas(16) Lanes {
-    float value[max_lobes] = {};
+    float value[max_lobes];
 
-    Lanes() = default;
+    Lanes() : value{} {}
+    explicit Lanes(Unset) {}
     // Written out, since compilers copy a structure of many lanes by a slow string instruction otherwise.
     Lanes(const Lanes& other) { std::memcpy(value, other.value, sizeof value); }
     Lanes& operator=(const Lanes& other) {
@@ -30,14 +34,15 @@ struct alignas(16) Lanes {
     float operator[](int i) const { return value[i]; }
 };
 
-/// Calls body(i) for every lane of the first `blocks` blocks.
+/// Calls body(i) for every lane of the first `blocks` blocks, one at least.
 template <class Body>
 inline void for_lanes(int blocks, const Body& body) {
-    for (int block = 0; block < blocks; ++block) {
+    int block = 0;
+    do {
         for (int j = 0; j < lanes_per_block; ++j) {
             body(block * lanes_per_block + j);
         }
-    }
+    } while (++block < blocks);
 }
 
 /// Combines the lanes of the first `blocks` blocks by an associative and commutative operation, in an order that does
@@ -45,18 +50,15 @@ inline void for_lanes(int blocks, const Body& body) {
 template <class Operation>
 inline float reduce_lanes(int blocks, const Lanes& lanes, const Operation& combine) {
     static_assert(lanes_per_block == 8);
-    float a[8];
-    for (int j = 0; j < 8; ++j) {
-        a[j] = lanes.value[j];
-    }
-    for (int block = 1; block < blocks; ++block) {
-        for (int j = 0; j < 8; ++j) {
-            a[j] = combine(a[j], lanes.value[block * 8 + j]);
-        }
-    }
+    // By half blocks: what was just stored by wide instructions comes back at once by narrower ones, not the reverse.
     float b[4];
     for (int j = 0; j < 4; ++j) {
-        b[j] = combine(a[j], a[j + 4]);
+        b[j] = combine(lanes.value[j], lanes.value[j + 4]);
+    }
+    for (int block = 1; block < blocks; ++block) {
+        for (int j = 0; j < 4; ++j) {
+            b[j] = combine(b[j], combine(lanes.value[block * 8 + j], lanes.value[block * 8 + j + 4]));
+        }
     }
     return combine(combine(b[0], b[2]), combine(b[1], b[3]));
 }

@@ -11,29 +11,36 @@ namespace wend::guide {
 /// (Z below 1e-20), it is V instead, and the integral 0.
 class MixtureProduct {
 public:
-    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes);
+    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture), lobes_(lobes) {
+        weigh_parts(mixture);
+    }
+    MixtureProduct(const MixtureView& view, const AxialLobes& lobes) : mixture_(view), lobes_(lobes) {
+        weigh_parts(view.mixture_);
+    }
 
     /// Z = ∫ V H dω, in 1/sr.
     float integral() const { return integral_; }
 
     /// Density at a unit direction, in 1/sr.
-    float density(const Vec3& direction) const {
-        return scale_ * mixture_.density(direction) * lobes_.density(direction);
-    }
+    float density(const Vec3& direction) const;
 
     /// A direction distributed by the density, from a point of [0,1)².
     Vec3 sample(Vec2 u) const;
 
 private:
-    void weigh_parts();
+    /// Sets the numbers below, and the lobes to the uniform one where the product is too small.
+    void weigh_parts(const VmfMixture& source);
 
     VmfMixture mixture_;
     AxialLobes lobes_;
     /// Of each lobe of the mixture, its part of ∫ V H dω; and their sum.
-    Lanes parts_;
+    Lanes parts_{Unset{}};
     float total_;
     float integral_;
     float scale_;
+    static constexpr int most_kept = 80;
+    bool keeps_pairs() const { return lobes_.size() * mixture_.blocks() * lanes_per_block <= most_kept; }
+    float pairs_[most_kept];
 };
 
 }  // namespace wend::guide
