@@ -45,6 +45,22 @@ inline void for_lanes(int blocks, const Body& body) {
     } while (++block < blocks);
 }
 
+/// The numbers of one block, by the compilers' own vectors: for sums over what is stored block after block, which loops
+/// over single lanes are not always recognized as. Lowered to what the target has.
+using Block [[gnu::vector_size(lanes_per_block * sizeof(float))]] = float;
+
+/// to[i] = Σ_j from[j * stride + i] for the lanes of one block, from the first of `count` rows on.
+inline void sum_rows(const float* from, int count, int stride, float* to) {
+    Block sum;
+    std::memcpy(&sum, from, sizeof sum);
+    for (int j = 1; j < count; ++j) {
+        Block row;
+        std::memcpy(&row, from + j * stride, sizeof row);
+        sum += row;
+    }
+    std::memcpy(to, &sum, sizeof sum);
+}
+
 /// Combines the lanes of the first `blocks` blocks by an associative and commutative operation, in an order that does
 /// not depend on the vector width.
 template <class Operation>

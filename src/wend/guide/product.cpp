@@ -13,10 +13,6 @@ namespace {
 
 constexpr float least_integral = 1e-20f;
 
-/// Numbers for pairs of lobes, those of one axial lobe side by side. Each step of a computation goes over all pairs
-/// before the next one: a single long chain of dependent operations leaves most of a processor waiting.
-using Pairs = float[AxialLobes::capacity * max_lobes];
-
 /// What ∫ f g dω of two lobes needs but for exponentials: divided by 2 pi times the product of their densities at their
 /// means it is e^exponent · (1 - e^{-2 joint}) / joint. No two terms cancel.
 struct Overlap {
@@ -67,20 +63,11 @@ WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
             factor[first + i] = amplitude * source.amplitude_[i] * overlap.reciprocal;
         });
     }
-    Lanes parts(Unset{});
-    for_lanes(blocks, [&](int i) { parts[i] = 0; });
-    for (int j = 0; j < lobes_.size(); ++j) {
-        for_lanes(blocks, [&, first = j * lanes](int i) {
-            const float pair = factor[first + i] * (fast_exp(exponent[first + i]) * fast_expm1(-2 * joint[first + i]));
-            factor[first + i] = pair;
-            parts[i] += pair;
-        });
+    for_lanes(blocks * lobes_.size(), [&](int k) { pairs_[k] = factor[k] * fast_exp(exponent[k]) * fast_expm1(-2 * joint[k]); });
+    for (int first = 0; first < lanes; first += lanes_per_block) {
+        sum_rows(pairs_ + first, lobes_.size(), lanes, parts_.value + first);
     }
-    parts_ = parts;
-    if (keeps_pairs()) {
-        for_lanes(blocks * lobes_.size(), [&](int k) { pairs_[k] = factor[k]; });
-    }
-    total_ = sum_lanes(blocks, parts);
+    total_ = sum_lanes(blocks, parts_);
     integral_ = total_;
     if (!(total_ > least_integral)) {
         lobes_ = AxialLobes();

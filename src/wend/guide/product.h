@@ -38,9 +38,8 @@ private:
     float total_;
     float integral_;
     float scale_;
-    static constexpr int most_kept = 80;
-    bool keeps_pairs() const { return lobes_.size() * mixture_.blocks() * lanes_per_block <= most_kept; }
-    float pairs_[most_kept];
+    using Pairs = float[AxialLobes::capacity * max_lobes];
+    Pairs pairs_;
 };
 
 }  // namespace wend::guide
