@@ -13,6 +13,10 @@ namespace {
 
 constexpr float least_integral = 1e-20f;
 
+/// 1 - e^{-2 joint} is 1 from here on. Larger concentrations would pass through numbers too small to be normal, which
+/// processors are slow at.
+constexpr float saturated = 20;
+
 /// What ∫ f g dω of two lobes needs but for exponentials: divided by 2 pi times the product of their densities at their
 /// means it is e^exponent · (1 - e^{-2 joint}) / joint. No two terms cancel.
 struct Overlap {
@@ -59,7 +63,7 @@ WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
         for_lanes(blocks, [&, first = j * lanes](int i) {
             const Overlap overlap(source.kappa_[i], kappa, near[i], far[i]);
             exponent[first + i] = overlap.exponent;
-            joint[first + i] = overlap.joint;
+            joint[first + i] = overlap.joint < saturated ? overlap.joint : saturated;
             factor[first + i] = amplitude * source.amplitude_[i] * overlap.reciprocal;
         });
     }
