@@ -42,8 +42,11 @@ inline float vmf_spread(float kappa) {
 
 inline Vec3 Vmf::sample(Vec2 u) const {
     WEND_EXPECT(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
-    // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}).
-    const float beyond = std::min(one_minus_epsilon, -u.x * fast_expm1(-2 * kappa));
+    // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}). Of all but wide lobes the
+    // denominator is 1, which need not be waited for.
+    constexpr float narrow = 10;
+    const float all = kappa > narrow ? 1.0f : -fast_expm1(-2 * kappa);
+    const float beyond = std::min(one_minus_epsilon, u.x * all);
     const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) / kappa) : 2 * u.x;
     const float sine = safe_sqrt(s * (2 - s));
     const Turn azimuth = fast_turn(u.y);
