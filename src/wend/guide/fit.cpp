@@ -394,6 +394,11 @@ private:
         Imath::V3d offsets(0, 0, 0), squares(0, 0, 0);
         double seen = 0;
         for (std::size_t i = cell.begin; i < cell.end; i += stride) {
+            // The records of a cell lie far apart.
+            constexpr std::size_t ahead = 16;
+            if (const std::size_t next = i + ahead * stride; next < cell.end) {
+                __builtin_prefetch(&record(next));
+            }
             const Record& r = record(i);
             const Vec3 offset = reference - r.position;
             radius_squared = std::max(radius_squared, length_squared(offset));

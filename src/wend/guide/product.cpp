@@ -67,7 +67,8 @@ WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
             factor[first + i] = amplitude * source.amplitude_[i] * overlap.reciprocal;
         });
     }
-    for_lanes(blocks * lobes_.size(), [&](int k) { pairs_[k] = factor[k] * fast_exp(exponent[k]) * fast_expm1(-2 * joint[k]); });
+    for_lanes(blocks * lobes_.size(),
+              [&](int k) { pairs_[k] = factor[k] * fast_exp(exponent[k]) * fast_expm1(-2 * joint[k]); });
     for (int first = 0; first < lanes; first += lanes_per_block) {
         sum_rows(pairs_ + first, lobes_.size(), lanes, parts_.value + first);
     }
@@ -88,7 +89,8 @@ float MixtureProduct::density(const Vec3& direction) const {
 }
 
 namespace {
-/// The index at which the sum of the weights, each `stride` after the other, passes the target, which becomes what is missing there.
+/// The index at which the sum of the weights, each `stride` after the other, passes the target, which becomes what is
+/// missing there.
 inline int descend(const float* weights, int count, int stride, float& target) {
     int chosen = 0;
     float sum = 0, below = 0;
@@ -101,7 +103,7 @@ inline int descend(const float* weights, int count, int stride, float& target) {
     target -= below;
     return chosen;
 }
-}
+}  // namespace
 
 WEND_VECTOR_CLONES Vec3 MixtureProduct::sample(Vec2 u) const {
     float target = u.x * total_;

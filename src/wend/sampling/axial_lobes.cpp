@@ -11,11 +11,11 @@
 
 namespace wend {
 
-AxialLobes::AxialLobes() : kappa_{}, amplitude_{} {
+AxialLobes::AxialLobes() {
     amplitude_[0] = inv_4pi;
 }
 
-AxialLobes::AxialLobes(std::span<const AxialLobe> lobes) : size_(static_cast<int>(lobes.size())), kappa_{}, amplitude_{} {
+AxialLobes::AxialLobes(std::span<const AxialLobe> lobes) : size_(static_cast<int>(lobes.size())) {
     WEND_EXPECT(!lobes.empty() && lobes.size() <= capacity);
     double total = 0;
     for (const AxialLobe& lobe : lobes) {
@@ -42,6 +42,7 @@ AxialLobes AxialLobes::around(const Vec3& axis) const {
 
 WEND_VECTOR_CLONES float AxialLobes::density(const Vec3& direction) const {
     // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
+    constexpr int block = 8;
     static_assert(capacity % block == 0);
     const float before = 0.5f * length_squared(direction - axis_), behind = 0.5f * length_squared(direction + axis_);
     float part[block] = {};

@@ -4,7 +4,6 @@
 
 #include <wend/core/vector.h>
 
-#include <cstring>
 #include <span>
 
 namespace wend {
@@ -32,17 +31,6 @@ public:
     /// fit's concentration (ruppert2020).
     static const AxialLobes& cosine();
 
-    AxialLobes(const AxialLobes& other) { *this = other; }
-    AxialLobes& operator=(const AxialLobes& other) {
-        axis_ = other.axis_;
-        size_ = other.size_;
-        for (int first = 0; first < size_; first += block) {
-            std::memcpy(kappa_ + first, other.kappa_ + first, block * sizeof(float));
-            std::memcpy(amplitude_ + first, other.amplitude_ + first, block * sizeof(float));
-        }
-        return *this;
-    }
-
     /// The same lobes along another axis, of unit length.
     AxialLobes around(const Vec3& axis) const;
 
@@ -60,13 +48,10 @@ public:
     Vec3 sample(Vec2 u) const;
 
 private:
-    static constexpr int block = 8;
-
     Vec3 axis_{0, 0, 1};
     int size_ = 1;
-    /// Only whole blocks that hold lobes have numbers; amplitudes beyond the lobes are 0.
-    float kappa_[capacity];
-    float amplitude_[capacity];
+    float kappa_[capacity] = {};
+    float amplitude_[capacity] = {};
 };
 
 }  // namespace wend
