@@ -34,15 +34,14 @@ struct alignas(16) Lanes {
     float operator[](int i) const { return value[i]; }
 };
 
-/// Calls body(i) for every lane of the first `blocks` blocks, one at least.
+/// Calls body(i) for every lane of the first `blocks` blocks.
 template <class Body>
 inline void for_lanes(int blocks, const Body& body) {
-    int block = 0;
-    do {
+    for (int block = 0; block < blocks; ++block) {
         for (int j = 0; j < lanes_per_block; ++j) {
             body(block * lanes_per_block + j);
         }
-    } while (++block < blocks);
+    }
 }
 
 /// The numbers of one block, by the compilers' own vectors: for sums over what is stored block after block, which loops

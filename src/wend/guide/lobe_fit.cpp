@@ -64,10 +64,8 @@ struct SumLanes {
     }
 };
 
-/// The number of blocks is a constant for the compiler to keep what it can in registers.
-template <int blocks>
-[[gnu::always_inline]] inline void add_observations(const LobeLanes& lobes, std::span<const Observation> observations,
-                                                    SumLanes& sums) {
+WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
+    SumLanes sums;
     for (const Observation& o : observations) {
         const Vec3 w = o.direction, t = o.offset;
         const float along = dot(w, t);
@@ -76,7 +74,7 @@ template <int blocks>
 
         float x[max_lobes], y[max_lobes], z[max_lobes], beyond[max_lobes];
         Lanes exponent;
-        for_lanes(blocks, [&](int i) {
+        for_lanes(lobes.blocks, [&](int i) {
             // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
             // reference point.
             const float b = lobes.inverse_distance[i];
@@ -89,12 +87,12 @@ template <int blocks>
             beyond[i] = dx * dx + dy * dy + dz * dz;
             exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
         });
-        const float largest = largest_lane(blocks, exponent);
+        const float largest = largest_lane(lobes.blocks, exponent);
         Lanes density;
-        for_lanes(blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
-        const float scale = o.weight / sum_lanes(blocks, density);
+        for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
+        const float scale = o.weight / sum_lanes(lobes.blocks, density);
 
-        for_lanes(blocks, [&](int i) {
+        for_lanes(lobes.blocks, [&](int i) {
             const float weight = density[i] * scale;
             const float weighted_inverse = weight * o.inverse_distance;
             sums.weight[i] += weight;
@@ -122,15 +120,6 @@ template <int blocks>
             // 1 - cos is half the squared chord.
             sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
         });
-    }
-}
-
-WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
-    SumLanes sums;
-    if (lobes.blocks == 1) {
-        add_observations<1>(lobes, observations, sums);
-    } else {
-        add_observations<2>(lobes, observations, sums);
     }
     return sums;
 }
