@@ -37,6 +37,28 @@ struct Overlap {
     }
 };
 
+/// The first of the weights, each `stride` after the other, at which their sum passes the target; the target becomes
+/// what is missing there. One weight at least must be positive.
+inline int descend(const float* weights, int count, int stride, float& target) {
+    // No branch depends on the target: the processor could not guess it.
+    int chosen = 0;
+    float sum = 0, below = 0;
+    for (int i = 0; i < count; ++i) {
+        sum += weights[i * stride];
+        const bool passed = sum <= target;
+        chosen += passed ? 1 : 0;
+        below = passed ? sum : below;
+    }
+    target -= below;
+    if (chosen == count) {  // by rounding
+        do {
+            --chosen;
+        } while (chosen > 0 && !(weights[chosen * stride] > 0));
+        target = weights[chosen * stride];
+    }
+    return chosen;
+}
+
 }  // namespace
 
 MixtureProduct VmfMixture::product(const AxialLobes& lobes) const {
@@ -55,6 +77,8 @@ WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
         to_axis[i] = sqr(x - axis.x) + sqr(y - axis.y) + sqr(z - axis.z);
         to_opposite[i] = sqr(x + axis.x) + sqr(y + axis.y) + sqr(z + axis.z);
     });
+    // Each step goes over all pairs before the next one: a single long chain of dependent operations leaves most of a
+    // processor waiting.
     Pairs exponent, joint, factor;
     for (int j = 0; j < lobes_.size(); ++j) {
         const float kappa = std::abs(lobes_.kappa(j)), amplitude = -2 * pi * lobes_.amplitude(j);
@@ -77,7 +101,7 @@ WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
     if (!(total_ > least_integral)) {
         lobes_ = AxialLobes();
         parts_ = mixture_.weight_;
-        std::copy(std::begin(mixture_.weight_.value), std::end(mixture_.weight_.value), pairs_);
+        for_lanes(blocks, [&](int i) { pairs_[i] = mixture_.weight_[i]; });
         total_ = 1;
         integral_ = 0;
     }
@@ -88,30 +112,11 @@ float MixtureProduct::density(const Vec3& direction) const {
     return scale_ * mixture_.density(direction) * lobes_.density(direction);
 }
 
-namespace {
-/// The index at which the sum of the weights, each `stride` after the other, passes the target, which becomes what is
-/// missing there.
-inline int descend(const float* weights, int count, int stride, float& target) {
-    int chosen = 0;
-    float sum = 0, below = 0;
-    for (int i = 0; i < count; ++i) {
-        sum += weights[i * stride];
-        const bool passed = sum <= target;
-        chosen += passed ? 1 : 0;
-        below = passed ? sum : below;
-    }
-    target -= below;
-    return chosen;
-}
-}  // namespace
-
 WEND_VECTOR_CLONES Vec3 MixtureProduct::sample(Vec2 u) const {
     float target = u.x * total_;
-    int i = descend(parts_.value, mixture_.size(), 1, target);
-    i = i < mixture_.size() ? i : 0;
+    const int i = descend(parts_.value, mixture_.size(), 1, target);
     const int stride = mixture_.blocks() * lanes_per_block;
-    int j = descend(pairs_ + i, lobes_.size(), stride, target);
-    j = j < lobes_.size() ? j : 0;
+    const int j = descend(pairs_ + i, lobes_.size(), stride, target);
     const float own = target / pairs_[j * stride + i];
     const Vec3 mean(mixture_.mean_x_[i], mixture_.mean_y_[i], mixture_.mean_z_[i]);
     const Vec3 sum = mean * mixture_.kappa_[i] + lobes_.axis() * lobes_.kappa(j);

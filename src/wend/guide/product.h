@@ -8,7 +8,8 @@ namespace wend::guide {
 
 /// The normalized product V H / Z of a mixture V and lobes H, exact in both: samples come from the products of all
 /// pairs of their lobes, which are lobes again; the density asks V and H alone. Where the product is too small to tell
-/// (Z below 1e-20), it is V instead, and the integral 0.
+/// (Z below 1e-20), it is V instead, and the integral 0. Two kilobytes, filled where it is constructed: to be passed by
+/// reference.
 class MixtureProduct {
 public:
     MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture), lobes_(lobes) {
@@ -28,7 +29,11 @@ public:
     Vec3 sample(Vec2 u) const;
 
 private:
-    /// Sets the numbers below, and the lobes to the uniform one where the product is too small.
+    /// Numbers for pairs of lobes, those of one axial lobe side by side. Only the pairs there are have some.
+    using Pairs = float[AxialLobes::capacity * max_lobes];
+
+    /// Sets the numbers below, and the lobes to the uniform one where the product is too small. What does not depend on
+    /// the position is read from the mixture that was copied: reading what has just been written is slower.
     void weigh_parts(const VmfMixture& source);
 
     VmfMixture mixture_;
@@ -38,7 +43,7 @@ private:
     float total_;
     float integral_;
     float scale_;
-    using Pairs = float[AxialLobes::capacity * max_lobes];
+    /// Of each pair, its share of the part, so that a sample need not find them again.
     Pairs pairs_;
 };
 
