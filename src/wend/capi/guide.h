@@ -152,7 +152,7 @@ wend_status wend_field_load(const void* bytes, size_t size, wend_field** field, 
  * nothing, the field included. */
 typedef union wend_distribution {
     long double alignment;
-    unsigned char bytes[1024];
+    unsigned char bytes[2304];
 } wend_distribution;
 
 /* The shape of what scatters, as lobes around an axis that is given later: make one per material and keep it. */

@@ -81,8 +81,14 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        Distribution(const F& f, std::optional<Product> product, float fluence, float classical_share)
-            : f_(f), product_(std::move(product)), fluence_(fluence), classical_share_(classical_share) {}
+        /// `adjoint` may be null.
+        template <class Adjoint>
+        Distribution(const F& f, const Adjoint* adjoint, const Vec3& position, float classical_share)
+            : f_(f), fluence_(adjoint ? adjoint->fluence() : 0), classical_share_(classical_share) {
+            if (adjoint) {
+                product_.emplace(InPlace([&] { return adjoint->incident(position).product(f.lobes()); }));
+            }
+        }
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
             if (!product_) {
@@ -122,6 +128,14 @@ public:
             return product_ ? classical_share_ * classical + (1 - classical_share_) * product_->density(w) : classical;
         }
 
+        /// Becomes what a function returns where it is needed: a product is large, and is not copied on its way.
+        template <class Make>
+        struct InPlace {
+            Make make;
+            explicit InPlace(Make m) : make(std::move(m)) {}
+            operator Product() const { return make(); }
+        };
+
         const F& f_;
         std::optional<Product> product_;
         float fluence_;
@@ -134,15 +148,9 @@ public:
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         constexpr float least_boost = 0.05f;
-        std::optional<Product> product;
-        float fluence = 0;
-        if (f.is_guidable() && boost >= least_boost) {
-            if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
-                product = adjoint->incident(position).product(f.lobes());
-                fluence = adjoint->fluence();
-            }
-        }
-        return Distribution<F>(f, std::move(product), fluence, classical_share_);
+        const bool guidable = f.is_guidable() && boost >= least_boost;
+        const auto* adjoint = guidable ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
+        return Distribution<F>(f, adjoint, position, classical_share_);
     }
 
 private:

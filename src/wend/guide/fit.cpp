@@ -94,8 +94,6 @@ public:
         field_.trained_ = field_.trained_ || !order_.empty();
         report_.records = records_.size();
         report_.ignored = records_.size() - order_.size();
-        report_.dark = static_cast<std::size_t>(std::count_if(
-            order_.begin(), order_.end(), [&](const Entry& entry) { return records_[entry.record].radiance == 0; }));
         report_.cells = field_.size();
         report_.bytes = field_.bytes();
         return {std::move(field_), report_};
@@ -138,38 +136,52 @@ private:
         return memory_of(cell).statistics.count + static_cast<double>(cell.size());
     }
 
-    /// A stable counting sort of the usable records by leaf.
+    /// A stable counting sort of the usable records by leaf, in chunks that do not depend on the threads.
     void sort_into_leaves() {
         constexpr std::uint32_t unusable = std::numeric_limits<std::uint32_t>::max();
-        constexpr std::size_t block = 4096;
-        std::vector<std::uint32_t> node_of(records_.size());
-        parallel_for((records_.size() + block - 1) / block, threads_, [&](std::size_t b) {
-            for (std::size_t i = b * block; i < std::min((b + 1) * block, records_.size()); ++i) {
-                node_of[i] = is_usable(records_[i]) ? field_.leaf_of(records_[i].position) : unusable;
+        constexpr std::size_t chunk = 1 << 15;
+        const std::size_t chunks = (records_.size() + chunk - 1) / chunk;
+        const auto for_chunks = [&](const auto& body) {
+            parallel_for(chunks, threads_,
+                         [&](std::size_t c) { body(c, c * chunk, std::min((c + 1) * chunk, records_.size())); });
+        };
+        std::vector<std::uint32_t> node_of(records_.size(), unusable);
+        // Of each chunk, the records by leaf; then, where the next one belongs.
+        std::vector<std::vector<std::size_t>> next(chunks, std::vector<std::size_t>(field_.nodes_.size(), 0));
+        std::vector<std::size_t> dark(chunks, 0);
+        for_chunks([&](std::size_t c, std::size_t begin, std::size_t to) {
+            std::size_t without_radiance = 0;
+            for (std::size_t i = begin; i < to; ++i) {
+                if (is_usable(records_[i])) {
+                    node_of[i] = field_.leaf_of(records_[i].position);
+                    ++next[c][node_of[i]];
+                    without_radiance += records_[i].radiance == 0 ? 1 : 0;
+                }
+            }
+            dark[c] = without_radiance;
+        });
+        report_.dark = std::accumulate(dark.begin(), dark.end(), std::size_t{0});
+
+        std::size_t end = 0;
+        for (std::uint32_t node = 0; node < field_.nodes_.size(); ++node) {
+            const std::size_t begin = end;
+            for (std::vector<std::size_t>& of_chunk : next) {
+                const std::size_t count = of_chunk[node];
+                of_chunk[node] = end;
+                end += count;
+            }
+            if (end > begin) {
+                cells_.push_back({node, begin, end});
+            }
+        }
+        order_.resize(end);
+        for_chunks([&](std::size_t c, std::size_t begin, std::size_t to) {
+            for (std::size_t i = begin; i < to; ++i) {
+                if (node_of[i] != unusable) {
+                    order_[next[c][node_of[i]]++] = {records_[i].position, static_cast<std::uint32_t>(i)};
+                }
             }
         });
-
-        std::vector<std::size_t> next(field_.nodes_.size(), 0);
-        for (const std::uint32_t node : node_of) {
-            if (node != unusable) {
-                ++next[node];
-            }
-        }
-        std::size_t begin = 0;
-        for (std::uint32_t node = 0; node < next.size(); ++node) {
-            const std::size_t count = next[node];
-            if (count > 0) {
-                cells_.push_back({node, begin, begin + count});
-            }
-            next[node] = begin;
-            begin += count;
-        }
-        order_.resize(begin);
-        for (std::size_t i = 0; i < records_.size(); ++i) {
-            if (node_of[i] != unusable) {
-                order_[next[node_of[i]]++] = {records_[i].position, static_cast<std::uint32_t>(i)};
-            }
-        }
     }
 
     /// Splits the cells, level by level, until none is too full or a limit is reached.
@@ -378,6 +390,12 @@ private:
         Imath::V3d offsets(0, 0, 0), squares(0, 0, 0);
         double seen = 0;
         for (std::size_t i = cell.begin; i < cell.end; i += stride) {
+            // The records of a cell lie far apart.
+            constexpr std::size_t ahead = 16;
+            if (const std::size_t next = i + ahead * stride; next < cell.end) {
+                __builtin_prefetch(&record(next).position);
+                __builtin_prefetch(&record(next).distance);
+            }
             const Record& r = record(i);
             const Vec3 offset = reference - r.position;
             radius_squared = std::max(radius_squared, length_squared(offset));

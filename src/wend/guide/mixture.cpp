@@ -60,17 +60,19 @@ Vec3 VmfMixture::sample(Vec2 u) const {
 }
 
 WEND_VECTOR_CLONES VmfMixture VmfMixture::re_aimed(const Vec3& offset, const Lanes& inverse_distance) const {
-    VmfMixture result = *this;
-    for_lanes(blocks(), [&](int i) {
+    VmfMixture result(*this, Unset{});
+    for_lanes(blocks(), [&, offset](int i) {
         const float x = mean_x_[i] + offset.x * inverse_distance[i];
         const float y = mean_y_[i] + offset.y * inverse_distance[i];
         const float z = mean_z_[i] + offset.z * inverse_distance[i];
         const float length = std::sqrt(x * x + y * y + z * z);
         // On top of the source no direction is better than another.
         const float scale = 1 / (length + 1e-30f);
-        result.mean_x_[i] = length > 1e-3f ? x * scale : mean_x_[i];
-        result.mean_y_[i] = length > 1e-3f ? y * scale : mean_y_[i];
-        result.mean_z_[i] = length > 1e-3f ? z * scale : mean_z_[i];
+        const float own_x = mean_x_[i], own_y = mean_y_[i], own_z = mean_z_[i];
+        const bool far = length > 1e-3f;
+        result.mean_x_[i] = far ? x * scale : own_x;
+        result.mean_y_[i] = far ? y * scale : own_y;
+        result.mean_z_[i] = far ? z * scale : own_z;
     });
     return result;
 }

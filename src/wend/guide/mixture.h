@@ -49,12 +49,44 @@ public:
 private:
     friend class MixtureProduct;
 
+    /// The mixture with means that are still to be written.
+    explicit VmfMixture(const VmfMixture& other, Unset unset)
+        : size_(other.size_),
+          mean_x_(unset),
+          mean_y_(unset),
+          mean_z_(unset),
+          kappa_(other.kappa_),
+          weight_(other.weight_),
+          amplitude_(other.amplitude_) {}
+
     int blocks() const { return blocks_for(size_); }
 
     int size_;
     Lanes mean_x_, mean_y_, mean_z_, kappa_, weight_;
     /// Weight times density at the mean.
     Lanes amplitude_;
+};
+
+/// A mixture as seen from a displaced point (VmfMixture::re_aimed), before it is turned: its product comes cheaper
+/// than that of a mixture turned first. Refers to the mixture and the distances, which must outlive it; the other
+/// questions turn the mixture each time, so whoever has many of them should make a VmfMixture of this.
+class MixtureView {
+public:
+    MixtureView(const VmfMixture& mixture, const Vec3& offset, const Lanes& inverse_distance)
+        : mixture_(mixture), inverse_distance_(inverse_distance), offset_(offset) {}
+
+    operator VmfMixture() const { return mixture_.re_aimed(offset_, inverse_distance_); }
+
+    float density(const Vec3& direction) const { return VmfMixture(*this).density(direction); }
+    Vec3 sample(Vec2 u) const { return VmfMixture(*this).sample(u); }
+    MixtureProduct product(const AxialLobes& lobes) const;
+
+private:
+    friend class MixtureProduct;
+
+    const VmfMixture& mixture_;
+    const Lanes& inverse_distance_;
+    Vec3 offset_;
 };
 
 }  // namespace wend::guide

@@ -17,9 +17,9 @@ public:
     Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence)
         : reference_(reference), fluence_(fluence), mixture_(mixture), inverse_distance_(inverse_distance) {}
 
-    /// Distribution of the incident radiance at a position of the cell.
-    VmfMixture incident(const Vec3& position) const {
-        return mixture_.re_aimed(reference_ - position, inverse_distance_);
+    /// Distribution of the incident radiance at a position of the cell, as a view of this region.
+    MixtureView incident(const Vec3& position) const {
+        return MixtureView(mixture_, reference_ - position, inverse_distance_);
     }
 
     /// ∫ L dω averaged over the cell's records, in radiance times sr.
@@ -37,6 +37,7 @@ private:
 };
 
 static_assert(IncidentRadiance<VmfMixture>);
+static_assert(IncidentRadiance<MixtureView>);
 static_assert(Adjoint<Region>);
 
 }  // namespace wend::guide

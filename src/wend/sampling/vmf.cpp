@@ -52,16 +52,6 @@ float Vmf::density(const Vec3& direction) const {
     return vmf_peak(kappa) * std::exp(-0.5f * kappa * length_squared(direction - mean));
 }
 
-Vec3 Vmf::sample(Vec2 u) const {
-    WEND_EXPECT(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
-    // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}).
-    const float beyond = std::min(one_minus_epsilon, u.x * kappa * vmf_spread(kappa));
-    const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) / kappa) : 2 * u.x;
-    const float sine = safe_sqrt(s * (2 - s));
-    const Turn azimuth = fast_turn(u.y);
-    return Frame::from_z(mean).to_world({sine * azimuth.cosine, sine * azimuth.sine, 1 - s});
-}
-
 Vmf convolve(const Vmf& lobe, float kappa) {
     return {lobe.mean, vmf_kappa(vmf_mean_cosine(lobe.kappa) * vmf_mean_cosine(kappa))};
 }

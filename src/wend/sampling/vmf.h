@@ -1,8 +1,14 @@
 // The von Mises–Fisher distribution of directions: the bell curve of the sphere (docs/theory/learned_field.md).
 #pragma once
 
+#include <wend/core/contracts.h>
+#include <wend/core/frame.h>
 #include <wend/core/vector.h>
 #include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_log.h>
+#include <wend/numeric/fast_turn.h>
+
+#include <algorithm>
 
 namespace wend {
 
@@ -32,6 +38,19 @@ float vmf_peak(float kappa);
 inline float vmf_spread(float kappa) {
     const float positive = kappa > 1e-6f ? kappa : 1e-6f;
     return -fast_expm1(-2 * positive) / positive;
+}
+
+inline Vec3 Vmf::sample(Vec2 u) const {
+    WEND_EXPECT(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+    // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}). Of all but wide lobes the
+    // denominator is 1, which need not be waited for.
+    constexpr float narrow = 10;
+    const float all = kappa > narrow ? 1.0f : -fast_expm1(-2 * kappa);
+    const float beyond = std::min(one_minus_epsilon, u.x * all);
+    const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) / kappa) : 2 * u.x;
+    const float sine = safe_sqrt(s * (2 - s));
+    const Turn azimuth = fast_turn(u.y);
+    return Frame::from_z(mean).to_world({sine * azimuth.cosine, sine * azimuth.sine, 1 - s});
 }
 
 /// Mean cosine coth(kappa) - 1/kappa, in [0, 1).
