@@ -70,6 +70,8 @@ struct LobeAdjoint {
     Vmf lobe;
     guide::VmfMixture incident(const Vec3&) const { return guide::VmfMixture(std::array{guide::WeightedVmf{1, lobe}}); }
     float fluence() const { return 1; }
+    float classical_share() const { return share; }
+    float share = 0.25f;
 };
 
 struct LobeField {

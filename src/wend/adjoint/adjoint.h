@@ -27,13 +27,16 @@ concept IncidentRadiance = requires(const T& radiance, const AxialLobes& lobes) 
 
 /// An estimate of the radiance that a walk would still collect around a point.
 ///  - incident(x): the distribution of the incident radiance at x;
-///  - fluence(): its scale, ∫ L dω, in radiance times sr.
+///  - fluence(): its scale, ∫ L dω, in radiance times sr;
+///  - classical_share(): how far its directions are to be trusted, as the share in (0,1] that sampling the scattering
+///    function alone should keep beside them.
 /// The in-scattered radiance for a phase function f is therefore fluence() · incident(x).product(f).integral(), and the
 /// expected contribution of a continuation is the same number times the albedo.
 template <class T>
 concept Adjoint = requires(const T& adjoint, const Vec3& position) {
     { adjoint.incident(position) } -> IncidentRadiance;
     { adjoint.fluence() } -> std::convertible_to<float>;
+    { adjoint.classical_share() } -> std::convertible_to<float>;
 };
 
 /// In-scattered radiance at a point, ∫ f(ω) L(x, ω) dω, for the lobes of f.

@@ -27,6 +27,8 @@ public:
 
     UniformRadiance incident(const Vec3& /*position*/) const { return {}; }
     constexpr float fluence() const { return 4 * pi * radiance_; }
+    /// Any would do, both ways of sampling being the same; half costs least if they differ by rounding.
+    static constexpr float classical_share() { return 0.5f; }
 
 private:
     float radiance_;

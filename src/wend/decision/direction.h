@@ -19,6 +19,10 @@ struct DirectionSample {
     float density = 0;      ///< per steradian; a probability if specular
     bool specular = false;  ///< drawn from a discrete set of directions
     float boost = 1;        ///< density over what the scattering function's own sampling would have had
+    /// The densities that the scattering function's own sampling and the guide had, where it was drawn from a mixture
+    /// of both; otherwise 0.
+    float classical_density = 0;
+    float guided_density = 0;
 
     Rgb weight() const { return value * (1 / density); }
 };
@@ -74,8 +78,8 @@ public:
         std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()).product(AxialLobes()))>;
 
     /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
-    /// alone: it bounds the weight by 1/classical_share times the classical one.
-    GuidedDirection(const Field* surface, const Field* volume, float classical_share)
+    /// alone: it bounds the weight by 1/classical_share times the classical one. Nothing: each adjoint's own.
+    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> classical_share = std::nullopt)
         : surface_(surface), volume_(volume), classical_share_(classical_share) {}
 
     template <ScatteringFunction F>
@@ -105,12 +109,15 @@ public:
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
             }
-            const float own = s.density;
-            s.density = mixed(own, s.direction);
-            s.boost = own > 0 ? s.density / own : 1.0f;
+            s.classical_density = s.density;
+            s.guided_density = product_->density(s.direction);
+            s.density = mixed(s.classical_density, s.guided_density);
+            s.boost = s.classical_density > 0 ? s.density / s.classical_density : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
-        float density(const Vec3& w) const { return mixed(f_.density(w), w); }
+        float density(const Vec3& w) const {
+            return product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
+        }
 
         /// The adjoint's ∫ f L dω over the albedo of f; nothing where it is not known.
         std::optional<float> in_scattered() const {
@@ -118,8 +125,8 @@ public:
         }
 
     private:
-        float mixed(float classical, const Vec3& w) const {
-            return product_ ? classical_share_ * classical + (1 - classical_share_) * product_->density(w) : classical;
+        float mixed(float classical, float guided) const {
+            return classical_share_ * classical + (1 - classical_share_) * guided;
         }
 
         const F& f_;
@@ -135,20 +142,21 @@ public:
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         constexpr float least_boost = 0.05f;
         std::optional<Product> product;
-        float fluence = 0;
+        float fluence = 0, classical_share = 1;
         if (f.is_guidable() && boost >= least_boost) {
             if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
                 product = adjoint->incident(position).product(f.lobes());
                 fluence = adjoint->fluence();
+                classical_share = classical_share_.value_or(adjoint->classical_share());
             }
         }
-        return Distribution<F>(f, std::move(product), fluence, classical_share_);
+        return Distribution<F>(f, std::move(product), fluence, classical_share);
     }
 
 private:
     const Field* surface_;
     const Field* volume_;
-    float classical_share_;
+    std::optional<float> classical_share_;
 };
 
 }  // namespace wend

@@ -272,9 +272,12 @@ private:
         }
         Statistics& statistics = memory_of(cell).statistics;
         statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
-        const LearnedLobes learned = find_lobes(start(region), statistics.lobes, view.observations,
+        std::array<LobeSums, max_lobes> earlier = statistics.lobe_sums();
+        const LearnedLobes learned = find_lobes(start(region), earlier, view.observations,
                                                 view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
-        region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence());
+        statistics.keep(earlier);
+        region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence(),
+                        region.classical_share());
         const Vec3 mean = seen.offset / seen.located;
         return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
@@ -363,17 +366,20 @@ private:
         statistics.fluence += view.fluence;
         statistics.fluence_square += view.fluence_square;
         statistics.count += static_cast<double>(cell.size());
+        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+            statistics.share_sums.add(record(i));
+        }
 
         LobeModel model{region.mixture(), region.inverse_distance()};
         if (!view.observations.empty()) {
             statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
             const LearnedLobes learned =
-                fit_lobes(start(region), statistics.lobes, view, view.unit / statistics.unit, memory.radius);
+                fit_lobes(start(region), statistics.lobe_sums(), view, view.unit / statistics.unit, memory.radius);
             model = learned.model;
-            statistics.lobes = learned.sums;
+            statistics.keep(learned.sums);
         }
         region = Region(region.reference(), model.mixture, model.inverse_distance,
-                        static_cast<float>(statistics.fluence / statistics.count));
+                        static_cast<float>(statistics.fluence / statistics.count), statistics.share_sums.best());
     }
 
     /// Where a cell's fit starts.
@@ -507,13 +513,14 @@ private:
             const float inverse = region.inverse_distance()[i];
             const Vec3 to_source = region.mixture().lobe(i).vmf.mean + offset * inverse;
             inverse_distance[i] = inverse / std::max(length(to_source), 1e-3f);
-            LobeSums& sums = memory.statistics.lobes[i];
+            LobeSums sums = memory.statistics.lobes[static_cast<std::size_t>(i)].sums();
             sums.direction = Vec3(Imath::V3d(mixture.lobe(i).vmf.mean) * Imath::V3d(sums.direction).length());
             sums.turn = inverse_distance[i] * sums.spread;
             // Where in the new cell the earlier records were is not known.
             sums.offset = Vec3(0, 0, 0);
+            memory.statistics.lobes[static_cast<std::size_t>(i)] = sums;
         }
-        region = Region(reference, mixture, inverse_distance, region.fluence());
+        region = Region(reference, mixture, inverse_distance, region.fluence(), region.classical_share());
     }
 
     Field field_;

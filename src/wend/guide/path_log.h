@@ -35,12 +35,16 @@ public:
         }
     }
 
-    /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density.
-    void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume) {
+    /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density. Where the
+    /// density is that of a mixture, its parts are told as well.
+    void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume,
+                 float classical_density = 0, float guided_density = 0) {
         PathVertex v;
         v.position = position;
         v.direction = direction;
         v.density = density;
+        v.classical_density = classical_density;
+        v.guided_density = guided_density;
         v.arrival = at_.weight;
         v.scattering = weight;
         v.parent = at_.vertex;

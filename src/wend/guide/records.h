@@ -19,6 +19,12 @@ struct Record {
     float density;
     /// Distance to the next vertex along the direction; positive, and infinite where there is none.
     float distance;
+    /// The densities that classical sampling and the guide each had for the direction, and the scattering function with
+    /// its cosine times the radiance, a scalar too: they tell how the two are best mixed. All 0 where there was no
+    /// choice.
+    float classical_density = 0;
+    float guided_density = 0;
+    float scattered = 0;
 };
 
 /// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,

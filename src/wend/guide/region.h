@@ -14,8 +14,13 @@ public:
     Region() = default;
 
     /// `inverse_distance`: 1/distance of each lobe's source from the reference point; 0 where it is far or not known.
-    Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence)
-        : reference_(reference), fluence_(fluence), mixture_(mixture), inverse_distance_(inverse_distance) {}
+    Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence,
+           float classical_share = 0.5f)
+        : reference_(reference),
+          fluence_(fluence),
+          mixture_(mixture),
+          inverse_distance_(inverse_distance),
+          classical_share_(classical_share) {}
 
     /// Distribution of the incident radiance at a position of the cell.
     VmfMixture incident(const Vec3& position) const {
@@ -24,6 +29,9 @@ public:
 
     /// ∫ L dω averaged over the cell's records, in radiance times sr.
     float fluence() const { return fluence_; }
+
+    /// How much of directions is best drawn by classical sampling, as measured (share.h).
+    float classical_share() const { return classical_share_; }
 
     const Vec3& reference() const { return reference_; }
     const VmfMixture& mixture() const { return mixture_; }
@@ -34,6 +42,7 @@ private:
     float fluence_ = 0;
     VmfMixture mixture_;
     Lanes inverse_distance_;
+    float classical_share_ = 0.5f;
 };
 
 static_assert(IncidentRadiance<VmfMixture>);

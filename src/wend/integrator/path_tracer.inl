@@ -357,7 +357,8 @@ private:
     void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
         now_.throughput *= s.weight();
         if (log_) {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume);
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
+                          s.classical_density, s.guided_density);
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
             log_->weigh(
                 {now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f, now_.throughput.b > 0 ? 1.0f : 0.0f});

@@ -25,8 +25,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Half of the directions follow the scattering function alone, whatever the guide says.
-constexpr float classical_share = 0.5f;
 // Training ends after this many samples per pixel: from then on the field would change little.
 constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
@@ -197,7 +195,8 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
-        const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);
+        const GuidedDirection direction(&fields.surface, &fields.volume,
+                                        preset.direction ? std::nullopt : std::optional(1.0f));
         if (preset.guides_survival() && statistics.samples >= warm_up_samples && settings.exposure > 0) {
             plan.estimates = pixel_estimates(film.beauty(), statistics.samples);
             for (float& estimate : plan.estimates) {
