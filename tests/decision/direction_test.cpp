@@ -70,6 +70,7 @@ struct LobeAdjoint {
     Vmf lobe;
     guide::VmfMixture incident(const Vec3&) const { return guide::VmfMixture(std::array{guide::WeightedVmf{1, lobe}}); }
     float fluence() const { return 1; }
+    Rgb in_scattered(const guide::MixtureProduct& product) const { return Rgb(product.integral()); }
     float classical_share() const { return share; }
     float share = 0.25f;
 };

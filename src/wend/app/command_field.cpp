@@ -162,14 +162,20 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
                          {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
     }
     if (options.common.json != "-") {
-        streams.out << fmt::format("\nat {}, {} field: fluence {:.4g}, distances from {:.4g} {:.4g} {:.4g}\n",
-                                   options.at, part.name, region->fluence(), region->reference().x,
-                                   region->reference().y, region->reference().z)
-                    << text_table(rows) << "incident radiance by direction: " << options.picture << '\n';
+        streams.out
+            << fmt::format(
+                   "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
+                   options.at, part.name, region->fluence(), region->classical_share(), region->reference().x,
+                   region->reference().y, region->reference().z)
+            << text_table(rows) << "incident radiance by direction: " << options.picture << '\n';
     }
-    return {{"position", vector_json(position)}, {"part", part.name},
-            {"fluence", region->fluence()},      {"reference", vector_json(region->reference())},
-            {"lobes", std::move(lobes)},         {"picture", options.picture}};
+    return {{"position", vector_json(position)},
+            {"part", part.name},
+            {"fluence", region->fluence()},
+            {"classical_share", region->classical_share()},
+            {"reference", vector_json(region->reference())},
+            {"lobes", std::move(lobes)},
+            {"picture", options.picture}};
 }
 
 /// All cells as boxes in VTK's legacy text format.
@@ -177,6 +183,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     struct Cell {
         Box3 box;
         float fluence;
+        float classical_share;
         double samples;
         int lobes;
         int part;
@@ -184,7 +191,8 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     std::vector<Cell> cells;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].field->for_each_cell([&](const Box3& box, const guide::Region& region, double samples) {
-            cells.push_back({box, region.fluence(), samples, region.mixture().size(), static_cast<int>(p)});
+            cells.push_back({box, region.fluence(), region.classical_share(), samples, region.mixture().size(),
+                             static_cast<int>(p)});
         });
     }
     std::string text =
@@ -219,6 +227,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
         }
     };
     scalars("fluence", [](const Cell& cell) { return cell.fluence; });
+    scalars("classical_share", [](const Cell& cell) { return cell.classical_share; });
     scalars("samples", [](const Cell& cell) { return cell.samples; });
     scalars("lobes", [](const Cell& cell) { return cell.lobes; });
     scalars("volume", [](const Cell& cell) { return cell.part; });

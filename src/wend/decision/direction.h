@@ -49,7 +49,7 @@ public:
         explicit Distribution(const F& f) : f_(f) {}
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
         float density(const Vec3& w) const { return f_.density(w); }
-        std::optional<float> in_scattered() const { return std::nullopt; }
+        std::optional<Rgb> in_scattered() const { return std::nullopt; }
 
     private:
         const F& f_;
@@ -73,9 +73,9 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 template <AdjointField Field>
 class GuidedDirection {
 public:
+    using LocalAdjoint = std::remove_cvref_t<decltype(*std::declval<Field>().find(Vec3()))>;
     /// The distribution of what scatters times incident radiance.
-    using Product =
-        std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()).product(AxialLobes()))>;
+    using Product = std::remove_cvref_t<decltype(std::declval<LocalAdjoint>().incident(Vec3()).product(AxialLobes()))>;
 
     /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
     /// alone: it bounds the weight by 1/classical_share times the classical one. Nothing: each adjoint's own.
@@ -85,8 +85,8 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        Distribution(const F& f, std::optional<Product> product, float fluence, float classical_share)
-            : f_(f), product_(std::move(product)), fluence_(fluence), classical_share_(classical_share) {}
+        Distribution(const F& f, std::optional<Product> product, const LocalAdjoint* adjoint, float classical_share)
+            : f_(f), product_(std::move(product)), adjoint_(adjoint), classical_share_(classical_share) {}
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
             if (!product_) {
@@ -119,9 +119,9 @@ public:
             return product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
         }
 
-        /// The adjoint's ∫ f L dω over the albedo of f; nothing where it is not known.
-        std::optional<float> in_scattered() const {
-            return product_ ? std::optional(fluence_ * product_->integral()) : std::nullopt;
+        /// The adjoint's ∫ f L dω over the albedo of f, by channel; nothing where it is not known.
+        std::optional<Rgb> in_scattered() const {
+            return product_ ? std::optional(adjoint_->in_scattered(*product_)) : std::nullopt;
         }
 
     private:
@@ -131,7 +131,7 @@ public:
 
         const F& f_;
         std::optional<Product> product_;
-        float fluence_;
+        const LocalAdjoint* adjoint_;
         float classical_share_;
     };
 
@@ -142,15 +142,16 @@ public:
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         constexpr float least_boost = 0.05f;
         std::optional<Product> product;
-        float fluence = 0, classical_share = 1;
+        const LocalAdjoint* adjoint = nullptr;
+        float classical_share = 1;
         if (f.is_guidable() && boost >= least_boost) {
-            if (const auto* adjoint = (in_volume ? volume_ : surface_)->find(position)) {
+            adjoint = (in_volume ? volume_ : surface_)->find(position);
+            if (adjoint) {
                 product = adjoint->incident(position).product(f.lobes());
-                fluence = adjoint->fluence();
                 classical_share = classical_share_.value_or(adjoint->classical_share());
             }
         }
-        return Distribution<F>(f, std::move(product), fluence, classical_share);
+        return Distribution<F>(f, std::move(product), adjoint, classical_share);
     }
 
 private:

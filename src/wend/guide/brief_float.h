@@ -6,7 +6,7 @@
 
 namespace wend::guide {
 
-/// A float in 16 bits: the range of a float and 8 significant bits, so a relative error of at most 1/512.
+/// A float in 16 bits: the range of a float and 8 significant bits, so a relative error of at most 1/256.
 class BriefFloat {
 public:
     constexpr BriefFloat() = default;

@@ -79,6 +79,17 @@ std::array<LobeSums, max_lobes> continued(const std::array<LobeSums, max_lobes>&
     return sums;
 }
 
+LobeColours colours_of(const LearnedLobes& learned) {
+    LobeColours colours;
+    for (int i = 0; i < learned.model.mixture.size(); ++i) {
+        const LobeSums& s = learned.sums[static_cast<std::size_t>(i)];
+        if (s.weight > 0) {
+            colours.set(i, s.red / s.weight, s.blue / s.weight);
+        }
+    }
+    return colours;
+}
+
 /// Sum over the lobes of how far their resultant vectors are apart.
 double movement(const std::array<LobeSums, max_lobes>& a, const std::array<LobeSums, max_lobes>& b) {
     double sum = 0;
@@ -277,7 +288,7 @@ private:
                                                 view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
         statistics.keep(earlier);
         region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence(),
-                        region.classical_share());
+                        colours_of(learned), region.classical_share());
         const Vec3 mean = seen.offset / seen.located;
         return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
@@ -366,20 +377,20 @@ private:
         statistics.fluence += view.fluence;
         statistics.fluence_square += view.fluence_square;
         statistics.count += static_cast<double>(cell.size());
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            statistics.share_sums.add(record(i));
-        }
 
         LobeModel model{region.mixture(), region.inverse_distance()};
+        LobeColours colours = region.colours();
         if (!view.observations.empty()) {
             statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
             const LearnedLobes learned =
                 fit_lobes(start(region), statistics.lobe_sums(), view, view.unit / statistics.unit, memory.radius);
             model = learned.model;
+            colours = colours_of(learned);
             statistics.keep(learned.sums);
         }
-        region = Region(region.reference(), model.mixture, model.inverse_distance,
-                        static_cast<float>(statistics.fluence / statistics.count), statistics.share_sums.best());
+        region =
+            Region(region.reference(), model.mixture, model.inverse_distance,
+                   static_cast<float>(statistics.fluence / statistics.count), colours, statistics.share_sums.best());
     }
 
     /// Where a cell's fit starts.
@@ -388,7 +399,8 @@ private:
                                            : initial_lobes(settings_.lobes);
     }
 
-    /// Sees every stride-th record of a cell from its reference point, and adds where they are to the memory.
+    /// Sees every stride-th record of a cell from its reference point, and adds to the memory where they are and how
+    /// they were drawn.
     View look(const Cell& cell, std::size_t stride, Field::Memory& memory) const {
         constexpr float largest_inverse_distance = 1e12f;  // the sum of many squares is a float
         const Vec3 reference = field_.regions_[region_of(cell)].reference();
@@ -408,11 +420,14 @@ private:
             ++seen;
             const double weight = weight_of(r);
             if (weight > 0) {
+                memory.statistics.share_sums.add(r);
                 view.fluence += weight;
                 view.fluence_square += weight * weight;
                 weights.push_back(weight);
-                view.observations.push_back(
-                    {r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
+                const double grey = (static_cast<double>(r.colour.r) + r.colour.g + r.colour.b) / 3;
+                const auto over_grey = [&](float channel) { return grey > 0 ? static_cast<float>(channel / grey) : 1; };
+                view.observations.push_back({r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0,
+                                             over_grey(r.colour.r), over_grey(r.colour.b)});
             }
         }
         memory.located += static_cast<float>(seen);
@@ -520,7 +535,8 @@ private:
             sums.offset = Vec3(0, 0, 0);
             memory.statistics.lobes[static_cast<std::size_t>(i)] = sums;
         }
-        region = Region(reference, mixture, inverse_distance, region.fluence(), region.classical_share());
+        region =
+            Region(reference, mixture, inverse_distance, region.fluence(), region.colours(), region.classical_share());
     }
 
     Field field_;

@@ -46,13 +46,18 @@ struct PathVertex {
 /// O(vertices); `incident` is resized.
 Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident);
 
-/// What a vertex tells, given the radiance that arrived: as a scalar the mean of the colour channels. Nothing is
-/// clamped: a record that is not finite stays as it is, for fit() to ignore and count.
+/// What a vertex tells, given the radiance that arrived: by channel, and as a scalar the mean of the channels. Nothing
+/// is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
 inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
-    return {vertex.position,       vertex.direction,
-            mean(incident),        vertex.density,
-            vertex.distance,       vertex.classical_density,
-            vertex.guided_density, mean(vertex.scattering * incident) * vertex.density};
+    return {vertex.position,
+            vertex.direction,
+            mean(incident),
+            vertex.density,
+            vertex.distance,
+            vertex.classical_density,
+            vertex.guided_density,
+            mean(vertex.scattering * incident) * vertex.density,
+            incident};
 }
 
 /// Records of many walks, kept apart by the field they belong to.

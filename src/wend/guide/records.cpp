@@ -16,7 +16,8 @@ bool is_usable(const Record& record) {
            record.distance > 0 && weight_of(record) <= largest_weight && record.classical_density >= 0 &&
            std::isfinite(record.classical_density) && record.guided_density >= 0 &&
            std::isfinite(record.guided_density) && record.scattered >= 0 &&
-           static_cast<double>(record.scattered) / record.density <= largest_weight;
+           static_cast<double>(record.scattered) / record.density <= largest_weight && min_value(record.colour) >= 0 &&
+           is_finite(record.colour);
 }
 
 }  // namespace wend::guide

@@ -1,6 +1,7 @@
 // What walks report to the guide: one record for each direction drawn and what came back along it.
 #pragma once
 
+#include <wend/core/colour.h>
 #include <wend/core/vector.h>
 
 #include <vector>
@@ -25,6 +26,8 @@ struct Record {
     float classical_density = 0;
     float guided_density = 0;
     float scattered = 0;
+    /// The radiance by colour channel in any scale, of which only ratios count; not negative. Black stands for grey.
+    Rgb colour{1.0f};
 };
 
 /// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,

@@ -97,6 +97,8 @@ void put_region(std::string& out, const Region& region) {
         put(out, vmf.mean);
         put(out, vmf.kappa);
         put(out, region.inverse_distance()[i]);
+        put(out, region.colours()[i].r);
+        put(out, region.colours()[i].b);
     }
 }
 
@@ -108,6 +110,7 @@ Region take_region(Reader& in) {
     Reader::require(size >= 1 && size <= max_lobes && fluence >= 0 && classical_share > 0 && classical_share <= 1);
     std::array<WeightedVmf, max_lobes> lobes{};
     Lanes inverse_distance;
+    LobeColours colours;
     float total = 0;
     for (int i = 0; i < size; ++i) {
         WeightedVmf& lobe = lobes[static_cast<std::size_t>(i)];
@@ -115,14 +118,18 @@ Region take_region(Reader& in) {
         lobe.vmf.mean = in.take_vector();
         lobe.vmf.kappa = in.take_finite<float>();
         inverse_distance[i] = in.take_finite<float>();
-        constexpr float rounding = 1e-3f;
+        constexpr float rounding = 1e-3f, brief_rounding = 1e-2f;
         Reader::require(lobe.weight >= 0 && lobe.vmf.kappa >= 0 && lobe.vmf.kappa <= Vmf::max_kappa &&
                         std::abs(length(lobe.vmf.mean) - 1) < rounding && inverse_distance[i] >= 0);
         total += lobe.weight;
+        const auto red = in.take_finite<float>(), blue = in.take_finite<float>();
+        Reader::require(red >= 0 && blue >= 0 && red + blue <= 3 * (1 + brief_rounding));
+        colours.set(i, red, blue);
     }
     Reader::require(total > 0);
-    return {reference, VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))), inverse_distance, fluence,
-            classical_share};
+    return {reference,        VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))),
+            inverse_distance, fluence,
+            colours,          classical_share};
 }
 
 void put_statistics(std::string& out, const Statistics& statistics) {

@@ -33,6 +33,8 @@ LobeSums LobeSums::scaled(double linear, double quadratic) const {
     s.straight *= factor;
     s.oblique *= factor;
     s.beyond_square *= factor;
+    s.red *= factor;
+    s.blue *= factor;
     return s;
 }
 
@@ -48,6 +50,8 @@ LobeSums& LobeSums::operator+=(const LobeSums& other) {
     straight += other.straight;
     oblique += other.oblique;
     beyond_square += other.beyond_square;
+    red += other.red;
+    blue += other.blue;
     return *this;
 }
 
@@ -55,7 +59,8 @@ KeptLobeSums::KeptLobeSums(const LobeSums& s)
     : weight(s.weight), weight_square(s.weight_square), direction(s.direction) {
     if (weight > 0) {
         const float values[] = {s.offset.x, s.offset.y, s.offset.z, s.inverse_distance, s.inverse_distance_square,
-                                s.turn,     s.spread,   s.straight, s.oblique,          s.beyond_square};
+                                s.turn,     s.spread,   s.straight, s.oblique,          s.beyond_square,
+                                s.red,      s.blue};
         std::transform(std::begin(values), std::end(values), per_weight.begin(),
                        [&](float value) { return BriefFloat(value / weight); });
     }
@@ -63,8 +68,10 @@ KeptLobeSums::KeptLobeSums(const LobeSums& s)
 
 LobeSums KeptLobeSums::sums() const {
     const auto value = [&](std::size_t i) { return weight * per_weight[i]; };
-    return {weight,   weight_square, direction, {value(0), value(1), value(2)}, value(3), value(4), value(5), value(6),
-            value(7), value(8),      value(9)};
+    return {weight,   weight_square, direction, {value(0), value(1), value(2)},
+            value(3), value(4),      value(5),  value(6),
+            value(7), value(8),      value(9),  value(10),
+            value(11)};
 }
 
 KeptLobeSums KeptLobeSums::scaled(double linear, double quadratic) const {

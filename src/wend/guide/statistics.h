@@ -31,6 +31,9 @@ struct LobeSums {
     float straight = 0;
     float oblique = 0;
     float beyond_square = 0;
+    /// Of the first and the last colour channel over the mean of all three.
+    float red = 0;
+    float blue = 0;
 
     /// All sums but weight_square times `linear`, that one times `quadratic`.
     LobeSums scaled(double linear, double quadratic) const;
@@ -43,7 +46,7 @@ struct KeptLobeSums {
     float weight = 0;
     float weight_square = 0;
     Vec3 direction{0, 0, 0};
-    std::array<BriefFloat, 10> per_weight{};
+    std::array<BriefFloat, 12> per_weight{};
 
     KeptLobeSums() = default;
     KeptLobeSums(const LobeSums& sums);

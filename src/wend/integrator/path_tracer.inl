@@ -153,11 +153,11 @@ private:
     /// What the walk may yet bring over what all of it is expected to, if both are known.
     template <class F, class Directions>
     std::optional<float> expected_ratio(const F& f, const Directions& directions) const {
-        const std::optional<float> in_scattered = directions.in_scattered();
+        const std::optional<Rgb> in_scattered = directions.in_scattered();
         if (!in_scattered || !(expected_ > 0)) {
             return std::nullopt;
         }
-        return mean_value(now_.throughput * f.albedo()) * *in_scattered / expected_;
+        return mean_value(now_.throughput * f.albedo() * *in_scattered) / expected_;
     }
 
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
