@@ -3,6 +3,7 @@
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>
 #include <wend/film/false_colour.h>
+#include <wend/guide/lobe_revision.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
@@ -148,17 +149,28 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     const bool floating_point = std::filesystem::path(options.picture).extension() == ".exr";
     write_picture(options.picture, radiance_picture(incident, region->fluence(), floating_point));
 
-    std::vector<std::vector<std::string>> rows = {{"lobe", "share", "towards", "concentration", "distance"}};
+    std::vector<std::vector<std::string>> rows = {
+        {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
+    const auto sums = part.field->lobe_sums(position);
     nlohmann::json lobes = nlohmann::json::array();
     for (int i = 0; i < incident.size(); ++i) {
         const auto [weight, vmf] = incident.lobe(i);
         const double inverse = static_cast<double>(region->inverse_distance()[i]);
+        const guide::LobeSums& seen = sums[static_cast<std::size_t>(i)];
+        const double records = guide::effective_records(seen);
+        const double misfit = guide::misfit(seen, region->mixture().lobe(i).vmf).total();
+        const Rgb colour = region->colours()[i];
         rows.push_back({std::to_string(i + 1), fmt::format("{:.4f}", weight),
                         fmt::format("{:.3f} {:.3f} {:.3f}", vmf.mean.x, vmf.mean.y, vmf.mean.z),
-                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far"});
+                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far",
+                        fmt::format("{:.1f}", records), fmt::format("{:.3f}", misfit),
+                        fmt::format("{:.2f} {:.2f} {:.2f}", colour.r, colour.g, colour.b)});
         lobes.push_back({{"weight", weight},
                          {"mean", vector_json(vmf.mean)},
                          {"kappa", vmf.kappa},
+                         {"records", json_number(records)},
+                         {"misfit", json_number(misfit)},
+                         {"colour", {colour.r, colour.g, colour.b}},
                          {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
     }
     if (options.common.json != "-") {
@@ -167,7 +179,10 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
                    "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
                    options.at, part.name, region->fluence(), region->classical_share(), region->reference().x,
                    region->reference().y, region->reference().z)
-            << text_table(rows) << "incident radiance by direction: " << options.picture << '\n';
+            << text_table(rows)
+            << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
+               "them spreads otherwise than the lobe\n"
+            << "incident radiance by direction: " << options.picture << '\n';
     }
     return {{"position", vector_json(position)},
             {"part", part.name},
@@ -284,7 +299,11 @@ Action add_field_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("field", "show what a guiding field holds (a file of 'wend render --save-field')");
     command.add_option("file", options->file, "file of guiding fields")->required();
-    command.add_option("--at", options->at, "x,y,z: the lobes of incident radiance there, and a picture of them");
+    command.add_option(
+        "--at", options->at,
+        "x,y,z: the lobes of incident radiance there, and a picture of them; a field keeps no "
+        "records, but of each lobe how many taught it (those of equal weight that would know as much) and by "
+        "how many nats their directions spread otherwise than it does");
     command.add_option("--part", options->part, "surface or volume (default: the one with more samples)")
         ->check(CLI::IsMember({"surface", "volume"}));
     command.add_option("-o,--output", options->picture,

@@ -6,6 +6,7 @@
 #include <wend/guide/statistics.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,6 +38,11 @@ public:
 
     /// First and second moments of the records of a position's cell; zero as long as the field has learned nothing.
     WeightMoments weight_moments(const Vec3& position) const;
+
+    /// What the records told of each lobe of a position's cell, as seen from the region's reference point.
+    std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const {
+        return memories_[nodes_[leaf_of(position)].child].statistics.lobe_sums();
+    }
 
     const Box3& bounds() const { return bounds_; }
     /// Number of cells.
