@@ -150,8 +150,7 @@ private:
         }
         // The weight is the scattering function over the density that was used, so no field can bias the picture.
         throughput_ *= s->weight();
-        log_.scatter(position, s->direction, s->density, s->weight(), in_fog, s->classical_density,
-                     s->guided_density);
+        log_.scatter(position, s->direction, s->density, s->weight(), in_fog, s->classical_density, s->guided_density);
         boost_ *= s->boost;
         origin_ = position;
         direction_ = s->direction;

@@ -224,16 +224,16 @@ wend_status wend_distribution_density(const wend_distribution* distribution, wen
 typedef struct wend_path_vertex {
     wend_vec3 position;
     wend_vec3 direction;
-    float density;       /* of the direction; 0 for one of a discrete set, a mirror's */
-    float distance;      /* along the direction to what the walk met first; INFINITY where there was nothing */
-    float arrival[3];    /* weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
-    float scattering[3]; /* the scattering function, with its cosine, over the density of the direction */
-    float gathered[3];   /* radiance found after this direction and before the next one was drawn, times the weight
-                            gained since: light met and the next vertex's connection to a light, each with its weight
-                            of multiple importance sampling */
+    float density;           /* of the direction; 0 for one of a discrete set, a mirror's */
+    float distance;          /* along the direction to what the walk met first; INFINITY where there was nothing */
+    float arrival[3];        /* weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
+    float scattering[3];     /* the scattering function, with its cosine, over the density of the direction */
+    float gathered[3];       /* radiance found after this direction and before the next one was drawn, times the weight
+                                gained since: light met and the next vertex's connection to a light, each with its weight
+                                of multiple importance sampling */
     float classical_density; /* of the direction by your own sampling, and by the guide, where you mixed both: */
     float guided_density;    /* otherwise 0 */
-    int32_t parent;      /* index of the vertex whose direction led here, lower than this one's; -1 for none */
+    int32_t parent;          /* index of the vertex whose direction led here, lower than this one's; -1 for none */
 } wend_path_vertex;
 
 /* Makes a record of each vertex, in the same order, in time proportional to their number. Those of mirrors have density
