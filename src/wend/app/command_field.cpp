@@ -152,6 +152,8 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     std::vector<std::vector<std::string>> rows = {
         {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
     const auto sums = part.field->lobe_sums(position);
+    const guide::ScatteredLight& light = *part.field->scattered_light(position);
+    const guide::VertexMeans means = part.field->vertex_means(position);
     nlohmann::json lobes = nlohmann::json::array();
     for (int i = 0; i < incident.size(); ++i) {
         const auto [weight, vmf] = incident.lobe(i);
@@ -179,6 +181,8 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
                    "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
                    options.at, part.name, region->fluence(), region->classical_share(), region->reference().x,
                    region->reference().y, region->reference().z)
+            << fmt::format("light from connections {:.4g}, extinction {:.4g}, vertices of a walk from here on {:.3g}\n",
+                           light.connected.fluence, means.extinction, means.cost)
             << text_table(rows)
             << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
                "them spreads otherwise than the lobe\n"
@@ -188,6 +192,9 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
             {"part", part.name},
             {"fluence", region->fluence()},
             {"classical_share", region->classical_share()},
+            {"connected_fluence", light.connected.fluence},
+            {"extinction", means.extinction},
+            {"cost", means.cost},
             {"reference", vector_json(region->reference())},
             {"lobes", std::move(lobes)},
             {"picture", options.picture}};

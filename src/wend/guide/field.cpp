@@ -3,6 +3,7 @@
 #include <wend/core/contracts.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace wend::guide {
 
@@ -24,6 +25,12 @@ WeightMoments Field::weight_moments(const Vec3& position) const {
         return {};
     }
     return {statistics.count, statistics.fluence / statistics.count, statistics.fluence_square / statistics.count};
+}
+
+VertexMeans Field::vertex_means(const Vec3& position) const {
+    const ScatterSums& sums = memories_[nodes_[leaf_of(position)].child].scattered;
+    const float records = std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
+    return records > 0 ? VertexMeans{sums.extinction / records, sums.cost / records} : VertexMeans{};
 }
 
 std::size_t Field::bytes() const {

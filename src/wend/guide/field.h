@@ -27,6 +27,12 @@ struct WeightMoments {
     double relative_variance() const { return mean > 0 ? std::max(0.0, mean_square / (mean * mean) - 1) : 0.0; }
 };
 
+struct VertexMeans {
+    float extinction = 0;
+    /// Over the radiance that leaves or is scattered in, it tells what a contribution costs.
+    float cost = 0;
+};
+
 /// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
 /// number of threads.
 class Field {
@@ -45,6 +51,10 @@ public:
     const ScatteredLight* scattered_light(const Vec3& position) const {
         return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
     }
+
+    /// Means over the walks' vertices in a position's cell: the extinction of the medium, and how many vertices walks had
+    /// from there on. Zero as long as the field has learned nothing.
+    VertexMeans vertex_means(const Vec3& position) const;
 
     /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end.
     /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.

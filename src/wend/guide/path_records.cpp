@@ -22,10 +22,16 @@ Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incide
 void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     WEND_EXPECT(most > 0);
     incident_radiance(path, incident_);
+    cost_.assign(path.size(), 1);
+    for (std::size_t i = path.size(); i-- > 0;) {
+        if (path[i].parent != PathVertex::root) {
+            cost_[static_cast<std::size_t>(path[i].parent)] += cost_[i];
+        }
+    }
     const std::size_t stride = path.size() <= most ? 1 : (path.size() - 1) / most + 1;
     for (std::size_t i = stride - 1; i < path.size(); i += stride) {
         const PathVertex& v = path[i];
-        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i]));
+        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i], cost_[i]));
         if (v.density != 0) {
             (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }

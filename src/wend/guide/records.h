@@ -42,6 +42,10 @@ struct ScatterRecord {
     /// in radiance times sr, and the direction to the light, which means nothing where the estimate is 0.
     float connected;
     Vec3 to_light;
+    /// Of the medium at the vertex, as a scalar; 0 at a surface.
+    float extinction = 0;
+    /// How many vertices the walk had from this one on, in all its branches.
+    float cost = 1;
 };
 
 /// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,

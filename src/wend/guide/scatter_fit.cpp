@@ -34,14 +34,15 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
     }
     const double most_leaving = weight_limit(leaving), most_connected = weight_limit(connected);
     std::array<double, sides> count{}, leaving_sum{};
-    double leaving_square = 0, connected_sum = 0;
+    double connected_sum = 0, extinction = 0, cost = 0;
     Imath::V3d direction(0, 0, 0);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const double out = std::min(leaving[i], most_leaving), in = std::min(connected[i], most_connected);
         const auto side = static_cast<std::size_t>(side_of(records[chosen[i]].normal));
         ++count[side];
         leaving_sum[side] += out;
-        leaving_square += out * out;
+        extinction += static_cast<double>(records[chosen[i]].extinction);
+        cost += static_cast<double>(records[chosen[i]].cost);
         connected_sum += in;
         if (in > 0) {
             direction += Imath::V3d(records[chosen[i]].to_light) * in;
@@ -50,9 +51,10 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
     ScatterSums sums;
     std::copy(count.begin(), count.end(), sums.records.begin());
     std::copy(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin());
-    sums.leaving_square = static_cast<float>(leaving_square);
     sums.connected = static_cast<float>(connected_sum);
     sums.connected_direction = Vec3(direction);
+    sums.extinction = static_cast<float>(extinction);
+    sums.cost = static_cast<float>(cost);
     return sums;
 }
 
@@ -71,9 +73,6 @@ ScatteredLight light_of(const ScatterSums& sums, const Region& region) {
     }
     if (sums.connected > 0) {
         light.connected.mean = sums.connected_direction / sums.connected;
-    }
-    if (leaving > 0) {
-        light.noise = std::max(1.0f, sums.leaving_square * records / sqr(leaving));
     }
     return light;
 }

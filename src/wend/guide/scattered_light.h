@@ -34,8 +34,6 @@ struct ScatteredLight {
     /// Radiance that leaves the vertices of the cell towards where walks came from, by the side that they came from: a
     /// wall may be bright on one side and dark on the other.
     std::array<float, sides> leaving{};
-    /// Mean square of its estimates over the square of their mean, at least 1.
-    float noise = 1;
 
     float leaving_to(const Vec3& normal) const { return leaving[static_cast<std::size_t>(side_of(normal))]; }
 
@@ -50,9 +48,10 @@ struct ScatteredLight {
 struct ScatterSums {
     /// By side.
     std::array<float, sides> records{}, leaving{};
-    float leaving_square = 0;
     float connected = 0;
     Vec3 connected_direction{0, 0, 0};
+    float extinction = 0;
+    float cost = 0;
 
     ScatterSums scaled(float factor) const {
         ScatterSums result = *this;
@@ -60,9 +59,10 @@ struct ScatterSums {
             result.records[side] *= factor;
             result.leaving[side] *= factor;
         }
-        result.leaving_square *= factor;
         result.connected *= factor;
         result.connected_direction *= factor;
+        result.extinction *= factor;
+        result.cost *= factor;
         return result;
     }
     ScatterSums& operator+=(const ScatterSums& o) {
@@ -70,9 +70,10 @@ struct ScatterSums {
             records[side] += o.records[side];
             leaving[side] += o.leaving[side];
         }
-        leaving_square += o.leaving_square;
         connected += o.connected;
         connected_direction += o.connected_direction;
+        extinction += o.extinction;
+        cost += o.cost;
         return *this;
     }
 };

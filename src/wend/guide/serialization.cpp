@@ -151,8 +151,9 @@ void put_statistics(std::string& out, const Statistics& statistics) {
 void put_scattered(std::string& out, const ScatterSums& sums) {
     put(out, sums.records);
     put(out, sums.leaving);
-    put(out, sums.leaving_square);
     put(out, sums.connected);
+    put(out, sums.extinction);
+    put(out, sums.cost);
     put(out, sums.connected_direction);
 }
 
@@ -164,8 +165,9 @@ ScatterSums take_scattered(Reader& in) {
     };
     std::for_each(sums.records.begin(), sums.records.end(), take);
     std::for_each(sums.leaving.begin(), sums.leaving.end(), take);
-    take(sums.leaving_square);
     take(sums.connected);
+    take(sums.extinction);
+    take(sums.cost);
     sums.connected_direction = in.take_vector();
     return sums;
 }

@@ -129,6 +129,9 @@ private:
             return false;
         }
         const Vec3 position = now_.ray.at(distance);
+        if (log_) {
+            log_->collide(mean_value(extinction_at(medium, position)));
+        }
         const VolumeScattering f(phase_function(medium), now_.ray.direction);
         return scatter(f, position, {0, 0, 0}, true);
     }

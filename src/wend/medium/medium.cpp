@@ -46,6 +46,14 @@ GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& ind
     WEND_EXPECT(min_value(absorption) >= 0 && min_value(scattering) >= 0);
 }
 
+Rgb extinction_at(const Medium& medium, const Vec3& position) {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+        return homogeneous->extinction();
+    }
+    const auto& grid = std::get<GridMedium>(medium);
+    return grid.extinction() * grid.density().interpolate(grid.to_index({position, Vec3(0, 0, 0)}).origin);
+}
+
 Rgb albedo(const Medium& medium) {
     const auto ratio = [](const Rgb& scattering, const Rgb& absorption) {
         Rgb result;

@@ -89,6 +89,9 @@ inline const PhaseFunction& phase_function(const Medium& medium) {
     return std::get<GridMedium>(medium).phase();
 }
 
+/// Extinction at a point in the world, per scene unit.
+Rgb extinction_at(const Medium& medium, const Vec3& position);
+
 /// Single-scattering albedo (the same at every density).
 Rgb albedo(const Medium& medium);
 
