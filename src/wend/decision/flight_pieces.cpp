@@ -43,27 +43,34 @@ void FlightPieces::add(float t_in, float t_out, float density, float in_scattere
     depth_ = depth_after(pieces_[count_++]);
 }
 
+Rgb FlightPieces::scattered_in(const Piece& piece) const {
+    // Not as a difference of transmittances, of which nothing would be left in a thin medium.
+    const float size = piece.density * (piece.t_out - piece.t_in);
+    const Rgb stopped = grey_ ? Rgb(-std::expm1(-extinction_.r * size))
+                              : Rgb(-std::expm1(-extinction_.r * size), -std::expm1(-extinction_.g * size),
+                                    -std::expm1(-extinction_.b * size));
+    return albedo_ * transmitted(piece.depth) * stopped;
+}
+
 void FlightPieces::finish(float length, float ahead, bool level) {
     length_ = length;
     ahead_ = ahead;
-    float before = attenuated(albedo_, 0);
     float scattered = 0, lit = 0;
     for (int i = 0; i < count_; ++i) {
         Piece& piece = pieces_[i];
-        const float after = attenuated(albedo_, depth_after(piece));
-        scattered += before - after;
-        lit += piece.in_scattered * (before - after);
-        piece.cumulative = lit;
-        before = after;
+        const float part = dot(Rgb(1.0f), scattered_in(piece));
+        scattered += part;
+        lit += piece.in_scattered * part;
+        piece.cumulative = level ? scattered : lit;
     }
     if (level && scattered > 0) {
+        const float mean = lit / scattered;
         for (int i = 0; i < count_; ++i) {
-            Piece& piece = pieces_[i];
-            piece.in_scattered = lit / scattered;
-            piece.cumulative = piece.in_scattered * (attenuated(albedo_, 0) - attenuated(albedo_, depth_after(piece)));
+            pieces_[i].in_scattered = mean;
+            pieces_[i].cumulative *= mean;
         }
     }
-    total_ = lit + ahead * attenuated(channels_, depth_);
+    total_ = (count_ > 0 ? pieces_[count_ - 1].cumulative : 0.0f) + ahead * attenuated(channels_, depth_);
 }
 
 FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float depth, float classical_share) const {
@@ -75,7 +82,8 @@ FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float depth
     o.classical = piece.density * dot(rate_, passed);
     o.density = classical_share * o.classical;
     if (classical_share < 1) {
-        o.density += (1 - classical_share) * piece.density * piece.in_scattered / total_ * dot(scattering_rate_, passed);
+        o.density +=
+            (1 - classical_share) * piece.density * piece.in_scattered / total_ * dot(scattering_rate_, passed);
     }
     return o;
 }
@@ -109,8 +117,8 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
         u = rescaled(u / classical_share);
         const float rate = extinction_[choose_channel(channels_, u)];
         const float depth = rate > 0 ? -std::log1p(-u) / rate : std::numeric_limits<float>::infinity();
-        const Piece* piece = std::partition_point(pieces_, pieces_ + count_,
-                                                  [&](const Piece& p) { return depth_after(p) <= depth; });
+        const Piece* piece =
+            std::partition_point(pieces_, pieces_ + count_, [&](const Piece& p) { return depth_after(p) <= depth; });
         return piece == pieces_ + count_ ? end(classical_share) : collision_in(*piece, depth, classical_share);
     }
     u = rescaled((u - classical_share) / (1 - classical_share)) * total_;
@@ -122,16 +130,8 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
     const float before = piece == pieces_ ? 0.0f : (piece - 1)->cumulative;
     u = rescaled((u - before) / (piece->cumulative - before));
     // Which channel's share of the piece.
-    const float size = depth_after(*piece) - piece->depth;
-    int channel = 0;
-    if (!grey_) {
-        Rgb parts;
-        for (int c = 0; c < 3; ++c) {
-            parts[c] = albedo_[c] * std::exp(-extinction_[c] * piece->depth) * -std::expm1(-extinction_[c] * size);
-        }
-        channel = choose_channel(channel_probabilities(parts), u);
-    }
-    const float sigma = extinction_[channel];
+    const int channel = grey_ ? 0 : choose_channel(channel_probabilities(scattered_in(*piece)), u);
+    const float sigma = extinction_[channel], size = piece->density * (piece->t_out - piece->t_in);
     const float depth = piece->depth - std::log1p(u * std::expm1(-sigma * size)) / sigma;
     return collision_in(*piece, std::min(depth, depth_after(*piece)), classical_share);
 }

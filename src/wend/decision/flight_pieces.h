@@ -5,9 +5,9 @@
 
 namespace wend {
 
-/// Flights along a ray that is cut into pieces, in each of which the density of the medium and the light scattered there
-/// are taken for constant (herholz2019, with all integrals in closed form). A collision at distance t in a piece of density d
-/// and in-scattered radiance S, an optical depth of σ x from the start, is drawn with density
+/// Flights along a ray that is cut into pieces, in each of which the density of the medium and the light scattered
+/// there are taken for constant (herholz2019, with all integrals in closed form). A collision at distance t in a piece
+/// of density d and in-scattered radiance S, an optical depth of σ x from the start, is drawn with density
 ///     d · (α Σ_c w_c σ_c e^{-σ_c x} + (1 - α) S / Z · Σ_c w_c σs_c e^{-σ_c x}),
 /// and the end, behind which radiance A comes, with probability
 ///     α Σ_c w_c e^{-σ_c X} + (1 - α) A / Z · Σ_c w_c e^{-σ_c X},
@@ -63,6 +63,8 @@ private:
     /// e^{-σ_c depth}.
     Rgb transmitted(float depth) const;
     float attenuated(const Rgb& weights, float depth) const { return dot(weights, transmitted(depth)); }
+    /// w_c σs_c ∫ e^{-σ_c x} over the piece.
+    Rgb scattered_in(const Piece& piece) const;
     Outcome collision_in(const Piece& piece, float depth, float classical_share) const;
 
     static constexpr int capacity = 160;
