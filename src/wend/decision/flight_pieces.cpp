@@ -10,6 +10,12 @@ namespace {
 // e^{-depth} of what is behind is no more than rounding.
 constexpr float deepest = 40;
 
+/// 1 - e^{-depth}. Thin pieces are the usual ones: their series is faster than expm1.
+float stopped(float depth) {
+    return depth < 0.1f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6 - depth * (1.0f / 24 - depth * (1.0f / 120)))))
+                        : 1 - std::exp(-depth);
+}
+
 }  // namespace
 
 FlightPieces::FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels)
@@ -46,10 +52,10 @@ void FlightPieces::add(float t_in, float t_out, float density, float in_scattere
 Rgb FlightPieces::scattered_in(const Piece& piece) const {
     // Not as a difference of transmittances, of which nothing would be left in a thin medium.
     const float size = piece.density * (piece.t_out - piece.t_in);
-    const Rgb stopped = grey_ ? Rgb(-std::expm1(-extinction_.r * size))
-                              : Rgb(-std::expm1(-extinction_.r * size), -std::expm1(-extinction_.g * size),
-                                    -std::expm1(-extinction_.b * size));
-    return albedo_ * transmitted(piece.depth) * stopped;
+    const Rgb share =
+        grey_ ? Rgb(stopped(extinction_.r * size))
+              : Rgb(stopped(extinction_.r * size), stopped(extinction_.g * size), stopped(extinction_.b * size));
+    return albedo_ * transmitted(piece.depth) * share;
 }
 
 void FlightPieces::finish(float length, float ahead, bool level) {
