@@ -92,12 +92,12 @@ private:
 constexpr float share = 0.3f;
 
 /// Means of weights in bins of distance, and of the weight of passes, in every channel.
-class Weights : public testing::TestWithParam<Case> {
+class TrackedWeights : public testing::TestWithParam<Case> {
 protected:
     static constexpr std::size_t bins = 3;
 };
 
-TEST_P(Weights, AreUnbiasedInEveryBinAndChannel) {
+TEST_P(TrackedWeights, AreUnbiasedInEveryBinAndChannel) {
     const Case& c = GetParam();
     const GridMedium medium = test::smooth_medium(c.absorption, c.scattering);
     const Tracker tracker(medium, c.told, share, c.throughput);
@@ -147,7 +147,7 @@ const std::vector<float> steps = {0.2f, 3, 0, 1, 30, 0.5f, 1};
 const Rgb red_absorption(0.1f, 0.2f, 0.1f), blue_scattering(0.3f, 0.6f, 1.2f);
 
 INSTANTIATE_TEST_SUITE_P(
-    GuidedTracking, Weights,
+    GuidedTracking, TrackedWeights,
     testing::Values(Case{{"uneven", steps, 2}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"level", steps, 2, true}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"dark_medium", {0}, 1}, Rgb(0.2f), Rgb(0.6f)},
