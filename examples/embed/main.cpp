@@ -150,7 +150,7 @@ private:
         }
         // The weight is the scattering function over the density that was used, so no field can bias the picture.
         throughput_ *= s->weight();
-        log_.scatter(position, s->direction, s->density, s->weight(), in_fog);
+        log_.scatter(position, s->direction, s->density, s->weight(), in_fog, s->classical_density, s->guided_density);
         boost_ *= s->boost;
         origin_ = position;
         direction_ = s->direction;
@@ -276,7 +276,7 @@ int main() {
     // Surfaces and volumes have a field each: what they see differs. Half of the directions stay classical, the defence
     // against what the fields do not know yet. (The decision refers to the fields: new ones are assigned to them.)
     Field surface = Field::empty(bounds), volume = Field::empty(bounds);
-    const wend::GuidedDirection<Field> directions(&surface, &volume, 0.5f);
+    const wend::GuidedDirection<Field> directions(&surface, &volume);
     // ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
     int sample = samples;
     for (int pass = 0; pass < passes; ++pass) {

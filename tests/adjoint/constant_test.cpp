@@ -15,7 +15,7 @@ TEST(ConstantAdjoint, ScattersItsOwnRadianceWhateverTheLobes) {
     // A phase function integrates to 1, so constant radiance L scatters to L.
     const ConstantAdjoint adjoint(0.7f);
     for (const AxialLobes& lobes : {AxialLobes(), two_lobes()}) {
-        EXPECT_NEAR(in_scattered(adjoint, {1, 2, 3}, lobes), 0.7f, 1e-5);
+        EXPECT_NEAR(in_scattered(adjoint, {1, 2, 3}, lobes).g, 0.7f, 1e-5);
     }
 }
 

@@ -61,6 +61,10 @@ static void fill_records(wend_record* records, size_t count, uint64_t seed) {
         r->density = (float)(1 / (4 * PI));
         r->radiance = dot(r->direction, towards_lamp(r->position, &distance)) > 0.9 ? 10 : 0.1f;
         r->distance = (float)distance;
+        /* As if the guide had never drawn what is bright, beside a scattering function that is uniform. */
+        r->classical_density = r->density;
+        r->guided_density = r->radiance > 1 ? 0 : r->density;
+        r->scattered = r->radiance * r->density;
     }
 }
 
@@ -143,10 +147,12 @@ static void check_questions(const wend_field* field) {
     wend_distribution incident, surface, volume;
     wend_error error;
     double distance;
-    float fluence = 0, integral = 0, density = 0;
+    float fluence = 0, share = 0, integral = 0, density = 0;
 
     check(wend_field_fluence(field, position, &fluence, &error) == WEND_OK, "fluence", &error);
     check(fabs(fluence / true_fluence - 1) < 0.1, "the fluence is right", NULL);
+    check(wend_field_classical_share(field, position, &share, &error) == WEND_OK, "classical share", &error);
+    check(share > 0.7 && share <= 0.9, "classical sampling is kept where the guide fails", NULL);
     check(wend_field_incident(field, position, &incident, &error) == WEND_OK, "incident", &error);
     check_distribution(&incident, "the incident distribution is normalized");
     /* Uniform would be 0.08; the truth is 1.3. */
@@ -194,13 +200,15 @@ static void check_threads(const wend_field* field) {
 /* Two vertices, a lamp of radiance 6 behind the second. */
 static void check_path(void) {
     const wend_path_vertex path[2] = {
-        {{0, 0, 0}, {0, 0, 1}, 0.5f, 1, {1, 1, 1}, {0.9f, 0.9f, 0.9f}, {2, 2, 2}, -1},
-        {{0, 0, 1}, {1, 0, 0}, 0.25f, INFINITY, {0.5f, 0.5f, 0.5f}, {0.8f, 0.8f, 0.8f}, {6, 6, 6}, 0}};
+        {{0, 0, 0}, {0, 0, 1}, 0.5f, 1, {1, 1, 1}, {0.9f, 0.9f, 0.9f}, {2, 2, 2}, 0.75f, 0.25f, -1},
+        {{0, 0, 1}, {1, 0, 0}, 0.25f, INFINITY, {0.5f, 0.5f, 0.5f}, {0.8f, 0.8f, 0.8f}, {6, 6, 6}, 0, 0, 0}};
     wend_record records[2];
     wend_error error;
     check(wend_records_of_path(path, 2, records, &error) == WEND_OK, "records of a path", &error);
     check(fabs(records[0].radiance - (2 + 0.5 * 0.8 * 6)) < 1e-6 && records[1].radiance == 6, "their radiance", NULL);
-    check(records[0].distance == 1 && records[1].density == 0.25f, "their other numbers", NULL);
+    check(records[0].distance == 1 && records[1].density == 0.25f && records[0].classical_density == 0.75f &&
+              records[0].guided_density == 0.25f && fabs(records[1].scattered - 6 * 0.8 * 0.25) < 1e-6,
+          "their other numbers", NULL);
 }
 
 int main(void) {

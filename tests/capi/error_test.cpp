@@ -30,7 +30,7 @@ FieldPointer empty_field() {
 }
 
 FieldPointer trained_field() {
-    const std::vector<wend_record> records(100, {inside, up, 1, 0.5f, inf});
+    const std::vector<wend_record> records(100, {inside, up, 1, 0.5f, inf, 0, 0, 0});
     wend_field* field = nullptr;
     EXPECT_EQ(wend_field_fit(empty_field().get(), records.data(), records.size(), nullptr, 1, &field, nullptr, nullptr),
               WEND_OK);
@@ -102,7 +102,7 @@ TEST(CErrors, NothingLearnedIsSaid) {
 TEST(CErrors, FitsNeedArgumentsInRange) {
     const FieldPointer field = empty_field();
     wend_field* next = nullptr;
-    const wend_record record = {inside, up, 1, 1, 1};
+    const wend_record record = {inside, up, 1, 1, 1, 0, 0, 0};
     const auto fit = [&](auto change, wend_error* e) {
         wend_fit_settings settings = wend_fit_settings_default();
         change(settings);
@@ -126,7 +126,7 @@ TEST(CErrors, FitsNeedArgumentsInRange) {
 }
 
 TEST(CErrors, BadRecordsAreIgnoredAndCounted) {
-    std::vector<wend_record> records(5, {inside, up, 1, 1, 1});
+    std::vector<wend_record> records(5, {inside, up, 1, 1, 1, 0, 0, 0});
     records[0].radiance = nan;
     records[1].direction = {0, 0, 2};
     records[2].density = 0;

@@ -70,6 +70,9 @@ struct LobeAdjoint {
     Vmf lobe;
     guide::VmfMixture incident(const Vec3&) const { return guide::VmfMixture(std::array{guide::WeightedVmf{1, lobe}}); }
     float fluence() const { return 1; }
+    Rgb in_scattered(const guide::MixtureProduct& product) const { return Rgb(product.integral()); }
+    float classical_share() const { return share; }
+    float share = 0.25f;
 };
 
 struct LobeField {
@@ -205,6 +208,32 @@ TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
     check(Volume{});
     check(Wall{});
     check(Coat{});
+}
+
+TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {
+    const Volume f;
+    const auto own = GuidedDirection(&wrong, &wrong).at(here, true, f);
+    const auto same = GuidedDirection(&wrong, &wrong, LobeAdjoint().share).at(here, true, f);
+    const auto other = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    const Vec3 w = normalize(Vec3(1, 1, 0.5f));
+    EXPECT_EQ(own.density(w), same.density(w));
+    EXPECT_NE(own.density(w), other.density(w));
+}
+
+TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
+    const Volume f;
+    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    Pcg32 random(5);
+    for (int i = 0; i < 100; ++i) {
+        const float u = random.uniform();
+        const Vec2 u2 = random.uniform2();
+        const auto s = guided.sample(u, u2);
+        ASSERT_TRUE(s);
+        EXPECT_EQ(s->classical_density, f.density(s->direction));
+        EXPECT_FLOAT_EQ(s->density, classical_share * s->classical_density + (1 - classical_share) * s->guided_density);
+        const auto alone = ClassicalDirection().at(here, true, f).sample(u, u2);
+        EXPECT_EQ(alone->guided_density, 0);
+    }
 }
 
 TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {

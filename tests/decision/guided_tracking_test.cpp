@@ -22,7 +22,6 @@ struct Told {
     std::vector<float> in_scattered;  ///< in equal parts of the segment
     float ahead;
     bool level = false;
-    int cuts = 1;  ///< into how many pieces each cell is cut
 };
 
 struct Case {
@@ -34,59 +33,29 @@ struct Case {
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.told.name; }
 };
 
-struct Part {
-    float t_in, t_out;
-    MajorantGrid::Cell cell;
-    float in_scattered;
-};
-
-std::vector<Part> parts_of(const GridMedium& medium, const Told& told) {
-    std::vector<Part> parts;
-    const auto index_ray = medium.to_index(ray);
-    medium.majorants().walk(
-        index_ray.origin, index_ray.direction, 0, segment,
-        [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-            for (int i = 0; cell.maximum > 0 && i < told.cuts; ++i) {
-                const auto cut = [&](int k) {
-                    return k == told.cuts
-                               ? t_out
-                               : t_in + (t_out - t_in) * static_cast<float>(k) / static_cast<float>(told.cuts);
-                };
-                const auto place =
-                    static_cast<std::size_t>(cut(i) / segment * static_cast<float>(told.in_scattered.size()));
-                parts.push_back(
-                    {cut(i), cut(i + 1), cell, told.in_scattered[std::min(place, told.in_scattered.size() - 1)]});
-            }
-            return true;
-        });
-    return parts;
-}
-
 class Tracker {
 public:
     Tracker(const GridMedium& medium, const Told& told, float classical_share, const Rgb& throughput = Rgb(1))
-        : medium_(medium),
-          told_(told),
-          share_(classical_share),
-          start_{ray, segment, throughput, 1, {}},
-          parts_(parts_of(medium, told)) {}
+        : medium_(medium), told_(told), share_(classical_share), start_{ray, segment, throughput, 1, {}} {}
 
     Flight fly(Pcg32& random) const {
         GuidedTracking tracking(medium_, start_, share_);
-        for (const Part& part : parts_) {
-            tracking.add(part.t_in, part.t_out, part.cell, part.in_scattered);
+        const auto parts = static_cast<float>(told_.in_scattered.size());
+        float part = 0;
+        for (const float radiance : told_.in_scattered) {
+            tracking.light_up_to(segment * ++part / parts, radiance);
         }
         return tracking.fly(told_.ahead, told_.level, random);
     }
 
-    std::size_t pieces() const { return parts_.size(); }
+    /// To where tracking looks.
+    float reach() const { return GuidedTracking(medium_, start_, share_).reach(); }
 
 private:
     const GridMedium& medium_;
     const Told& told_;
     float share_;
     FlightStart start_;
-    std::vector<Part> parts_;
 };
 
 constexpr float share = 0.3f;
@@ -133,13 +102,18 @@ TEST_P(TrackedWeights, AreUnbiasedInEveryBinAndChannel) {
         for (std::size_t k = 0; k < bins; ++k) {
             const double from = segment * static_cast<double>(k) / bins, to = segment * (k + 1.0) / bins;
             const double expected = c.scattering[channel] / sigma * (passed(from) - passed(to));
+            if (expected < 1e-5) {
+                continue;  // hardly any flight gets there
+            }
             EXPECT_TRUE(agrees(means[k][i], expected, 4, 1e-4))
                 << k << ": " << means[k][i].mean() << ", standard error " << means[k][i].standard_error()
                 << ", expected " << expected;
         }
         EXPECT_TRUE(test::is_within_one_percent(means[bins + 1][i],
                                                 c.scattering[channel] / sigma * (1 - passed(segment)), 1e-4));
-        EXPECT_TRUE(test::is_within_one_percent(means[bins][i], passed(segment), 1e-4));
+        if (passed(segment) > 1e-5) {
+            EXPECT_TRUE(test::is_within_one_percent(means[bins][i], passed(segment), 1e-4));
+        }
     }
 }
 
@@ -152,16 +126,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{{"level", steps, 2, true}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"dark_medium", {0}, 1}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"dark_end", {1}, 0}, Rgb(0.2f), Rgb(0.6f)}, Case{{"all_dark", {0}, 0}, Rgb(0.2f), Rgb(0.6f)},
-                    Case{{"more_pieces_than_room", {1, 3, 2}, 2, false, 30}, Rgb(0.2f), Rgb(0.6f), Rgb(1), 1000000},
+                    Case{{"deep_in_one_channel", steps, 2}, Rgb(0.1f, 0.2f, 1), Rgb(0.3f, 0.6f, 60)},
                     Case{{"chromatic", steps, 2}, red_absorption, blue_scattering},
                     Case{{"chromatic_level", steps, 2, true}, red_absorption, blue_scattering, Rgb(1, 0.5f, 2)},
                     Case{{"chromatic_dark_channel", steps, 0.3f}, red_absorption, blue_scattering, Rgb(1, 1, 0)}),
     [](const auto& param_info) { return param_info.param.told.name; });
 
-TEST(GuidedTracking, MorePiecesThanThereIsRoomFor) {
-    // What one of the cases above is there for.
-    const GridMedium medium = test::smooth_medium(Rgb(0.2f), Rgb(0.6f));
-    EXPECT_GT(Tracker(medium, {"", steps, 2, false, 30}, share).pieces(), 256u);
+TEST(GuidedTracking, LooksNoFurtherThanLightComesFrom) {
+    const Told told{"", steps, 2};
+    const GridMedium thin = test::smooth_medium(Rgb(0.2f), Rgb(0.6f));
+    EXPECT_GT(Tracker(thin, told, share).reach(), 0.9f * segment);
+    // Behind, flights are classical; that they are right is for one of the cases above to tell.
+    const GridMedium deep = test::smooth_medium(Rgb(0.1f, 0.2f, 1), Rgb(0.3f, 0.6f, 60));
+    EXPECT_LT(Tracker(deep, told, share).reach(), 0.9f * segment);
+    Pcg32 random(5);
+    for (int i = 0; i < 10000; ++i) {
+        const Flight flight = Tracker(deep, told, share).fly(random);
+        ASSERT_TRUE(flight.scatters ? flight.distance <= segment : flight.distance == segment);
+    }
 }
 
 TEST(GuidedTracking, InUniformLightHasNoNoiseOfItsOwn) {

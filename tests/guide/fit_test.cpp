@@ -141,7 +141,7 @@ TEST(Fit, InScatteredRadianceIsTheIntegralOfTheTruth) {
         const AxialLobes lobes = AxialLobes(std::array{AxialLobe{1, kappa}}).around(normalize(Vec3(1, 2, 2)));
         const double truth = test::integrate_sphere(
             [&](const Vec3& w) { return static_cast<double>(target().density(w)) * lobes.density(w); });
-        EXPECT_NEAR(in_scattered(*field.find(position), position, lobes), truth, 0.05 * truth) << kappa;
+        EXPECT_NEAR(in_scattered(*field.find(position), position, lobes).g, truth, 0.05 * truth) << kappa;
     }
 }
 

@@ -74,7 +74,7 @@ TEST(PathRecords, MatchAPathMadeByHand) {
     log.meet(2);
     log.weigh(Rgb(0.5f));
     log.gather(Rgb(3));  // the connection made at the collision
-    log.scatter(Vec3(0, 0, 2), Vec3(1, 0, 0), 0.25f, Rgb(0.9f), true);
+    log.scatter(Vec3(0, 0, 2), Vec3(1, 0, 0), 0.25f, Rgb(0.9f), true, 0.1f, 0.4f);
     log.weigh(Rgb(2));  // survived with probability 1/2
     log.meet(4);
     log.gather(Rgb(7, 0, 0));
@@ -87,6 +87,11 @@ TEST(PathRecords, MatchAPathMadeByHand) {
     EXPECT_FLOAT_EQ(records.volume()[0].radiance, 14.0f / 3);
     EXPECT_FLOAT_EQ(records.volume()[0].distance, 4);
     EXPECT_FLOAT_EQ(records.volume()[0].density, 0.25f);
+    EXPECT_FLOAT_EQ(records.volume()[0].classical_density, 0.1f);
+    EXPECT_FLOAT_EQ(records.volume()[0].guided_density, 0.4f);
+    EXPECT_FLOAT_EQ(records.volume()[0].scattered, 0.9f * 0.25f * 14.0f / 3);
+    EXPECT_EQ(records.volume()[0].colour, Rgb(14, 0, 0));
+    EXPECT_EQ(records.surface()[0].guided_density, 0);
     EXPECT_FLOAT_EQ(records.surface()[0].radiance, 0.5f * 3 + 0.5f * 0.9f * 14.0f / 3);
     EXPECT_FLOAT_EQ(records.surface()[0].distance, 2);
     EXPECT_EQ(records.surface()[0].position, Vec3(0, 0, 0));

@@ -1,6 +1,7 @@
 // What the decisions of a walk ask of an adjoint, whether learned or computed.
 #pragma once
 
+#include <wend/core/colour.h>
 #include <wend/core/vector.h>
 #include <wend/sampling/axial_lobes.h>
 
@@ -27,19 +28,24 @@ concept IncidentRadiance = requires(const T& radiance, const AxialLobes& lobes) 
 
 /// An estimate of the radiance that a walk would still collect around a point.
 ///  - incident(x): the distribution of the incident radiance at x;
-///  - fluence(): its scale, ∫ L dω, in radiance times sr.
-/// The in-scattered radiance for a phase function f is therefore fluence() · incident(x).product(f).integral(), and the
-/// expected contribution of a continuation is the same number times the albedo.
+///  - fluence(): its scale, ∫ L dω, in radiance times sr;
+///  - in_scattered(product): ∫ f L dω by colour channel, for a product of the incident radiance with the lobes of f;
+///  - classical_share(): how far its directions are to be trusted, as the share in (0,1] that sampling the scattering
+///    function alone should keep beside them.
+/// The mean of the channels of in_scattered(product) is fluence() · product.integral(). The expected contribution of a
+/// continuation is the in-scattered radiance times throughput and albedo, channel by channel.
 template <class T>
-concept Adjoint = requires(const T& adjoint, const Vec3& position) {
+concept Adjoint = requires(const T& adjoint, const Vec3& position, const AxialLobes& lobes) {
     { adjoint.incident(position) } -> IncidentRadiance;
     { adjoint.fluence() } -> std::convertible_to<float>;
+    { adjoint.in_scattered(adjoint.incident(position).product(lobes)) } -> std::same_as<Rgb>;
+    { adjoint.classical_share() } -> std::convertible_to<float>;
 };
 
 /// In-scattered radiance at a point, ∫ f(ω) L(x, ω) dω, for the lobes of f.
 template <Adjoint A>
-float in_scattered(const A& adjoint, const Vec3& position, const AxialLobes& lobes) {
-    return adjoint.fluence() * adjoint.incident(position).product(lobes).integral();
+Rgb in_scattered(const A& adjoint, const Vec3& position, const AxialLobes& lobes) {
+    return adjoint.in_scattered(adjoint.incident(position).product(lobes));
 }
 
 }  // namespace wend

@@ -27,6 +27,11 @@ public:
 
     UniformRadiance incident(const Vec3& /*position*/) const { return {}; }
     constexpr float fluence() const { return 4 * pi * radiance_; }
+    constexpr Rgb in_scattered(const UniformRadiance::Product& product) const {
+        return Rgb(fluence() * product.integral());
+    }
+    /// Any would do, both ways of sampling being the same; half costs least if they differ by rounding.
+    static constexpr float classical_share() { return 0.5f; }
 
 private:
     float radiance_;

@@ -3,6 +3,7 @@
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>
 #include <wend/film/false_colour.h>
+#include <wend/guide/lobe_revision.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
@@ -148,28 +149,48 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     const bool floating_point = std::filesystem::path(options.picture).extension() == ".exr";
     write_picture(options.picture, radiance_picture(incident, region->fluence(), floating_point));
 
-    std::vector<std::vector<std::string>> rows = {{"lobe", "share", "towards", "concentration", "distance"}};
+    std::vector<std::vector<std::string>> rows = {
+        {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
+    const auto sums = part.field->lobe_sums(position);
     nlohmann::json lobes = nlohmann::json::array();
     for (int i = 0; i < incident.size(); ++i) {
         const auto [weight, vmf] = incident.lobe(i);
         const double inverse = static_cast<double>(region->inverse_distance()[i]);
+        const guide::LobeSums& seen = sums[static_cast<std::size_t>(i)];
+        const double records = guide::effective_records(seen);
+        const double misfit = guide::misfit(seen, region->mixture().lobe(i).vmf).total();
+        const Rgb colour = region->colours()[i];
         rows.push_back({std::to_string(i + 1), fmt::format("{:.4f}", weight),
                         fmt::format("{:.3f} {:.3f} {:.3f}", vmf.mean.x, vmf.mean.y, vmf.mean.z),
-                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far"});
+                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far",
+                        fmt::format("{:.1f}", records), fmt::format("{:.3f}", misfit),
+                        fmt::format("{:.2f} {:.2f} {:.2f}", colour.r, colour.g, colour.b)});
         lobes.push_back({{"weight", weight},
                          {"mean", vector_json(vmf.mean)},
                          {"kappa", vmf.kappa},
+                         {"records", json_number(records)},
+                         {"misfit", json_number(misfit)},
+                         {"colour", {colour.r, colour.g, colour.b}},
                          {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
     }
     if (options.common.json != "-") {
-        streams.out << fmt::format("\nat {}, {} field: fluence {:.4g}, distances from {:.4g} {:.4g} {:.4g}\n",
-                                   options.at, part.name, region->fluence(), region->reference().x,
-                                   region->reference().y, region->reference().z)
-                    << text_table(rows) << "incident radiance by direction: " << options.picture << '\n';
+        streams.out
+            << fmt::format(
+                   "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
+                   options.at, part.name, region->fluence(), region->classical_share(), region->reference().x,
+                   region->reference().y, region->reference().z)
+            << text_table(rows)
+            << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
+               "them spreads otherwise than the lobe\n"
+            << "incident radiance by direction: " << options.picture << '\n';
     }
-    return {{"position", vector_json(position)}, {"part", part.name},
-            {"fluence", region->fluence()},      {"reference", vector_json(region->reference())},
-            {"lobes", std::move(lobes)},         {"picture", options.picture}};
+    return {{"position", vector_json(position)},
+            {"part", part.name},
+            {"fluence", region->fluence()},
+            {"classical_share", region->classical_share()},
+            {"reference", vector_json(region->reference())},
+            {"lobes", std::move(lobes)},
+            {"picture", options.picture}};
 }
 
 /// All cells as boxes in VTK's legacy text format.
@@ -177,6 +198,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     struct Cell {
         Box3 box;
         float fluence;
+        float classical_share;
         double samples;
         int lobes;
         int part;
@@ -184,7 +206,8 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     std::vector<Cell> cells;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].field->for_each_cell([&](const Box3& box, const guide::Region& region, double samples) {
-            cells.push_back({box, region.fluence(), samples, region.mixture().size(), static_cast<int>(p)});
+            cells.push_back({box, region.fluence(), region.classical_share(), samples, region.mixture().size(),
+                             static_cast<int>(p)});
         });
     }
     std::string text =
@@ -219,6 +242,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
         }
     };
     scalars("fluence", [](const Cell& cell) { return cell.fluence; });
+    scalars("classical_share", [](const Cell& cell) { return cell.classical_share; });
     scalars("samples", [](const Cell& cell) { return cell.samples; });
     scalars("lobes", [](const Cell& cell) { return cell.lobes; });
     scalars("volume", [](const Cell& cell) { return cell.part; });
@@ -275,7 +299,11 @@ Action add_field_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("field", "show what a guiding field holds (a file of 'wend render --save-field')");
     command.add_option("file", options->file, "file of guiding fields")->required();
-    command.add_option("--at", options->at, "x,y,z: the lobes of incident radiance there, and a picture of them");
+    command.add_option(
+        "--at", options->at,
+        "x,y,z: the lobes of incident radiance there, and a picture of them; a field keeps no "
+        "records, but of each lobe how many taught it (those of equal weight that would know as much) and by "
+        "how many nats their directions spread otherwise than it does");
     command.add_option("--part", options->part, "surface or volume (default: the one with more samples)")
         ->check(CLI::IsMember({"surface", "volume"}));
     command.add_option("-o,--output", options->picture,

@@ -78,6 +78,19 @@ wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, floa
     });
 }
 
+wend_status wend_field_classical_share(const wend_field* field, wend_vec3 position, float* share,
+                                       wend_error* error) noexcept {
+    return guarded(error, [&] {
+        require(share, "the place for the share is null");
+        const guide::Region* region = find(field, position);
+        if (!region) {
+            return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
+        }
+        *share = region->classical_share();
+        return WEND_OK;
+    });
+}
+
 wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wend_distribution* incident,
                                 wend_error* error) noexcept {
     return guarded(error, [&] {

@@ -18,7 +18,10 @@ guide::Record to_record(const wend_record& r) {
             {r.direction.x, r.direction.y, r.direction.z},
             r.radiance,
             r.density,
-            r.distance};
+            r.distance,
+            r.classical_density,
+            r.guided_density,
+            r.scattered};
 }
 
 }  // namespace

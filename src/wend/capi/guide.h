@@ -6,8 +6,8 @@
  *
  *   1. wend_field_create() once for surfaces and once for volumes: fields that know nothing yet.
  *   2. Render a pass. At every vertex: wend_field_incident(), wend_distribution_product() with the lobes of what
- *      scatters, wend_distribution_sample(). Mix it with your own sampling (half and half is a good start) and
- *      divide by the density of the mixture, and no field can bias the picture.
+ *      scatters, wend_distribution_sample(). Mix it with your own sampling (wend_field_classical_share() says how)
+ *      and divide by the density of the mixture, and no field can bias the picture.
  *   3. Keep the vertices of every walk; wend_records_of_path() makes records of them.
  *   4. Between passes wend_field_fit() makes the next field of the last one and the records. Go on with 2.
  *
@@ -73,6 +73,11 @@ typedef struct wend_record {
     float radiance;      /* as a scalar, for instance the mean of the colour channels; not negative */
     float density;       /* the direction was drawn with; positive */
     float distance;      /* to the next vertex along the direction; positive, infinite where there is none */
+    /* What is needed to learn how your own sampling and the guide's are best mixed; all 0 where there was no choice:
+     * the density of each for the direction, and the scattering function with its cosine times the radiance. */
+    float classical_density;
+    float guided_density;
+    float scattered;
 } wend_record;
 
 /* How a field is fitted. Start from wend_fit_settings_default(). */
@@ -136,6 +141,11 @@ wend_status wend_field_summarize(const wend_field* field, wend_field_summary* su
 /* The integral of the radiance over all directions, averaged over the position's cell: radiance times sr. */
 wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, float* fluence,
                                wend_error* error) WEND_NOEXCEPT;
+
+/* How much of the directions around a position is best drawn by your own sampling of what scatters, the rest being
+ * guided: learned from records that know both densities, 0.1 to 0.9, and one half without them. */
+wend_status wend_field_classical_share(const wend_field* field, wend_vec3 position, float* share,
+                                       wend_error* error) WEND_NOEXCEPT;
 
 /* Writes the field to `buffer` and the number of bytes to `size`. A null buffer only asks for the size; one with a
  * `capacity` that is too small is left alone and answered with WEND_BUFFER_TOO_SMALL and the size. The bytes have a
@@ -214,14 +224,16 @@ wend_status wend_distribution_density(const wend_distribution* distribution, wen
 typedef struct wend_path_vertex {
     wend_vec3 position;
     wend_vec3 direction;
-    float density;       /* of the direction; 0 for one of a discrete set, a mirror's */
-    float distance;      /* along the direction to what the walk met first; INFINITY where there was nothing */
-    float arrival[3];    /* weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
-    float scattering[3]; /* the scattering function, with its cosine, over the density of the direction */
-    float gathered[3];   /* radiance found after this direction and before the next one was drawn, times the weight
-                            gained since: light met and the next vertex's connection to a light, each with its weight
-                            of multiple importance sampling */
-    int32_t parent;      /* index of the vertex whose direction led here, lower than this one's; -1 for none */
+    float density;           /* of the direction; 0 for one of a discrete set, a mirror's */
+    float distance;          /* along the direction to what the walk met first; INFINITY where there was nothing */
+    float arrival[3];        /* weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
+    float scattering[3];     /* the scattering function, with its cosine, over the density of the direction */
+    float gathered[3];       /* radiance found after this direction and before the next one was drawn, times the weight
+                                gained since: light met and the next vertex's connection to a light, each with its weight
+                                of multiple importance sampling */
+    float classical_density; /* of the direction by your own sampling, and by the guide, where you mixed both: */
+    float guided_density;    /* otherwise 0 */
+    int32_t parent;          /* index of the vertex whose direction led here, lower than this one's; -1 for none */
 } wend_path_vertex;
 
 /* Makes a record of each vertex, in the same order, in time proportional to their number. Those of mirrors have density

@@ -18,6 +18,8 @@ guide::PathVertex to_vertex(const wend_path_vertex& v) {
     vertex.position = {v.position.x, v.position.y, v.position.z};
     vertex.direction = {v.direction.x, v.direction.y, v.direction.z};
     vertex.density = v.density;
+    vertex.classical_density = v.classical_density;
+    vertex.guided_density = v.guided_density;
     vertex.distance = v.distance;
     vertex.arrival = to_rgb(v.arrival);
     vertex.scattering = to_rgb(v.scattering);
@@ -45,7 +47,8 @@ wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wen
         guide::incident_radiance(vertices, incident);
         for (std::size_t i = 0; i < count; ++i) {
             const guide::Record r = guide::record_of(vertices[i], incident[i]);
-            records[i] = {from_vector(r.position), from_vector(r.direction), r.radiance, r.density, r.distance};
+            records[i] = {from_vector(r.position), from_vector(r.direction), r.radiance, r.density, r.distance,
+                          r.classical_density,     r.guided_density,         r.scattered};
         }
         return WEND_OK;
     });

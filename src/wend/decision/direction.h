@@ -19,6 +19,10 @@ struct DirectionSample {
     float density = 0;      ///< per steradian; a probability if specular
     bool specular = false;  ///< drawn from a discrete set of directions
     float boost = 1;        ///< density over what the scattering function's own sampling would have had
+    /// The densities that the scattering function's own sampling and the guide had, where it was drawn from a mixture
+    /// of both; otherwise 0.
+    float classical_density = 0;
+    float guided_density = 0;
 
     Rgb weight() const { return value * (1 / density); }
 };
@@ -45,7 +49,7 @@ public:
         explicit Distribution(const F& f) : f_(f) {}
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
         float density(const Vec3& w) const { return f_.density(w); }
-        std::optional<float> in_scattered() const { return std::nullopt; }
+        std::optional<Rgb> in_scattered() const { return std::nullopt; }
 
     private:
         const F& f_;
@@ -69,22 +73,21 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 template <AdjointField Field>
 class GuidedDirection {
 public:
+    using LocalAdjoint = std::remove_cvref_t<decltype(*std::declval<Field>().find(Vec3()))>;
     /// The distribution of what scatters times incident radiance.
-    using Product =
-        std::remove_cvref_t<decltype(std::declval<Field>().find(Vec3())->incident(Vec3()).product(AxialLobes()))>;
+    using Product = std::remove_cvref_t<decltype(std::declval<LocalAdjoint>().incident(Vec3()).product(AxialLobes()))>;
 
     /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
-    /// alone: it bounds the weight by 1/classical_share times the classical one.
-    GuidedDirection(const Field* surface, const Field* volume, float classical_share)
+    /// alone: it bounds the weight by 1/classical_share times the classical one. Nothing: each adjoint's own.
+    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> classical_share = std::nullopt)
         : surface_(surface), volume_(volume), classical_share_(classical_share) {}
 
     template <ScatteringFunction F>
     class Distribution {
     public:
         /// `adjoint` may be null.
-        template <class Adjoint>
-        Distribution(const F& f, const Adjoint* adjoint, const Vec3& position, float classical_share)
-            : f_(f), fluence_(adjoint ? adjoint->fluence() : 0), classical_share_(classical_share) {
+        Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share)
+            : f_(f), adjoint_(adjoint), classical_share_(classical_share) {
             if (adjoint) {
                 product_.emplace(InPlace([&] { return adjoint->incident(position).product(f.lobes()); }));
             }
@@ -111,21 +114,24 @@ public:
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
             }
-            const float own = s.density;
-            s.density = mixed(own, s.direction);
-            s.boost = own > 0 ? s.density / own : 1.0f;
+            s.classical_density = s.density;
+            s.guided_density = product_->density(s.direction);
+            s.density = mixed(s.classical_density, s.guided_density);
+            s.boost = s.classical_density > 0 ? s.density / s.classical_density : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
-        float density(const Vec3& w) const { return mixed(f_.density(w), w); }
+        float density(const Vec3& w) const {
+            return product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
+        }
 
-        /// The adjoint's ∫ f L dω over the albedo of f; nothing where it is not known.
-        std::optional<float> in_scattered() const {
-            return product_ ? std::optional(fluence_ * product_->integral()) : std::nullopt;
+        /// The adjoint's ∫ f L dω over the albedo of f, by channel; nothing where it is not known.
+        std::optional<Rgb> in_scattered() const {
+            return product_ ? std::optional(adjoint_->in_scattered(*product_)) : std::nullopt;
         }
 
     private:
-        float mixed(float classical, const Vec3& w) const {
-            return product_ ? classical_share_ * classical + (1 - classical_share_) * product_->density(w) : classical;
+        float mixed(float classical, float guided) const {
+            return classical_share_ * classical + (1 - classical_share_) * guided;
         }
 
         /// Becomes what a function returns where it is needed: a product is large, and is not copied on its way.
@@ -138,7 +144,7 @@ public:
 
         const F& f_;
         std::optional<Product> product_;
-        float fluence_;
+        const LocalAdjoint* adjoint_;
         float classical_share_;
     };
 
@@ -149,14 +155,15 @@ public:
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         constexpr float least_boost = 0.05f;
         const bool guidable = f.is_guidable() && boost >= least_boost;
-        const auto* adjoint = guidable ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
-        return Distribution<F>(f, adjoint, position, classical_share_);
+        const LocalAdjoint* adjoint = guidable ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
+        return Distribution<F>(f, adjoint, position,
+                               adjoint ? classical_share_.value_or(adjoint->classical_share()) : 1.0f);
     }
 
 private:
     const Field* surface_;
     const Field* volume_;
-    float classical_share_;
+    std::optional<float> classical_share_;
 };
 
 }  // namespace wend

@@ -30,9 +30,12 @@ Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput,
     return flight;
 }
 
-Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& throughput, Pcg32& random) {
+}  // namespace
+
+Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
+    const Ray& ray = start.ray;
     Flight flight;
-    flight.distance = length;
+    flight.distance = start.length;
     flight.weight = Rgb(1.0f);
     flight.emitted = Rgb(0.0f);
     const Rgb& extinction = medium.extinction();
@@ -44,7 +47,7 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
     const GridEmission* emission = medium.emission();
     const Rgb relative = extinction / largest;
     const bool grey = relative.r == relative.g && relative.g == relative.b;
-    Rgb probability = channel_probabilities(throughput);
+    Rgb probability = channel_probabilities(start.throughput);
 
     // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the
     // majorant is then the same in all channels and cancels. Which of them are real is decided for the mixture of
@@ -76,7 +79,7 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
                     if (!grey) {
                         const float none = 1 / (cell.maximum - acceptance * density);
                         flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
-                        probability = channel_probabilities(throughput * flight.weight);
+                        probability = channel_probabilities(start.throughput * flight.weight);
                     }
                     continue;
                 }
@@ -87,17 +90,15 @@ Flight fly(const GridMedium& medium, const Ray& ray, float length, const Rgb& th
             return false;
         }
     };
-    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, length, cross);
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length, cross);
     return flight;
 }
-
-}  // namespace
 
 Flight ClassicalDistance::sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
     if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
         return fly(*homogeneous, start.length, start.throughput, u);
     }
-    return fly(std::get<GridMedium>(medium), start.ray, start.length, start.throughput, random);
+    return sample(std::get<GridMedium>(medium), start, random);
 }
 
 Rgb ClassicalDistance::pass_probability(const Medium& medium, const Ray&, float length) const {

@@ -60,6 +60,7 @@ public:
 
     /// `u` is uniform in [0,1).
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const;
+    Flight sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const;
     Rgb pass_probability(const Medium& medium, const Ray& ray, float length) const;
 };
 

@@ -1,16 +1,16 @@
-// The density of a flight's distance that follows an estimate of what lies ahead.
+// The density of a flight's distance through a homogeneous medium that follows an estimate of what lies ahead.
 #pragma once
 
 #include <wend/decision/channels.h>
 
 namespace wend {
 
-/// Flights along a ray that is cut into pieces, in each of which the density of the medium and the light scattered
-/// there are taken for constant (herholz2019, with all integrals in closed form). A collision at distance t in a piece
-/// of density d and in-scattered radiance S, an optical depth of σ x from the start, is drawn with density
-///     d · (α Σ_c w_c σ_c e^{-σ_c x} + (1 - α) S / Z · Σ_c w_c σs_c e^{-σ_c x}),
-/// and the end, behind which radiance A comes, with probability
-///     α Σ_c w_c e^{-σ_c X} + (1 - α) A / Z · Σ_c w_c e^{-σ_c X},
+/// Flights along a ray that is cut into pieces, in each of which the in-scattered radiance is taken for constant
+/// (herholz2019, with all integrals in closed form). A collision at distance t in a piece of in-scattered radiance S is
+/// drawn with density
+///     α Σ_c w_c σ_c e^{-σ_c t} + (1 - α) S / Z · Σ_c w_c σs_c e^{-σ_c t},
+/// and the end at distance d, behind which radiance A comes, with probability
+///     (α + (1 - α) A / Z) · Σ_c w_c e^{-σ_c d},
 /// where α is the classical share, w_c are the weights of the colour channels and Z makes the second terms add up to 1.
 /// A value of fixed size without heap memory.
 class FlightPieces {
@@ -19,29 +19,27 @@ public:
     struct Outcome {
         bool scatters = false;
         float distance = 0;
-        /// Optical depth for an extinction of 1.
-        float depth = 0;
         float density = 0;
         /// What it would be with a classical share of 1.
         float classical = 0;
     };
 
-    /// Coefficients at density 1, and weights of the channels that add up to 1.
+    /// The coefficients, and weights of the channels that add up to 1.
     FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels);
 
-    /// The next piece, behind the last one; what is between them is empty. `density` and `in_scattered` are not
-    /// negative. Beyond the room for pieces, or where hardly any light gets to, it is joined to the last one.
-    void add(float t_in, float t_out, float density, float in_scattered);
+    /// The next piece: from the end of the last one, at first from 0, to t_out. Returns whether more pieces are wanted:
+    /// there is room for so many, and hardly any light comes from far away.
+    bool add(float t_out, float in_scattered);
 
-    /// Nothing more comes before the end, where `ahead` is the radiance to be expected. `level`: only whether to
-    /// scatter follows the light, and where does not.
+    /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
+    /// There must be a piece. `level`: only whether to scatter follows the light, and where does not.
     void finish(float length, float ahead, bool level);
 
-    /// Draws a flight; `u` picks the technique and what it needs. With a classical share below 1, the pieces must not
-    /// all be dark.
+    /// Draws a flight; `u` in [0,1) picks the technique and what it needs. The classical share is in [0,1], and 1 where
+    /// nothing is lit.
     Outcome sample(float classical_share, float u) const;
 
-    /// The density of a collision at a distance inside a piece, or of the end.
+    /// The density of a collision within the segment, and the probability of the end.
     Outcome collision(float distance, float classical_share) const;
     Outcome end(float classical_share) const;
 
@@ -50,32 +48,24 @@ public:
 
 private:
     struct Piece {
-        float t_in, t_out;
-        float density;
+        float t_out;
         float in_scattered;
-        /// Optical depth at t_in for an extinction of 1.
-        float depth;
         /// Sum of the contributions up to the end of the piece.
         float cumulative;
     };
 
-    float depth_after(const Piece& piece) const { return piece.depth + piece.density * (piece.t_out - piece.t_in); }
-    /// e^{-σ_c depth}.
-    Rgb transmitted(float depth) const;
-    float attenuated(const Rgb& weights, float depth) const { return dot(weights, transmitted(depth)); }
-    /// w_c σs_c ∫ e^{-σ_c x} over the piece.
-    Rgb scattered_in(const Piece& piece) const;
-    Outcome collision_in(const Piece& piece, float depth, float classical_share) const;
+    Rgb transmitted(float distance) const;
+    float t_in(const Piece& piece) const { return &piece == pieces_ ? 0.0f : (&piece - 1)->t_out; }
+    Outcome collision_in(const Piece& piece, float distance, float classical_share) const;
 
-    static constexpr int capacity = 160;
+    static constexpr int capacity = 128;
 
     Rgb extinction_;
-    /// w_c times σ_c, σs_c, 1 and σs_c / σ_c.
-    Rgb rate_, scattering_rate_, channels_, albedo_;
+    /// The weights of the channels times 1, σ, σs, and σs / σ.
+    Rgb channels_, rate_, scattering_rate_, albedo_;
     bool grey_;
+    float farthest_;
     int count_ = 0;
-    float length_ = 0;
-    float depth_ = 0;
     float ahead_ = 0;
     float total_ = 0;
     Piece pieces_[capacity];

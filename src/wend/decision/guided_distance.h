@@ -55,9 +55,8 @@ private:
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
-        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
-            pieces.add(t_in, t_out, 1, light.in_scattered(start.ray.direction, medium.phase));
-            return true;
+        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float, float t_out) {
+            return pieces.add(t_out, light.in_scattered(start.ray.direction, medium.phase));
         });
         pieces.finish(start.length, ahead(start), levels());
         const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share_ : 1.0f, u);
@@ -74,37 +73,11 @@ private:
 
     Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
         GuidedTracking tracking(medium, start, classical_share_);
-        add_pieces(tracking, medium, start);
-        return tracking.fly(ahead(start), levels(), random);
-    }
-
-    /// The cells of the grid, cut where those of the field end.
-    void add_pieces(GuidedTracking& tracking, const GridMedium& medium, const FlightStart& start) const {
-        struct Lit {
-            float t_out, in_scattered;
-        };
-        constexpr int most = 128;
-        Lit lit[most];
-        int count = 0;
-        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float, float t_out) {
-            lit[count++] = {t_out, light.in_scattered(start.ray.direction, medium.phase())};
-            return count < most;
+        volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
+            tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
+            return true;
         });
-        const Lit* here = lit;
-        const Lit* const last = lit + count - 1;
-        const auto index_ray = medium.to_index(start.ray);
-        medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length,
-                                [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-                                    while (cell.maximum > 0 && t_in < t_out) {
-                                        while (here != last && here->t_out <= t_in) {
-                                            ++here;
-                                        }
-                                        const float t = here == last ? t_out : std::min(t_out, here->t_out);
-                                        tracking.add(t_in, t, cell, here->in_scattered);
-                                        t_in = t;
-                                    }
-                                    return true;
-                                });
+        return tracking.fly(ahead(start), levels(), random);
     }
 
     bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }

@@ -11,6 +11,8 @@ namespace {
 
 // How many times more tentative collisions than the majorant's there may be.
 constexpr float most_stretching = 4;
+// The optical depth to which the light is asked for.
+constexpr float deepest = 8;
 
 }  // namespace
 
@@ -19,19 +21,21 @@ GuidedTracking::GuidedTracking(const GridMedium& medium, const FlightStart& star
     const Rgb channels = channel_probabilities(start.throughput);
     extinction_ = dot(channels, medium.extinction());
     albedo_ = extinction_ > 0 ? dot(channels, medium.scattering()) / extinction_ : 0.0f;
-}
-
-void GuidedTracking::add(float t_in, float t_out, const MajorantGrid::Cell& cell, float in_scattered) {
-    if (count_ < capacity) {
-        pieces_[count_++] = {t_in, t_out, cell, in_scattered};
-        return;
-    }
-    Piece& last = pieces_[count_ - 1];
-    const float share = (t_out - t_in) / (t_out - last.t_in);
-    last.density = {0, std::max(last.density.maximum, cell.maximum),
-                    last.density.mean + share * (cell.mean - last.density.mean)};
-    last.in_scattered += share * (in_scattered - last.in_scattered);
-    last.t_out = t_out;
+    const auto index_ray = medium.to_index(start.ray);
+    float depth = 0;
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length,
+                            [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+                                if (cell.maximum > 0) {
+                                    Piece& piece = pieces_[count_++];
+                                    piece.t_in = t_in;
+                                    piece.t_out = t_out;
+                                    piece.density = cell;
+                                    piece.in_scattered = 0;
+                                    depth += extinction_ * cell.mean * (t_out - t_in);
+                                    goes_on_ = depth > deepest || count_ == capacity;
+                                }
+                                return !goes_on_;
+                            });
 }
 
 float GuidedTracking::expected(const Piece& piece, float length) const {
@@ -40,6 +44,10 @@ float GuidedTracking::expected(const Piece& piece, float length) const {
 }
 
 void GuidedTracking::look_ahead(float ahead) {
+    if (goes_on_) {
+        // Where it is as dense behind, a flight finds what is scattered there.
+        ahead = albedo_ * pieces_[count_ - 1].in_scattered;
+    }
     for (int i = count_; i-- > 0;) {
         pieces_[i].behind = ahead;
         ahead = expected(pieces_[i], pieces_[i].t_out - pieces_[i].t_in);
@@ -123,6 +131,19 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
                 channels = channel_probabilities(start_.throughput * flight.weight);
             }
         }
+    }
+    if (goes_on_) {
+        const float passed = reach();
+        const FlightStart rest{Ray{start_.ray.at(passed), start_.ray.direction},
+                               start_.length - passed,
+                               start_.throughput * flight.weight,
+                               flight.boost,
+                               {}};
+        const Flight last = ClassicalDistance().sample(medium_, rest, random);
+        flight.emitted += flight.weight * last.emitted;
+        flight.weight *= last.weight;
+        flight.scatters = last.scatters;
+        flight.distance = passed + last.distance;
     }
     return flight;
 }

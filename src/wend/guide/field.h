@@ -8,6 +8,7 @@
 #include <wend/guide/statistics.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,11 @@ public:
     /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.
     template <class Visit>
     void walk(const Ray& ray, float t0, float t1, Visit&& visit) const;
+
+    /// What the records told of each lobe of a position's cell, as seen from the region's reference point.
+    std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const {
+        return memories_[nodes_[leaf_of(position)].child].statistics.lobe_sums();
+    }
 
     const Box3& bounds() const { return bounds_; }
     /// Most splits above a cell.

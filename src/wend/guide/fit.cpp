@@ -60,6 +60,17 @@ std::array<LobeSums, max_lobes> continued(const std::array<LobeSums, max_lobes>&
     return sums;
 }
 
+LobeColours colours_of(const LearnedLobes& learned) {
+    LobeColours colours;
+    for (int i = 0; i < learned.model.mixture.size(); ++i) {
+        const LobeSums& s = learned.sums[static_cast<std::size_t>(i)];
+        if (s.weight > 0) {
+            colours.set(i, s.red / s.weight, s.blue / s.weight);
+        }
+    }
+    return colours;
+}
+
 /// Sum over the lobes of how far their resultant vectors are apart.
 double movement(const std::array<LobeSums, max_lobes>& a, const std::array<LobeSums, max_lobes>& b) {
     double sum = 0;
@@ -265,9 +276,12 @@ private:
         }
         Statistics& statistics = memory_of(cell).statistics;
         statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
-        const LearnedLobes learned = find_lobes(start(region), statistics.lobes, view.observations,
+        std::array<LobeSums, max_lobes> earlier = statistics.lobe_sums();
+        const LearnedLobes learned = find_lobes(start(region), earlier, view.observations,
                                                 view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
-        region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence());
+        statistics.keep(earlier);
+        region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence(),
+                        colours_of(learned), region.classical_share());
         const Vec3 mean = seen.offset / seen.located;
         return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
@@ -361,15 +375,18 @@ private:
         statistics.count += static_cast<double>(cell.size());
 
         LobeModel model{region.mixture(), region.inverse_distance()};
+        LobeColours colours = region.colours();
         if (!view.observations.empty()) {
             statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
             const LearnedLobes learned =
-                fit_lobes(start(region), statistics.lobes, view, view.unit / statistics.unit, memory.radius);
+                fit_lobes(start(region), statistics.lobe_sums(), view, view.unit / statistics.unit, memory.radius);
             model = learned.model;
-            statistics.lobes = learned.sums;
+            colours = colours_of(learned);
+            statistics.keep(learned.sums);
         }
-        region = Region(region.reference(), model.mixture, model.inverse_distance,
-                        static_cast<float>(statistics.fluence / statistics.count));
+        region =
+            Region(region.reference(), model.mixture, model.inverse_distance,
+                   static_cast<float>(statistics.fluence / statistics.count), colours, statistics.share_sums.best());
     }
 
     /// Where a cell's fit starts.
@@ -378,7 +395,8 @@ private:
                                            : initial_lobes(settings_.lobes);
     }
 
-    /// Sees every stride-th record of a cell from its reference point, and adds where they are to the memory.
+    /// Sees every stride-th record of a cell from its reference point, and adds to the memory where they are and how
+    /// they were drawn.
     View look(const Cell& cell, std::size_t stride, Field::Memory& memory) const {
         constexpr float largest_inverse_distance = 1e12f;  // the sum of many squares is a float
         const Vec3 reference = field_.regions_[region_of(cell)].reference();
@@ -404,11 +422,14 @@ private:
             ++seen;
             const double weight = weight_of(r);
             if (weight > 0) {
+                memory.statistics.share_sums.add(r);
                 view.fluence += weight;
                 view.fluence_square += weight * weight;
                 weights.push_back(weight);
-                view.observations.push_back(
-                    {r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0});
+                const double grey = (static_cast<double>(r.colour.r) + r.colour.g + r.colour.b) / 3;
+                const auto over_grey = [&](float channel) { return grey > 0 ? static_cast<float>(channel / grey) : 1; };
+                view.observations.push_back({r.direction, offset, std::min(1 / r.distance, largest_inverse_distance), 0,
+                                             over_grey(r.colour.r), over_grey(r.colour.b)});
             }
         }
         memory.located += static_cast<float>(seen);
@@ -509,13 +530,15 @@ private:
             const float inverse = region.inverse_distance()[i];
             const Vec3 to_source = region.mixture().lobe(i).vmf.mean + offset * inverse;
             inverse_distance[i] = inverse / std::max(length(to_source), 1e-3f);
-            LobeSums& sums = memory.statistics.lobes[i];
+            LobeSums sums = memory.statistics.lobes[static_cast<std::size_t>(i)].sums();
             sums.direction = Vec3(Imath::V3d(mixture.lobe(i).vmf.mean) * Imath::V3d(sums.direction).length());
             sums.turn = inverse_distance[i] * sums.spread;
             // Where in the new cell the earlier records were is not known.
             sums.offset = Vec3(0, 0, 0);
+            memory.statistics.lobes[static_cast<std::size_t>(i)] = sums;
         }
-        region = Region(reference, mixture, inverse_distance, region.fluence());
+        region =
+            Region(reference, mixture, inverse_distance, region.fluence(), region.colours(), region.classical_share());
     }
 
     Field field_;

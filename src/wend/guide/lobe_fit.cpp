@@ -44,7 +44,7 @@ struct LobeLanes {
 /// The sums of LobeSums in lanes.
 struct SumLanes {
     Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
-        spread, straight, oblique, beyond_square;
+        spread, straight, oblique, beyond_square, red, blue;
 
     void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
         for (int i = 0; i < max_lobes; ++i) {
@@ -58,7 +58,9 @@ struct SumLanes {
                                spread[i],
                                straight[i],
                                oblique[i],
-                               beyond_square[i]};
+                               beyond_square[i],
+                               red[i],
+                               blue[i]};
             sums[i] += own.scaled(unit, unit * unit);
         }
     }
@@ -119,6 +121,11 @@ WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Obse
             sums.oblique[i] += weight * (2 * u * v);
             // 1 - cos is half the squared chord.
             sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
+        });
+        // Apart from the others: a loop over too many arrays is not vectorized.
+        for_lanes(lobes.blocks, [&, red = o.red * scale, blue = o.blue * scale](int i) {
+            sums.red[i] += density[i] * red;
+            sums.blue[i] += density[i] * blue;
         });
     }
     return sums;

@@ -24,6 +24,8 @@ struct Observation {
     float inverse_distance;
     /// Relative to the mean weight of the cell's observations.
     float weight;
+    /// Radiance in the first and the last colour channel over the mean of all three.
+    float red = 1, blue = 1;
 };
 
 /// Beliefs before any record, in numbers of records.

@@ -36,6 +36,9 @@ public:
         at_.connected = brought;
     }
 
+    /// The vertex at hand is on a surface: the normal on the side that the walk came from.
+    void face(const Vec3& normal) { at_.normal = normal; }
+
     /// The walk met something at this distance from the last vertex. Only the first time counts.
     void meet(float distance) {
         if (at_.vertex != PathVertex::root && current().distance == std::numeric_limits<float>::infinity()) {
@@ -43,19 +46,21 @@ public:
         }
     }
 
-    /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density.
-    /// `normal` is that of a surface on the side that the walk came from.
+    /// A direction was drawn and the walk's weight multiplied by `weight`, scattering function over density. Where the
+    /// density is that of a mixture, its parts are told as well.
     void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume,
-                 const Vec3& normal = {0, 0, 0}) {
+                 float classical_density = 0, float guided_density = 0) {
         PathVertex v;
         v.position = position;
         v.direction = direction;
         v.density = density;
+        v.classical_density = classical_density;
+        v.guided_density = guided_density;
         v.arrival = at_.weight;
         v.scattering = weight;
         v.parent = at_.vertex;
         v.in_volume = in_volume;
-        v.normal = normal;
+        v.normal = at_.normal;
         v.connected = at_.connected;
         v.to_light = at_.to_light;
         v.light_fluence = at_.light_fluence;
@@ -73,6 +78,7 @@ public:
         Rgb connected;
         Vec3 to_light{0, 0, 0};
         float light_fluence = 0;
+        Vec3 normal{0, 0, 0};
     };
     const Branch& branch() const { return at_; }
     void resume(const Branch& branch) { at_ = branch; }

@@ -21,6 +21,9 @@ struct PathVertex {
     Vec3 direction;
     /// The direction was drawn with, in 1/sr; 0 for one of a discrete set (a mirror's), of which nothing is learned.
     float density = 0;
+    /// Of the direction, by classical sampling and by the guide where it was drawn from a mixture of both; 0 otherwise.
+    float classical_density = 0;
+    float guided_density = 0;
     /// Along the direction to what the walk met first; infinity where there was nothing.
     float distance = std::numeric_limits<float>::infinity();
     /// Weight that the walk gained on the way here since the parent's direction was drawn: transmittance over the
@@ -51,10 +54,18 @@ struct PathVertex {
 /// O(vertices); `incident` is resized.
 Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident);
 
-/// What a vertex tells, given the radiance that arrived: as a scalar the mean of the colour channels. Nothing is
-/// clamped: a record that is not finite stays as it is, for fit() to ignore and count.
+/// What a vertex tells, given the radiance that arrived: by channel, and as a scalar the mean of the channels. Nothing
+/// is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
 inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
-    return {vertex.position, vertex.direction, mean(incident), vertex.density, vertex.distance};
+    return {vertex.position,
+            vertex.direction,
+            mean(incident),
+            vertex.density,
+            vertex.distance,
+            vertex.classical_density,
+            vertex.guided_density,
+            mean(vertex.scattering * incident) * vertex.density,
+            incident};
 }
 
 /// What the vertex tells of the light scattered there.

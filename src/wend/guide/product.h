@@ -22,6 +22,9 @@ public:
     /// Z = ∫ V H dω, in 1/sr.
     float integral() const { return integral_; }
 
+    /// The part of Z that each lobe of V has, if Z is not 0.
+    const Lanes& parts() const { return parts_; }
+
     /// Density at a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
 

@@ -28,7 +28,11 @@ bool is_usable(const ScatterRecord& record) {
 bool is_usable(const Record& record) {
     return in_space(record.position) && std::abs(length_squared(record.direction) - 1) <= unit_tolerance && record.radiance >= 0 &&
            std::isfinite(record.radiance) && record.density > 0 && std::isfinite(record.density) &&
-           record.distance > 0 && weight_of(record) <= largest_weight;
+           record.distance > 0 && weight_of(record) <= largest_weight && record.classical_density >= 0 &&
+           std::isfinite(record.classical_density) && record.guided_density >= 0 &&
+           std::isfinite(record.guided_density) && record.scattered >= 0 &&
+           static_cast<double>(record.scattered) / record.density <= largest_weight && min_value(record.colour) >= 0 &&
+           is_finite(record.colour);
 }
 
 }  // namespace wend::guide

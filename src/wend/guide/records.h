@@ -1,6 +1,7 @@
 // What walks report to the guide: one record for each direction drawn and what came back along it.
 #pragma once
 
+#include <wend/core/colour.h>
 #include <wend/core/vector.h>
 
 #include <vector>
@@ -19,6 +20,14 @@ struct Record {
     float density;
     /// Distance to the next vertex along the direction; positive, and infinite where there is none.
     float distance;
+    /// The densities that classical sampling and the guide each had for the direction, and the scattering function with
+    /// its cosine times the radiance, a scalar too: they tell how the two are best mixed. All 0 where there was no
+    /// choice.
+    float classical_density = 0;
+    float guided_density = 0;
+    float scattered = 0;
+    /// The radiance by colour channel in any scale, of which only ratios count; not negative. Black stands for grey.
+    Rgb colour{1.0f};
 };
 
 /// What a vertex of a walk says about the light that is scattered there: decisions about flights ask how much of it

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/adjoint/adjoint.h>
+#include <wend/guide/lobe_colours.h>
 #include <wend/guide/product.h>
 
 namespace wend::guide {
@@ -14,8 +15,14 @@ public:
     Region() = default;
 
     /// `inverse_distance`: 1/distance of each lobe's source from the reference point; 0 where it is far or not known.
-    Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence)
-        : reference_(reference), fluence_(fluence), mixture_(mixture), inverse_distance_(inverse_distance) {}
+    Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence,
+           const LobeColours& colours = {}, float classical_share = 0.5f)
+        : reference_(reference),
+          fluence_(fluence),
+          mixture_(mixture),
+          inverse_distance_(inverse_distance),
+          colours_(colours),
+          classical_share_(classical_share) {}
 
     /// Distribution of the incident radiance at a position of the cell, as a view of this region.
     MixtureView incident(const Vec3& position) const {
@@ -25,15 +32,44 @@ public:
     /// ∫ L dω averaged over the cell's records, in radiance times sr.
     float fluence() const { return fluence_; }
 
+    /// ∫ f L dω by colour channel, for a product of what is incident somewhere in the cell with the lobes of f: each
+    /// lobe brings its own colour.
+    Rgb in_scattered(const MixtureProduct& product) const {
+        Rgb sum;
+        if (product.integral() > 0) {
+            for (int i = 0; i < mixture_.size(); ++i) {
+                sum += colours_[i] * (fluence_ * product.parts()[i]);
+            }
+        }
+        return sum;
+    }
+
+    /// Radiance arriving at a position of the cell from a unit direction, by colour channel.
+    Rgb radiance(const Vec3& position, const Vec3& direction) const {
+        const VmfMixture seen = incident(position);
+        Rgb sum;
+        for (int i = 0; i < seen.size(); ++i) {
+            const auto [weight, vmf] = seen.lobe(i);
+            sum += colours_[i] * (fluence_ * weight * vmf.density(direction));
+        }
+        return sum;
+    }
+
+    /// How much of directions is best drawn by classical sampling, as measured (share.h).
+    float classical_share() const { return classical_share_; }
+
     const Vec3& reference() const { return reference_; }
     const VmfMixture& mixture() const { return mixture_; }
     const Lanes& inverse_distance() const { return inverse_distance_; }
+    const LobeColours& colours() const { return colours_; }
 
 private:
     Vec3 reference_{0, 0, 0};
     float fluence_ = 0;
     VmfMixture mixture_;
     Lanes inverse_distance_;
+    LobeColours colours_;
+    float classical_share_ = 0.5f;
 };
 
 static_assert(IncidentRadiance<VmfMixture>);

@@ -91,6 +91,7 @@ void put(std::string& out, const Vec3& v) {
 void put_region(std::string& out, const Region& region) {
     put(out, region.reference());
     put(out, region.fluence());
+    put(out, region.classical_share());
     put(out, region.mixture().size());
     for (int i = 0; i < region.mixture().size(); ++i) {
         const auto [weight, vmf] = region.mixture().lobe(i);
@@ -98,16 +99,20 @@ void put_region(std::string& out, const Region& region) {
         put(out, vmf.mean);
         put(out, vmf.kappa);
         put(out, region.inverse_distance()[i]);
+        put(out, region.colours()[i].r);
+        put(out, region.colours()[i].b);
     }
 }
 
 Region take_region(Reader& in) {
     const Vec3 reference = in.take_vector();
     const auto fluence = in.take_finite<float>();
+    const auto classical_share = in.take_finite<float>();
     const int size = in.take<int>();
-    Reader::require(size >= 1 && size <= max_lobes && fluence >= 0);
+    Reader::require(size >= 1 && size <= max_lobes && fluence >= 0 && classical_share > 0 && classical_share <= 1);
     std::array<WeightedVmf, max_lobes> lobes{};
     Lanes inverse_distance;
+    LobeColours colours;
     float total = 0;
     for (int i = 0; i < size; ++i) {
         WeightedVmf& lobe = lobes[static_cast<std::size_t>(i)];
@@ -115,27 +120,32 @@ Region take_region(Reader& in) {
         lobe.vmf.mean = in.take_vector();
         lobe.vmf.kappa = in.take_finite<float>();
         inverse_distance[i] = in.take_finite<float>();
-        constexpr float rounding = 1e-3f;
+        constexpr float rounding = 1e-3f, brief_rounding = 1e-2f;
         Reader::require(lobe.weight >= 0 && lobe.vmf.kappa >= 0 && lobe.vmf.kappa <= Vmf::max_kappa &&
                         std::abs(length(lobe.vmf.mean) - 1) < rounding && inverse_distance[i] >= 0);
         total += lobe.weight;
+        const auto red = in.take_finite<float>(), blue = in.take_finite<float>();
+        Reader::require(red >= 0 && blue >= 0 && red + blue <= 3 * (1 + brief_rounding));
+        colours.set(i, red, blue);
     }
     Reader::require(total > 0);
-    return {reference, VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))), inverse_distance, fluence};
+    return {reference,        VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))),
+            inverse_distance, fluence,
+            colours,          classical_share};
 }
 
 void put_statistics(std::string& out, const Statistics& statistics) {
     for (const double sum : {statistics.count, statistics.fluence, statistics.fluence_square, statistics.unit}) {
         put(out, sum);
     }
-    for (const LobeSums& lobe : statistics.lobes) {
+    for (const KeptLobeSums& lobe : statistics.lobes) {
+        put(out, lobe.weight);
+        put(out, lobe.weight_square);
         put(out, lobe.direction);
-        put(out, lobe.offset);
-        for (const float sum : {lobe.weight, lobe.weight_square, lobe.inverse_distance, lobe.inverse_distance_square,
-                                lobe.turn, lobe.spread, lobe.straight, lobe.oblique, lobe.beyond_square}) {
-            put(out, sum);
-        }
+        put(out, lobe.per_weight);
     }
+    put(out, statistics.share_sums.moment);
+    put(out, statistics.share_sums.square);
 }
 
 void put_scattered(std::string& out, const ScatterSums& sums) {
@@ -166,15 +176,22 @@ Statistics take_statistics(Reader& in) {
         *sum = in.take_finite<double>();
         Reader::require(*sum >= 0);
     }
-    for (LobeSums& lobe : statistics.lobes) {
+    for (KeptLobeSums& lobe : statistics.lobes) {
+        lobe.weight = in.take_finite<float>();
+        lobe.weight_square = in.take_finite<float>();
         lobe.direction = in.take_vector();
-        lobe.offset = in.take_vector();
-        for (float* sum : {&lobe.weight, &lobe.weight_square, &lobe.inverse_distance, &lobe.inverse_distance_square,
-                           &lobe.turn, &lobe.spread, &lobe.straight, &lobe.oblique, &lobe.beyond_square}) {
-            *sum = in.take_finite<float>();
+        for (BriefFloat& value : lobe.per_weight) {
+            value = in.take<BriefFloat>();
+            Reader::require(std::isfinite(static_cast<float>(value)));
         }
         Reader::require(lobe.weight >= 0 && lobe.weight_square >= 0);
     }
+    for (double& moment : statistics.share_sums.moment) {
+        moment = in.take_finite<double>();
+        Reader::require(moment >= 0);
+    }
+    statistics.share_sums.square = in.take_finite<double>();
+    Reader::require(statistics.share_sums.square >= 0);
     return statistics;
 }
 

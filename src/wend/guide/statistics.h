@@ -2,14 +2,16 @@
 #pragma once
 
 #include <wend/core/vector.h>
+#include <wend/guide/brief_float.h>
 #include <wend/guide/lanes.h>
+#include <wend/guide/share.h>
 
 #include <array>
 
 namespace wend::guide {
 
 /// Sums over the records' shares in one lobe. A record of weight w that belongs to the lobe with probability γ counts γ
-/// w, in units of Statistics::unit: single precision suffices, and a field has many cells.
+/// w, in units of Statistics::unit: single precision suffices.
 struct LobeSums {
     float weight = 0;
     /// Of (γ w)²: weight² / weight_square is how many records of equal weight would know as much (kish1965).
@@ -29,10 +31,29 @@ struct LobeSums {
     float straight = 0;
     float oblique = 0;
     float beyond_square = 0;
+    /// Of the first and the last colour channel over the mean of all three.
+    float red = 0;
+    float blue = 0;
 
     /// All sums but weight_square times `linear`, that one times `quadratic`.
     LobeSums scaled(double linear, double quadratic) const;
     LobeSums& operator+=(const LobeSums& other);
+};
+
+/// The sums as a cell keeps them, since a field has many: what follows the direction is per unit of weight, where few
+/// digits suffice, and does not change when all records come to count less.
+struct KeptLobeSums {
+    float weight = 0;
+    float weight_square = 0;
+    Vec3 direction{0, 0, 0};
+    std::array<BriefFloat, 12> per_weight{};
+
+    KeptLobeSums() = default;
+    KeptLobeSums(const LobeSums& sums);
+    LobeSums sums() const;
+
+    /// As of LobeSums.
+    KeptLobeSums scaled(double linear, double quadratic) const;
 };
 
 /// How many records of equal weight would know as much about the lobe.
@@ -50,7 +71,11 @@ struct Statistics {
     double fluence_square = 0;
     /// What a weight of 1 in the lobes stands for, in radiance times sr.
     double unit = 0;
-    std::array<LobeSums, max_lobes> lobes;
+    std::array<KeptLobeSums, max_lobes> lobes;
+    ShareSums share_sums;
+
+    std::array<LobeSums, max_lobes> lobe_sums() const;
+    void keep(const std::array<LobeSums, max_lobes>& sums);
 
     /// What remains when every record's weight is multiplied by `factor`.
     Statistics decayed(double factor) const;

@@ -143,6 +143,9 @@ private:
             return false;
         }
         hit_ = &hit;
+        if (log_) {
+            log_->face(faced(hit));
+        }
         return scatter(f, hit.position, hit.normal, false);
     }
 
@@ -182,11 +185,11 @@ private:
     /// What the walk may yet bring over what all of it is expected to, if both are known.
     template <class F, class Directions>
     std::optional<float> expected_ratio(const F& f, const Directions& directions) const {
-        const std::optional<float> in_scattered = directions.in_scattered();
+        const std::optional<Rgb> in_scattered = directions.in_scattered();
         if (!in_scattered || !(expected_ > 0)) {
             return std::nullopt;
         }
-        return mean_value(now_.throughput * f.albedo()) * *in_scattered / expected_;
+        return mean_value(now_.throughput * f.albedo() * *in_scattered) / expected_;
     }
 
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
@@ -223,7 +226,7 @@ private:
         if (!s) {
             return false;
         }
-        scatter_into(*s, position, in_volume ? Vec3(0, 0, 0) : faced(*hit_), in_volume);
+        scatter_into(*s, position, in_volume);
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
@@ -391,10 +394,11 @@ private:
             log_->meet(now_.travelled);
         }
     }
-    void scatter_into(const DirectionSample& s, const Vec3& position, const Vec3& normal, bool in_volume) {
+    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
         now_.throughput *= s.weight();
         if (log_) {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, normal);
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
+                          s.classical_density, s.guided_density);
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
             log_->weigh(
                 {now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f, now_.throughput.b > 0 ? 1.0f : 0.0f});

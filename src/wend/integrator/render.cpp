@@ -27,8 +27,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Half of the directions follow the scattering function alone, whatever the guide says.
-constexpr float classical_share = 0.5f;
+// Half of the flights follow the medium alone, whatever the guide says.
+constexpr float classical_flights = 0.5f;
 // Training ends after this many samples per pixel: from then on the field would change little.
 constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
@@ -199,10 +199,11 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
-        const GuidedDistance distance(&fields.surface, &fields.volume, getenv("DS")?atof(getenv("DS")):classical_share,
+        const GuidedDistance distance(&fields.surface, &fields.volume, classical_flights,
                                       preset.distance ? DistanceGuiding::scatter_and_distance
                                                       : DistanceGuiding::scatter_alone);
-        const GuidedDirection direction(&fields.surface, &fields.volume, preset.direction ? classical_share : 1);
+        const GuidedDirection direction(&fields.surface, &fields.volume,
+                                        preset.direction ? std::nullopt : std::optional(1.0f));
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
                 run_with(GuidedDecisions{distance, direction, survival});
