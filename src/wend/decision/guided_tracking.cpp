@@ -143,7 +143,7 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
         flight.emitted += flight.weight * last.emitted;
         flight.weight *= last.weight;
         flight.scatters = last.scatters;
-        flight.distance = passed + last.distance;
+        flight.distance = last.scatters ? passed + last.distance : start_.length;
     }
     return flight;
 }
