@@ -62,16 +62,21 @@ Image render_image(const Scene& scene, const char* preset, int samples, std::uin
 class Reproducible : public testing::TestWithParam<const char*> {};
 
 TEST_P(Reproducible, TheSamePictureForAnyNumberOfThreads) {
-    const Scene scene(foggy_room());
-    const Image one = render_image(scene, GetParam(), 20, 3, 1);
-    for (const int threads : {2, 5}) {
-        EXPECT_EQ(render_image(scene, GetParam(), 20, 3, threads).pixels, one.pixels) << threads << " threads";
+    for (const bool grid : {false, true}) {
+        const Scene scene(foggy_room(grid));
+        const Image one = render_image(scene, GetParam(), 20, 3, 1);
+        for (const int threads : {2, 5}) {
+            EXPECT_EQ(render_image(scene, GetParam(), 20, 3, threads).pixels, one.pixels)
+                << threads << " threads" << (grid ? ", grid" : "");
+        }
+        EXPECT_NE(render_image(scene, GetParam(), 20, 4, 2).pixels, one.pixels)
+            << "another seed must give another picture";
     }
-    EXPECT_NE(render_image(scene, GetParam(), 20, 4, 2).pixels, one.pixels) << "another seed must give another picture";
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, Reproducible,
-                         testing::Values("classical", "direction", "full", "roulette", "splitting"));
+                         testing::Values("classical", "scatter", "distance", "direction", "full", "roulette",
+                                         "splitting"));
 
 TEST(Reproducible, TheListOfPassesRepeatsATimedRun) {
     const Scene scene(foggy_room());
@@ -123,17 +128,32 @@ double same_blocks(const Replicas& a, const Replicas& b) {
     return chi_square_p_value(sum, Replicas::blocks);
 }
 
-class Guided : public testing::TestWithParam<const char*> {};
+struct Comparison {
+    bool grid;
+    std::vector<const char*> presets;
+};
+
+void PrintTo(const Comparison& comparison, std::ostream* out) {
+    *out << (comparison.grid ? "grid, " : "homogeneous, ") << comparison.presets.front() << " and others";
+}
+
+class Guided : public testing::TestWithParam<Comparison> {};
 
 TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
-    for (const bool grid : {false, true}) {
-        const Scene scene(foggy_room(grid));
-        Replicas classical;
+    // More than the samples after which those of the beginning are dropped.
+    constexpr int samples = 128;
+    constexpr std::uint64_t replicas = 24;
+    const Scene scene(foggy_room(GetParam().grid));
+    Replicas classical;
+    for (std::uint64_t i = 0; i < replicas; ++i) {
+        classical.add(render_image(scene, "classical", samples, 1000 + i));
+    }
+    for (const char* preset : GetParam().presets) {
+        SCOPED_TRACE(preset);
         Replicas guided;
         Replicas biased;
-        for (std::uint64_t i = 0; i < 24; ++i) {
-            classical.add(render_image(scene, "classical", 128, 1000 + i));
-            const Image image = render_image(scene, GetParam(), 128, 2000 + i);
+        for (std::uint64_t i = 0; i < replicas; ++i) {
+            const Image image = render_image(scene, preset, samples, 2000 + i);
             guided.add(image);
             biased.add(image, 1.03);
         }
@@ -145,8 +165,12 @@ TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
     }
 }
 
-// More than the samples after which those of the beginning are dropped.
-INSTANTIATE_TEST_SUITE_P(Presets, Guided, testing::Values("direction", "full", "roulette+splitting"));
+const std::vector<const char*> flights = {"scatter", "distance", "distance+direction"};
+const std::vector<const char*> others = {"direction", "full", "roulette+splitting"};
+
+INSTANTIATE_TEST_SUITE_P(Presets, Guided,
+                         testing::Values(Comparison{false, flights}, Comparison{true, flights},
+                                         Comparison{false, others}, Comparison{true, others}));
 
 TEST(Render, DropsTheSamplesOfTheWarmUpOnceThereAreManyMore) {
     const Scene scene(foggy_room());

@@ -137,5 +137,57 @@ TEST(PhaseFunction, PositiveGScattersStraightOn) {
     EXPECT_TRUE(test::is_within_one_percent(cosine, 0.95));
 }
 
+/// ∫ p(before, ω) h(ω) dω for the function h around a mean direction, by the midpoint rule.
+template <class Phase>
+double blurred_by_quadrature(const Phase& phase, const Vec3& before, const Vec3& mean) {
+    constexpr int rows = 600;
+    const HenyeyGreenstein around{length(mean)};
+    const Vec3 axis = normalize(mean);
+    double sum = 0;
+    for (int i = 0; i < rows; ++i) {
+        const double z = -1 + (2 * i + 1.0) / rows, r = std::sqrt(1 - z * z);
+        for (int j = 0; j < 2 * rows; ++j) {
+            const double azimuth = pi * (j + 0.5) / rows;
+            const Vec3 w(static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)),
+                         static_cast<float>(z));
+            sum += phase.evaluate(dot(before, w)) * around.evaluate(dot(axis, w));
+        }
+    }
+    return sum * 2 * pi / (static_cast<double>(rows) * rows);
+}
+
+template <class Phase>
+void expect_blurred(const Phase& phase) {
+    const Vec3 before = normalize(Vec3(1, 2, -1));
+    for (const float size : {0.01f, 0.4f, 0.9f}) {
+        for (const Vec3& towards : {Vec3(1, 0, 0), Vec3(1, 2, -0.9f), Vec3(-1, -2, 1.2f)}) {
+            const Vec3 mean = normalize(towards) * size;
+            const double expected = blurred_by_quadrature(phase, before, mean);
+            EXPECT_NEAR(phase.blurred(before, mean), expected, 2e-3 * expected) << size << ' ' << towards;
+            EXPECT_NEAR(PhaseFunction(phase).blurred(before, mean), expected, 2e-3 * expected);
+        }
+    }
+    EXPECT_NEAR(phase.blurred(before, Vec3(0, 0, 0)), inv_4pi, 1e-6);
+}
+
+TEST(HenyeyGreenstein, BlurredIsTheConvolution) {
+    for (const float g : {0.0f, 0.3f, -0.6f, 0.9f}) {
+        SCOPED_TRACE(g);
+        expect_blurred(HenyeyGreenstein{g});
+    }
+    expect_blurred(mixture());
+}
+
+TEST(HenyeyGreenstein, BlurredByNothingIsItself) {
+    const Vec3 before(0, 0, 1);
+    for (const float g : {0.5f, -0.8f, 0.95f}) {
+        for (const Vec3& w : {Vec3(0, 0, 1), Vec3(0.6f, 0, 0.8f), Vec3(0, 0, -1)}) {
+            const float sharp = HenyeyGreenstein{g}.evaluate(w.z);
+            EXPECT_NEAR(HenyeyGreenstein{g}.blurred(before, w), sharp, 1e-4f * sharp);
+        }
+    }
+    EXPECT_TRUE(std::isfinite(HenyeyGreenstein{0.999999f}.blurred(before, before)));
+}
+
 }  // namespace
 }  // namespace wend

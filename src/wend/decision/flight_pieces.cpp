@@ -16,6 +16,12 @@ float into_unit(float u) {
     return std::clamp(u, 0.0f, 0x1.fffffep-1f);
 }
 
+/// 1 - e^{-depth}. Thin pieces are the usual ones: their series is faster than expm1.
+float stopped(float depth) {
+    return depth < 0.1f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6 - depth * (1.0f / 24 - depth * (1.0f / 120)))))
+                        : 1 - std::exp(-depth);
+}
+
 }  // namespace
 
 FlightPieces::FlightPieces(const Rgb& extinction, const Rgb& scattering, const Rgb& channels)
@@ -34,6 +40,15 @@ Rgb FlightPieces::transmitted(float distance) const {
     return grey_ ? Rgb(std::exp(-extinction_.r * distance)) : exp(extinction_ * -distance);
 }
 
+Rgb FlightPieces::scattered_in(const Piece& piece) const {
+    // Not as a difference of transmittances, of which nothing would be left in a thin medium.
+    const float from = t_in(piece), size = piece.t_out - from;
+    const Rgb share =
+        grey_ ? Rgb(stopped(extinction_.r * size))
+              : Rgb(stopped(extinction_.r * size), stopped(extinction_.g * size), stopped(extinction_.b * size));
+    return albedo_ * transmitted(from) * share;
+}
+
 bool FlightPieces::add(float t_out, float in_scattered) {
     pieces_[count_++] = {t_out, in_scattered, 0};
     return t_out < farthest_ && count_ < capacity;
@@ -43,22 +58,19 @@ void FlightPieces::finish(float length, float ahead, bool level) {
     WEND_EXPECT(count_ > 0);
     pieces_[count_ - 1].t_out = length;
     ahead_ = ahead;
-    const float start = albedo_.r + albedo_.g + albedo_.b;
-    Rgb passed(1.0f);
-    float before = start, lit = 0;
+    float scattered = 0, lit = 0;
     for (int i = 0; i < count_; ++i) {
         Piece& piece = pieces_[i];
-        passed = transmitted(piece.t_out);
-        const float after = dot(albedo_, passed);
-        lit += piece.in_scattered * (before - after);
+        const float part = dot(Rgb(1.0f), scattered_in(piece));
+        scattered += part;
+        lit += piece.in_scattered * part;
         piece.cumulative = lit;
-        before = after;
     }
     if (level && lit > 0) {
-        pieces_[0] = {length, lit / (start - before), lit};
+        pieces_[0] = {length, lit / scattered, lit};
         count_ = 1;
     }
-    total_ = lit + ahead * dot(channels_, passed);
+    total_ = lit + ahead * dot(channels_, transmitted(length));
 }
 
 FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float distance, float classical_share) const {
@@ -72,8 +84,8 @@ FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float dista
 }
 
 FlightPieces::Outcome FlightPieces::collision(float distance, float classical_share) const {
-    const Piece* piece = std::partition_point(pieces_, pieces_ + count_ - 1,
-                                              [&](const Piece& p) { return p.t_out <= distance; });
+    const Piece* piece =
+        std::partition_point(pieces_, pieces_ + count_ - 1, [&](const Piece& p) { return p.t_out <= distance; });
     return collision_in(*piece, distance, classical_share);
 }
 
@@ -101,15 +113,8 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
     const float below = piece == pieces_ ? 0.0f : (piece - 1)->cumulative;
     u = into_unit((u - below) / (piece->cumulative - below));
     const float from = t_in(*piece), size = piece->t_out - from;
-    int channel = 0;
-    if (!grey_) {
-        // Which channel's share of the piece.
-        Rgb parts;
-        for (int c = 0; c < 3; ++c) {
-            parts[c] = albedo_[c] * std::exp(-extinction_[c] * from) * -std::expm1(-extinction_[c] * size);
-        }
-        channel = choose_channel(channel_probabilities(parts), u);
-    }
+    // Which channel's share of the piece.
+    const int channel = grey_ ? 0 : choose_channel(channel_probabilities(scattered_in(*piece)), u);
     const float sigma = extinction_[channel];
     const float distance = from - std::log1p(u * std::expm1(-sigma * size)) / sigma;
     return collision_in(*piece, std::min(distance, piece->t_out), classical_share);

@@ -56,6 +56,8 @@ private:
 
     Rgb transmitted(float distance) const;
     float t_in(const Piece& piece) const { return &piece == pieces_ ? 0.0f : (&piece - 1)->t_out; }
+    /// w_c σs_c ∫ e^{-σ_c t} dt over the piece.
+    Rgb scattered_in(const Piece& piece) const;
     Outcome collision_in(const Piece& piece, float distance, float classical_share) const;
 
     static constexpr int capacity = 128;

@@ -22,8 +22,8 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
 /// Which part of the decision follows the light.
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
-/// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous media
-/// by FlightPieces, through grids by GuidedTracking.
+/// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous
+/// media by FlightPieces, through grids by GuidedTracking.
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:

@@ -79,6 +79,9 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
     flight.emitted = Rgb(0.0f);
     const Rgb& extinction = medium_.extinction();
     const float largest = max_value(extinction);
+    if (!(largest > 0)) {
+        return flight;
+    }
     const Rgb relative = extinction / largest;
     const GridEmission* emission = medium_.emission();
     const auto index_ray = medium_.to_index(start_.ray);
@@ -93,9 +96,10 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
         // Collisions should come at this many times the rate of the medium; tentative ones come twice as often, so that
         // there is a choice.
         const float wanted = foretold > 0 ? bright / foretold : 1.0f;
-        const float rate = largest * std::max(piece.density.maximum,
-                                              std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
-                                                       most_stretching * piece.density.maximum));
+        const float rate =
+            largest * std::max(piece.density.maximum,
+                               std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
+                                        most_stretching * piece.density.maximum));
         // Double: steps in a very dense cell can be below the spacing of floats.
         for (double t_exact = piece.t_in;;) {
             t_exact += to_exponential(random.uniform(), rate);
@@ -130,13 +134,16 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
     }
     if (goes_on_) {
         const float passed = reach();
-        const FlightStart rest{Ray{start_.ray.at(passed), start_.ray.direction}, start_.length - passed,
-                               start_.throughput * flight.weight, flight.boost, {}};
+        const FlightStart rest{Ray{start_.ray.at(passed), start_.ray.direction},
+                               start_.length - passed,
+                               start_.throughput * flight.weight,
+                               flight.boost,
+                               {}};
         const Flight last = ClassicalDistance().sample(medium_, rest, random);
         flight.emitted += flight.weight * last.emitted;
         flight.weight *= last.weight;
         flight.scatters = last.scatters;
-        flight.distance = passed + last.distance;
+        flight.distance = last.scatters ? passed + last.distance : start_.length;
     }
     return flight;
 }

@@ -8,9 +8,9 @@ namespace wend {
 /// Delta tracking through a grid in which a tentative collision is taken for a real one in proportion to the light that
 /// is scattered there, over that and what the flight would find if it went on; where much light is scattered, tentative
 /// collisions come more often. The light ahead is foretold from pieces, the medium's majorant cells, in which the
-/// in-scattered radiance is taken for constant and the density for its mean; the weight knows the real density alone. With
-/// uniform light this is classical tracking, and has no noise of its own; it is ratio tracking at the other end, where
-/// nothing is scattered. What few flights reach is flown classically. A value of fixed size without heap memory.
+/// in-scattered radiance is taken for constant and the density for its mean; the weight knows the real density alone.
+/// With uniform light this is classical tracking, and has no noise of its own; it is ratio tracking at the other end,
+/// where nothing is scattered. What few flights reach is flown classically. A value of fixed size without heap memory.
 class GuidedTracking {
 public:
     /// `classical_share` in (0, 1]: real and null collisions keep this share of their classical probability. Both are
