@@ -14,7 +14,7 @@ struct Flight {
     bool scatters = false;
     float distance = 0;  ///< of the collision; the segment's length if it does not scatter
     Rgb weight;
-    Rgb emitted;  ///< radiance picked up from an emissive medium on the way, before `weight`
+    Rgb emitted;      ///< radiance picked up from an emissive medium on the way, before `weight`
     float boost = 1;  ///< density over what classical sampling would have had
 };
 

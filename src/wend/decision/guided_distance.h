@@ -35,7 +35,7 @@ public:
         : surface_(surface), volume_(volume), classical_share_(classical_share), guiding_(guiding) {}
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (start.boost < least_boost || !volume_->scattered_light(start.ray.origin)) {
+        if (start.boost < least_boost || !(start.length > 0) || !volume_->scattered_light(start.ray.origin)) {
             return classical_.sample(medium, start, u, random);
         }
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {

@@ -34,7 +34,8 @@ VertexMeans Field::vertex_means(const Vec3& position) const {
 }
 
 std::size_t Field::bytes() const {
-    return regions_.size() * (sizeof(Region) + sizeof(ScatteredLight)) + memories_.size() * sizeof(Memory) + nodes_.size() * sizeof(Node);
+    return regions_.size() * (sizeof(Region) + sizeof(ScatteredLight)) + memories_.size() * sizeof(Memory) +
+           nodes_.size() * sizeof(Node);
 }
 
 void Field::for_each_cell(const std::function<void(const Box3&, const Region&, double)>& visit) const {

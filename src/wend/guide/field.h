@@ -52,8 +52,8 @@ public:
         return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
     }
 
-    /// Means over the walks' vertices in a position's cell: the extinction of the medium, and how many vertices walks had
-    /// from there on. Zero as long as the field has learned nothing.
+    /// Means over the walks' vertices in a position's cell: the extinction of the medium, and how many vertices walks
+    /// had from there on. Zero as long as the field has learned nothing.
     VertexMeans vertex_means(const Vec3& position) const;
 
     /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end.

@@ -5,6 +5,7 @@
 #include <wend/core/parallel.h>
 #include <wend/guide/evidence.h>
 #include <wend/guide/lobe_revision.h>
+#include <wend/guide/scatter_fit.h>
 #include <wend/guide/weight_limit.h>
 
 #include <algorithm>
@@ -107,7 +108,8 @@ public:
         report_.ignored = records_.size() - order_.size();
         report_.cells = field_.size();
         report_.bytes = field_.bytes();
-        return {std::move(field_), report_};
+        // What the cells tell rays follows from what they know.
+        return {fit_scattered(std::move(field_), {}, 1, threads_), report_};
     }
 
 private:

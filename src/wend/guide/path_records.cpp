@@ -6,6 +6,25 @@
 
 namespace wend::guide {
 
+namespace {
+
+/// Keeps every k-th of `count` things, with the least k that keeps `most` of them or fewer.
+class Thinning {
+public:
+    Thinning(std::size_t count, std::size_t most)
+        : stride_(count <= most ? 1 : (count - 1) / most + 1), left_out_(stride_ - 1) {}
+
+    bool keeps_next() {
+        left_out_ = (left_out_ + 1) % stride_;
+        return left_out_ == 0;
+    }
+
+private:
+    std::size_t stride_, left_out_;
+};
+
+}  // namespace
+
 Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident) {
     incident.resize(path.size());
     std::transform(path.begin(), path.end(), incident.begin(), [](const PathVertex& v) { return v.gathered; });
@@ -28,11 +47,16 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
             cost_[static_cast<std::size_t>(path[i].parent)] += cost_[i];
         }
     }
-    const std::size_t stride = path.size() <= most ? 1 : (path.size() - 1) / most + 1;
-    for (std::size_t i = stride - 1; i < path.size(); i += stride) {
+    const auto teaches = [](const PathVertex& v) { return v.density != 0; };
+    const auto count = static_cast<std::size_t>(std::count_if(path.begin(), path.end(), teaches));
+    Thinning drawn(count, most), mirrored(path.size() - count, most);
+    for (std::size_t i = 0; i < path.size(); ++i) {
         const PathVertex& v = path[i];
+        if (!(teaches(v) ? drawn : mirrored).keeps_next()) {
+            continue;
+        }
         (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i], cost_[i]));
-        if (v.density != 0) {
+        if (teaches(v)) {
             (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }
     }

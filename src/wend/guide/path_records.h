@@ -72,8 +72,12 @@ inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
 
 /// What the vertex tells of the light scattered there; `cost` is the number of vertices from this one on.
 inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& incident, float cost) {
-    return {vertex.position,      vertex.normal,   mean(vertex.connected + vertex.scattering * incident),
-            vertex.light_fluence, vertex.to_light, vertex.extinction,
+    return {vertex.position,
+            vertex.normal,
+            mean(vertex.connected + vertex.scattering * incident),
+            vertex.light_fluence,
+            vertex.to_light,
+            vertex.extinction,
             cost};
 }
 
@@ -81,8 +85,9 @@ inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& inci
 class PathRecords {
 public:
     /// Appends the records of a walk: one for each vertex whose direction has a density, with the mean of the colour
-    /// channels as radiance, and one of the scattered light for every vertex. Of walks with more than `most` vertices
-    /// every k-th is kept, with the least k that fits. Nothing is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
+    /// channels as radiance, and one of the scattered light for every vertex. Of more than `most` vertices with a
+    /// density every k-th is kept, with the least k that fits, and likewise of those without. Nothing is clamped: a
+    /// record that is not finite stays as it is, for fit() to ignore and count.
     void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max());
 
     /// Appends the records of another producer.

@@ -265,7 +265,8 @@ private:
         Rgb scattering;
     };
     template <class F, class Directions>
-    Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
+    Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
+                       bool in_volume) {
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
         const LightReceiver receiver{position, normal};
@@ -348,8 +349,8 @@ private:
         }
         const float chosen =
             std::visit([&](const auto& s) { return s.probability(now_.receiver, light); }, scene_.light_sampler());
-        const float other = chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
-                                                   now_.ray.direction, hit, normal);
+        const float other = chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)],
+                                                   now_.receiver.position, now_.ray.direction, hit, normal);
         const float own = now_.density * dot(now_.channels, now_.pass_probability);
         return own > 0 ? own / (own + other) : 0.0f;
     }
@@ -365,7 +366,8 @@ private:
     Rgb environment() const {
         Rgb sum;
         for (const int light : scene_.infinite_lights()) {
-            const Rgb arriving = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
+            const Rgb arriving =
+                environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
             if (!is_black(arriving)) {
                 sum += arriving * emission_weight(light, {}, {});
             }
@@ -400,11 +402,11 @@ private:
     void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
         now_.throughput *= s.weight();
         if (log_) {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
-                          s.classical_density, s.guided_density);
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, s.classical_density,
+                          s.guided_density);
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
-            log_->weigh(
-                {now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f, now_.throughput.b > 0 ? 1.0f : 0.0f});
+            log_->weigh({now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f,
+                         now_.throughput.b > 0 ? 1.0f : 0.0f});
         }
     }
 

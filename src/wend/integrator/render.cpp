@@ -199,9 +199,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Pass one(scene, film, settings, decisions, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
-        const GuidedDistance distance(&fields.surface, &fields.volume, classical_flights,
-                                      preset.distance ? DistanceGuiding::scatter_and_distance
-                                                      : DistanceGuiding::scatter_alone);
+        const GuidedDistance distance(
+            &fields.surface, &fields.volume, classical_flights,
+            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume,
                                         preset.direction ? std::nullopt : std::optional(1.0f));
         const auto run_guided = [&](const auto& survival) {
