@@ -217,7 +217,9 @@ TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
     EXPECT_TRUE(parse_preset("direction").direction);
     EXPECT_EQ(to_string(parse_preset("direction")), "direction");
     EXPECT_EQ(to_string(parse_preset("splitting+direction")), "direction+splitting");
-    EXPECT_EQ(parse_preset("direction+roulette+splitting"), parse_preset("full"));
+    EXPECT_EQ(to_string(parse_preset("scatter+distance")), "distance");
+    EXPECT_EQ(parse_preset("distance"), parse_preset("scatter+distance"));
+    EXPECT_EQ(parse_preset("distance+direction+roulette+splitting"), parse_preset("full"));
     EXPECT_EQ(to_string(parse_preset("full")), "full");
     try {
         parse_preset("directions");

@@ -39,6 +39,8 @@ struct FlightStart {
     /// Product of the boosts of guided decisions so far (WalkState).
     float boost = 1;
     FlightEnd end;
+    /// Vertices of the walk so far.
+    int depth = 0;
 };
 
 /// A decision about flights: draws one, and tells the probability, under each colour channel, of flying through a

@@ -23,7 +23,7 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
 /// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous
-/// media by FlightPieces, through grids by GuidedTracking.
+/// media by FlightPieces, through grids, at the beginning of a walk, by GuidedTracking.
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
@@ -41,7 +41,8 @@ public:
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
             return fly(*homogeneous, start, u);
         }
-        return fly(std::get<GridMedium>(medium), start, random);
+        return start.depth < guided_in_grids ? fly(std::get<GridMedium>(medium), start, random)
+                                             : classical_.sample(medium, start, u, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -52,6 +53,10 @@ public:
 private:
     /// A walk that did what the guide did not foresee goes on unguided (direction.h).
     static constexpr float least_boost = 0.05f;
+
+    /// Through grids only the first flights are guided. Later ones would gain less than the cells on their way cost
+    /// (docs/theory/distance.md).
+    static constexpr int guided_in_grids = 2;
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));

@@ -12,7 +12,7 @@ namespace {
 // How many times more tentative collisions than the majorant's there may be.
 constexpr float most_stretching = 4;
 // The optical depth to which the light is asked for.
-constexpr float deepest = 8;
+constexpr float deepest = 3;
 
 }  // namespace
 

@@ -70,6 +70,7 @@ private:
             if constexpr (decltype(d_.distance)::looks_ahead) {
                 start.end = end_of_segment(hit);
             }
+            start.depth = now_.depth;
             const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
             gather(flight.emitted);
             weigh(flight.weight);
