@@ -44,20 +44,29 @@ inline void for_lanes(int blocks, const Body& body) {
     }
 }
 
-/// The numbers of one block, by the compilers' own vectors: for sums over what is stored block after block, which loops
-/// over single lanes are not always recognized as. Lowered to what the target has.
+/// The numbers of one block, by the compilers' own vectors: for what loops over single lanes are not always recognized
+/// as. Lowered to what the target has.
 using Block [[gnu::vector_size(lanes_per_block * sizeof(float))]] = float;
 
-/// to[i] = Σ_j from[j * stride + i] for the lanes of one block, from the first of `count` rows on.
-inline void sum_rows(const float* from, int count, int stride, float* to) {
-    Block sum;
-    std::memcpy(&sum, from, sizeof sum);
-    for (int j = 1; j < count; ++j) {
+/// Σ_i term(i) over every lane of the first `blocks` blocks, in an order that does not depend on the vector width.
+template <class Term>
+[[gnu::always_inline]] inline float sum_over_lanes(int blocks, const Term& term) {
+    static_assert(lanes_per_block == 8);
+    using Half [[gnu::vector_size(4 * sizeof(float))]] = float;
+    Block sum{};
+    for (int block = 0; block < blocks; ++block) {
+        float terms[lanes_per_block];
+        for (int j = 0; j < lanes_per_block; ++j) {
+            terms[j] = term(block * lanes_per_block + j);
+        }
         Block row;
-        std::memcpy(&row, from + j * stride, sizeof row);
+        std::memcpy(&row, terms, sizeof row);
         sum += row;
     }
-    std::memcpy(to, &sum, sizeof sum);
+    Half halves[2];
+    std::memcpy(halves, &sum, sizeof sum);
+    const Half four = halves[0] + halves[1];
+    return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
 /// Combines the lanes of the first `blocks` blocks by an associative and commutative operation, in an order that does
@@ -85,5 +94,45 @@ inline float sum_lanes(int blocks, const Lanes& lanes) {
 inline float largest_lane(int blocks, const Lanes& lanes) {
     return reduce_lanes(blocks, lanes, [](float a, float b) { return a > b ? a : b; });
 }
+
+/// Of numbers that are not negative, what those before each one add up to, by a tree of few steps: never less than for
+/// the one before, and the same across a 0.
+class SumsBelow {
+public:
+    /// Of the first `blocks` blocks.
+    [[gnu::always_inline]] void set(int blocks, const float* lanes) {
+        static_assert(lanes_per_block == 8);
+        blocks_ = blocks;
+        float below = 0;
+        sum_[0] = below;
+        for (int first = 0; first < blocks * lanes_per_block; first += lanes_per_block) {
+            const float* w = lanes + first;
+            const float w01 = w[0] + w[1], w23 = w[2] + w[3], w45 = w[4] + w[5], w67 = w[6] + w[7];
+            const float half = below + (w01 + w23), all = half + (w45 + w67);
+            // As a whole, since that is how it will be read.
+            const Block sums = {below + w[0], below + w01, below + (w01 + w[2]), half,
+                                half + w[4],  half + w45,  half + (w45 + w[6]),  all};
+            std::memcpy(sum_ + first + 1, &sums, sizeof sums);
+            below = all;
+        }
+        total_ = below;
+    }
+
+    float operator[](int i) const { return sum_[i]; }
+    float total() const { return total_; }
+
+    /// The lane whose share of the total holds the target, in [0, total): never one of 0.
+    int find(float target) const {
+        // No branch depends on the target: the processor could not guess it.
+        int passed = 0;
+        for_lanes(blocks_, [&](int i) { passed += sum_[i + 1] <= target ? 1 : 0; });
+        return passed;
+    }
+
+private:
+    int blocks_;
+    float total_;
+    float sum_[max_lobes + 1];
+};
 
 }  // namespace wend::guide

@@ -14,13 +14,16 @@ namespace {
 /// Sums of this many observations are added to the total: rounding errors grow with the number of blocks only.
 constexpr std::size_t block_size = 1024;
 
+/// Lanes that are read as soon as they were written must not lie in two cache lines.
+constexpr std::size_t cache_line = 64;
+
 /// The model in lanes.
-struct LobeLanes {
-    int blocks;
+struct alignas(cache_line) LobeLanes {
     Lanes x, y, z, u_x, u_y, u_z, v_x, v_y, v_z, half_kappa, log_amplitude, inverse_distance;
+    int blocks;
 
     explicit LobeLanes(const LobeModel& model)
-        : blocks(blocks_for(model.mixture.size())), inverse_distance(model.inverse_distance) {
+        : inverse_distance(model.inverse_distance), blocks(blocks_for(model.mixture.size())) {
         constexpr float log_of_nothing = -1e30f;
         std::fill(std::begin(log_amplitude.value), std::end(log_amplitude.value), log_of_nothing);
         for (int i = 0; i < model.mixture.size(); ++i) {
@@ -42,7 +45,7 @@ struct LobeLanes {
 };
 
 /// The sums of LobeSums in lanes.
-struct SumLanes {
+struct alignas(cache_line) SumLanes {
     Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
         spread, straight, oblique, beyond_square, red, blue;
 
@@ -66,67 +69,95 @@ struct SumLanes {
     }
 };
 
+/// An observation as each lobe sees it.
+struct alignas(cache_line) SeenByLobes {
+    /// Re-aimed at the reference point, and its squared distance from the lobe's mean.
+    Lanes x{Unset{}}, y{Unset{}}, z{Unset{}}, beyond{Unset{}};
+    /// The logarithm of the lobe's density there; then the density over the largest one's.
+    Lanes density;
+    /// The observation's weight over the sum of these.
+    float scale;
+};
+
+/// Shares of a record below this count as none: their squares would be too small to be normal numbers, which processors
+/// are slow at.
+constexpr float negligible = 1e-15f;
+
 WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
     SumLanes sums;
-    for (const Observation& o : observations) {
-        const Vec3 w = o.direction, t = o.offset;
-        const float along = dot(w, t);
-        const float offset_squared = length_squared(t);
-        const float across = std::max(0.0f, offset_squared - along * along);
-
-        float x[max_lobes], y[max_lobes], z[max_lobes], beyond[max_lobes];
-        Lanes exponent;
-        for_lanes(lobes.blocks, [&](int i) {
-            // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from the
-            // reference point.
-            const float b = lobes.inverse_distance[i];
-            const float inside = 1 - b * b * across;
-            const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
-            x[i] = distance * w.x - b * t.x;
-            y[i] = distance * w.y - b * t.y;
-            z[i] = distance * w.z - b * t.z;
-            const float dx = x[i] - lobes.x[i], dy = y[i] - lobes.y[i], dz = z[i] - lobes.z[i];
-            beyond[i] = dx * dx + dy * dy + dz * dz;
-            exponent[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * beyond[i];
-        });
-        const float largest = largest_lane(lobes.blocks, exponent);
-        Lanes density;
-        for_lanes(lobes.blocks, [&](int i) { density[i] = fast_exp(exponent[i] - largest); });
-        const float scale = o.weight / sum_lanes(lobes.blocks, density);
-
-        for_lanes(lobes.blocks, [&](int i) {
-            const float weight = density[i] * scale;
-            const float weighted_inverse = weight * o.inverse_distance;
-            sums.weight[i] += weight;
-            sums.weight_square[i] += weight * weight;
-            sums.x[i] += weight * x[i];
-            sums.y[i] += weight * y[i];
-            sums.z[i] += weight * z[i];
-            sums.offset_x[i] += weight * t.x;
-            sums.offset_y[i] += weight * t.y;
-            sums.offset_z[i] += weight * t.z;
-            sums.inverse_distance[i] += weighted_inverse;
-            sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
-            // What is left of the turning after re-aiming, and what re-aiming has taken away.
-            const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
-            const float direction_offset = t.x * x[i] + t.y * y[i] + t.z * z[i];
-            const float mean_direction = x[i] * lobes.x[i] + y[i] * lobes.y[i] + z[i] * lobes.z[i];
-            const float spread = weight * (offset_squared - mean_offset * mean_offset);
-            sums.turn[i] +=
-                weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
-            sums.spread[i] += spread;
-            const float u = x[i] * lobes.u_x[i] + y[i] * lobes.u_y[i] + z[i] * lobes.u_z[i];
-            const float v = x[i] * lobes.v_x[i] + y[i] * lobes.v_y[i] + z[i] * lobes.v_z[i];
-            sums.straight[i] += weight * (u * u - v * v);
-            sums.oblique[i] += weight * (2 * u * v);
-            // 1 - cos is half the squared chord.
-            sums.beyond_square[i] += 0.25f * weight * (beyond[i] * beyond[i]);
-        });
-        // Apart from the others: a loop over too many arrays is not vectorized.
-        for_lanes(lobes.blocks, [&, red = o.red * scale, blue = o.blue * scale](int i) {
-            sums.red[i] += density[i] * red;
-            sums.blue[i] += density[i] * blue;
-        });
+    // A few at a time, step by step: a single observation is one long chain of dependent operations, which leaves most
+    // of a processor waiting.
+    constexpr std::size_t group_size = 8;
+    std::array<SeenByLobes, group_size> seen;
+    for (; !observations.empty(); observations = observations.subspan(std::min(group_size, observations.size()))) {
+        const auto group = observations.first(std::min(group_size, observations.size()));
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            SeenByLobes& s = seen[k];
+            const Vec3 w = group[k].direction, t = group[k].offset;
+            const float along = dot(w, t);
+            const float across = std::max(0.0f, length_squared(t) - along * along);
+            for_lanes(lobes.blocks, [&](int i) {
+                // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from
+                // the reference point.
+                const float b = lobes.inverse_distance[i];
+                const float inside = 1 - b * b * across;
+                const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
+                s.x[i] = distance * w.x - b * t.x;
+                s.y[i] = distance * w.y - b * t.y;
+                s.z[i] = distance * w.z - b * t.z;
+                const float dx = s.x[i] - lobes.x[i], dy = s.y[i] - lobes.y[i], dz = s.z[i] - lobes.z[i];
+                s.beyond[i] = dx * dx + dy * dy + dz * dz;
+                s.density[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * s.beyond[i];
+            });
+        }
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            SeenByLobes& s = seen[k];
+            const float largest = largest_lane(lobes.blocks, s.density);
+            for_lanes(lobes.blocks, [&](int i) {
+                const float share = fast_exp(s.density[i] - largest);
+                s.density[i] = share > negligible ? share : 0.0f;
+            });
+            s.scale = group[k].weight / sum_lanes(lobes.blocks, s.density);
+        }
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            const SeenByLobes& s = seen[k];
+            const Observation& o = group[k];
+            const Vec3 t = o.offset;
+            const float offset_squared = length_squared(t);
+            for_lanes(lobes.blocks, [&](int i) {
+                const float weight = s.density[i] * s.scale;
+                const float weighted_inverse = weight * o.inverse_distance;
+                sums.weight[i] += weight;
+                sums.weight_square[i] += weight * weight;
+                sums.x[i] += weight * s.x[i];
+                sums.y[i] += weight * s.y[i];
+                sums.z[i] += weight * s.z[i];
+                sums.offset_x[i] += weight * t.x;
+                sums.offset_y[i] += weight * t.y;
+                sums.offset_z[i] += weight * t.z;
+                sums.inverse_distance[i] += weighted_inverse;
+                sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
+                // What is left of the turning after re-aiming, and what re-aiming has taken away.
+                const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
+                const float direction_offset = t.x * s.x[i] + t.y * s.y[i] + t.z * s.z[i];
+                const float mean_direction = s.x[i] * lobes.x[i] + s.y[i] * lobes.y[i] + s.z[i] * lobes.z[i];
+                const float spread = weight * (offset_squared - mean_offset * mean_offset);
+                sums.turn[i] +=
+                    weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
+                sums.spread[i] += spread;
+                const float u = s.x[i] * lobes.u_x[i] + s.y[i] * lobes.u_y[i] + s.z[i] * lobes.u_z[i];
+                const float v = s.x[i] * lobes.v_x[i] + s.y[i] * lobes.v_y[i] + s.z[i] * lobes.v_z[i];
+                sums.straight[i] += weight * (u * u - v * v);
+                sums.oblique[i] += weight * (2 * u * v);
+                // 1 - cos is half the squared chord.
+                sums.beyond_square[i] += 0.25f * weight * (s.beyond[i] * s.beyond[i]);
+            });
+            // Apart from the others: a loop over too many arrays is not vectorized.
+            for_lanes(lobes.blocks, [&, red = o.red * s.scale, blue = o.blue * s.scale](int i) {
+                sums.red[i] += s.density[i] * red;
+                sums.blue[i] += s.density[i] * blue;
+            });
+        }
     }
     return sums;
 }

@@ -2,7 +2,6 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/vector_clones.h>
-#include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 
 #include <algorithm>
@@ -46,12 +45,7 @@ WeightedVmf VmfMixture::lobe(int i) const {
 }
 
 WEND_VECTOR_CLONES float VmfMixture::density(const Vec3& direction) const {
-    Lanes densities;
-    for_lanes(blocks(), [&](int i) {
-        const float x = direction.x - mean_x_[i], y = direction.y - mean_y_[i], z = direction.z - mean_z_[i];
-        densities[i] = amplitude_[i] * fast_exp(-0.5f * kappa_[i] * (x * x + y * y + z * z));
-    });
-    return sum_lanes(blocks(), densities);
+    return sum_densities(direction);
 }
 
 Vec3 VmfMixture::sample(Vec2 u) const {
@@ -62,17 +56,10 @@ Vec3 VmfMixture::sample(Vec2 u) const {
 WEND_VECTOR_CLONES VmfMixture VmfMixture::re_aimed(const Vec3& offset, const Lanes& inverse_distance) const {
     VmfMixture result(*this, Unset{});
     for_lanes(blocks(), [&, offset](int i) {
-        const float x = mean_x_[i] + offset.x * inverse_distance[i];
-        const float y = mean_y_[i] + offset.y * inverse_distance[i];
-        const float z = mean_z_[i] + offset.z * inverse_distance[i];
-        const float length = std::sqrt(x * x + y * y + z * z);
-        // On top of the source no direction is better than another.
-        const float scale = 1 / (length + 1e-30f);
-        const float own_x = mean_x_[i], own_y = mean_y_[i], own_z = mean_z_[i];
-        const bool far = length > 1e-3f;
-        result.mean_x_[i] = far ? x * scale : own_x;
-        result.mean_y_[i] = far ? y * scale : own_y;
-        result.mean_z_[i] = far ? z * scale : own_z;
+        const Mean mean = turned_mean(i, offset, inverse_distance);
+        result.mean_x_[i] = mean.x;
+        result.mean_y_[i] = mean.y;
+        result.mean_z_[i] = mean.z;
     });
     return result;
 }

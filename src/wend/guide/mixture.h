@@ -2,9 +2,11 @@
 #pragma once
 
 #include <wend/guide/lanes.h>
+#include <wend/numeric/fast_exp.h>
 #include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/vmf.h>
 
+#include <cmath>
 #include <span>
 
 namespace wend::guide {
@@ -48,6 +50,30 @@ public:
 
 private:
     friend class MixtureProduct;
+
+    /// The body of density(), for functions that are compiled for several vector widths.
+    [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
+        return sum_over_lanes(blocks(), [&, x = direction.x, y = direction.y, z = direction.z](int i) {
+            const float squared = sqr(x - mean_x_[i]) + sqr(y - mean_y_[i]) + sqr(z - mean_z_[i]);
+            return amplitude_[i] * fast_exp(-0.5f * kappa_[i] * squared);
+        });
+    }
+
+    /// The mean of a lobe, turned.
+    struct Mean {
+        float x, y, z;
+
+        float squared_distance(const Vec3& to) const { return sqr(x - to.x) + sqr(y - to.y) + sqr(z - to.z); }
+    };
+    [[gnu::always_inline]] Mean turned_mean(int i, const Vec3& offset, const Lanes& inverse_distance) const {
+        const float own_x = mean_x_[i], own_y = mean_y_[i], own_z = mean_z_[i], inverse = inverse_distance[i];
+        const float x = own_x + offset.x * inverse, y = own_y + offset.y * inverse, z = own_z + offset.z * inverse;
+        const float length = std::sqrt(x * x + y * y + z * z);
+        const float scale = 1 / length;
+        // On top of the source no direction is better than another.
+        const bool far = length > 1e-3f;
+        return {far ? x * scale : own_x, far ? y * scale : own_y, far ? z * scale : own_z};
+    }
 
     /// The mixture with means that are still to be written.
     explicit VmfMixture(const VmfMixture& other, Unset unset)

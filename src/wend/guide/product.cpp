@@ -2,11 +2,11 @@
 
 #include <wend/core/vector_clones.h>
 #include <wend/numeric/fast_exp.h>
-#include <wend/sampling/discrete.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
-#include <span>
+#include <cstdint>
 
 namespace wend::guide {
 namespace {
@@ -17,47 +17,43 @@ constexpr float least_integral = 1e-20f;
 /// processors are slow at.
 constexpr float saturated = 20;
 
+/// The smaller of two positive numbers. By their bits, since compilers otherwise take the limit for a case of its own
+/// and compute what is beyond it all the same, as numbers that are not normal.
+inline float smaller(float a, float b) {
+    return std::bit_cast<float>(std::min(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
+}
+
 /// What ∫ f g dω of two lobes needs but for exponentials: divided by 2 pi times the product of their densities at their
 /// means it is e^exponent · (1 - e^{-2 joint}) / joint. No two terms cancel.
 struct Overlap {
     float exponent, joint, reciprocal;
+
+    static float exponentials(float exponent, float joint) { return fast_exp(exponent) * fast_expm1(-2 * joint); }
+    float exponentials() const { return exponentials(exponent, joint); }
 
     /// From the concentrations and the squared distances of one mean to the other and to its opposite.
     Overlap(float kappa, float other, float to_mean, float to_opposite) {
         const float difference = kappa - other;
         const float both = kappa * other;
         const float squared = difference * difference + both * to_opposite;
-        constexpr float least = 1e-12f;
-        joint = std::sqrt(squared > least ? squared : least);
+        // Never 0.
+        joint = std::sqrt(squared + 1e-12f);
         // 1 / joint, and 1 / sum for joint - kappa - other, by one division.
         const float sum = joint + (kappa + other);
         const float of_both = 1 / (joint * sum);
         exponent = -both * to_mean * (of_both * joint);
         reciprocal = of_both * sum;
+        joint = smaller(joint, saturated);
     }
 };
 
-/// The first of the weights, each `stride` after the other, at which their sum passes the target; the target becomes
-/// what is missing there. One weight at least must be positive.
-inline int descend(const float* weights, int count, int stride, float& target) {
-    // No branch depends on the target: the processor could not guess it.
-    int chosen = 0;
-    float sum = 0, below = 0;
-    for (int i = 0; i < count; ++i) {
-        sum += weights[i * stride];
-        const bool passed = sum <= target;
-        chosen += passed ? 1 : 0;
-        below = passed ? sum : below;
-    }
-    target -= below;
-    if (chosen == count) {  // by rounding
-        do {
-            --chosen;
-        } while (chosen > 0 && !(weights[chosen * stride] > 0));
-        target = weights[chosen * stride];
-    }
-    return chosen;
-}
+/// What a lobe's overlaps take from the axial lobe.
+struct Scatterer {
+    float kappa, amplitude;
+
+    Scatterer(const AxialLobes& lobes, int j)
+        : kappa(std::abs(lobes.kappa(j))), amplitude(-2 * pi * lobes.amplitude(j)) {}
+};
 
 }  // namespace
 
@@ -69,59 +65,119 @@ MixtureProduct MixtureView::product(const AxialLobes& lobes) const {
     return MixtureProduct(*this, lobes);
 }
 
-WEND_VECTOR_CLONES void MixtureProduct::weigh_parts(const VmfMixture& source) {
+template <class MeanOf>
+[[gnu::always_inline]] inline void MixtureProduct::weigh_parts(const VmfMixture& source, const MeanOf& mean_of) {
     const int blocks = source.blocks(), lanes = blocks * lanes_per_block;
-    Lanes to_axis(Unset{}), to_opposite(Unset{});
-    for_lanes(blocks, [&, axis = lobes_.axis()](int i) {
-        const float x = mixture_.mean_x_[i], y = mixture_.mean_y_[i], z = mixture_.mean_z_[i];
-        to_axis[i] = sqr(x - axis.x) + sqr(y - axis.y) + sqr(z - axis.z);
-        to_opposite[i] = sqr(x + axis.x) + sqr(y + axis.y) + sqr(z + axis.z);
-    });
-    // Each step goes over all pairs before the next one: a single long chain of dependent operations leaves most of a
-    // processor waiting.
-    Pairs exponent, joint, factor;
-    for (int j = 0; j < lobes_.size(); ++j) {
-        const float kappa = std::abs(lobes_.kappa(j)), amplitude = -2 * pi * lobes_.amplitude(j);
-        const bool forward = lobes_.kappa(j) >= 0;
-        const Lanes &near = forward ? to_axis : to_opposite, &far = forward ? to_opposite : to_axis;
-        for_lanes(blocks, [&, first = j * lanes](int i) {
-            const Overlap overlap(source.kappa_[i], kappa, near[i], far[i]);
-            exponent[first + i] = overlap.exponent;
-            joint[first + i] = overlap.joint < saturated ? overlap.joint : saturated;
-            factor[first + i] = amplitude * source.amplitude_[i] * overlap.reciprocal;
+    // Not written to the mixture at once: compilers cannot know that it is not the source.
+    Lanes mean_x(Unset{}), mean_y(Unset{}), mean_z(Unset{});
+    const auto set_mean = [&](int i, const VmfMixture::Mean& mean) {
+        mean_x[i] = mean.x;
+        mean_y[i] = mean.y;
+        mean_z[i] = mean.z;
+    };
+    const Vec3 axis = lobes_.axis();
+    if (lobes_.size() == 1 && blocks == 1) {
+        // What is only one block is done at one go: nothing but the result has to be stored.
+        const Scatterer scatterer(lobes_, 0);
+        Lanes parts(Unset{});
+        const Vec3 towards = lobes_.kappa(0) >= 0 ? axis : -axis;
+        for_lanes(1, [&](int i) {
+            const VmfMixture::Mean mean = mean_of(i);
+            const Overlap overlap(source.kappa_[i], scatterer.kappa, mean.squared_distance(towards),
+                                  mean.squared_distance(-towards));
+            parts[i] = scatterer.amplitude * source.amplitude_[i] * overlap.reciprocal * overlap.exponentials();
+            set_mean(i, mean);
         });
+        std::copy_n(parts.value, lanes_per_block, sums_);
+        below_.set(1, parts.value);
+    } else {
+        Lanes to_axis(Unset{}), to_opposite(Unset{});
+        for_lanes(blocks, [&](int i) {
+            const VmfMixture::Mean mean = mean_of(i);
+            to_axis[i] = mean.squared_distance(axis);
+            to_opposite[i] = mean.squared_distance(-axis);
+            set_mean(i, mean);
+        });
+        // Each step goes over all pairs before the next one: a single long chain of dependent operations leaves most of
+        // a processor waiting.
+        Pairs exponent, joint, factor;
+        for (int j = 0; j < lobes_.size(); ++j) {
+            const Scatterer scatterer(lobes_, j);
+            const bool forward = lobes_.kappa(j) >= 0;
+            const Lanes &near = forward ? to_axis : to_opposite, &far = forward ? to_opposite : to_axis;
+            for_lanes(blocks, [&, first = j * lanes](int i) {
+                const Overlap overlap(source.kappa_[i], scatterer.kappa, near[i], far[i]);
+                exponent[first + i] = overlap.exponent;
+                joint[first + i] = overlap.joint;
+                factor[first + i] = scatterer.amplitude * source.amplitude_[i] * overlap.reciprocal;
+            });
+        }
+        Lanes running;
+        for (int j = 0; j < lobes_.size(); ++j) {
+            for_lanes(blocks, [&, first = j * lanes](int i) {
+                const int k = first + i;
+                running[i] += factor[k] * Overlap::exponentials(exponent[k], joint[k]);
+                sums_[k] = running[i];
+            });
+        }
+        below_.set(blocks, sums_ + (lobes_.size() - 1) * lanes);
     }
-    for_lanes(blocks * lobes_.size(),
-              [&](int k) { pairs_[k] = factor[k] * fast_exp(exponent[k]) * fast_expm1(-2 * joint[k]); });
-    for (int first = 0; first < lanes; first += lanes_per_block) {
-        sum_rows(pairs_ + first, lobes_.size(), lanes, parts_.value + first);
-    }
-    total_ = sum_lanes(blocks, parts_);
-    integral_ = total_;
-    if (!(total_ > least_integral)) {
+    mixture_.mean_x_ = mean_x;
+    mixture_.mean_y_ = mean_y;
+    mixture_.mean_z_ = mean_z;
+    integral_ = below_.total();
+    scale_ = 1 / integral_;
+    if (!(integral_ > least_integral)) {
         lobes_ = AxialLobes();
-        parts_ = mixture_.weight_;
-        for_lanes(blocks, [&](int i) { pairs_[i] = mixture_.weight_[i]; });
-        total_ = 1;
+        std::copy_n(source.weight_.value, lanes, sums_);
+        below_.set(blocks, sums_);
         integral_ = 0;
+        scale_ = 4 * pi;
     }
-    scale_ = (integral_ > 0 ? 1 : 4 * pi) / total_;
 }
 
-float MixtureProduct::density(const Vec3& direction) const {
-    return scale_ * mixture_.density(direction) * lobes_.density(direction);
+WEND_VECTOR_CLONES void MixtureProduct::weigh(const VmfMixture& mixture) {
+    weigh_parts(mixture, [&](int i) {
+        return VmfMixture::Mean{mixture.mean_x_[i], mixture.mean_y_[i], mixture.mean_z_[i]};
+    });
+}
+
+WEND_VECTOR_CLONES void MixtureProduct::turn_and_weigh(const MixtureView& view) {
+    weigh_parts(view.mixture_, [&, offset = view.offset_](int i) {
+        return view.mixture_.turned_mean(i, offset, view.inverse_distance_);
+    });
+}
+
+WEND_VECTOR_CLONES float MixtureProduct::density(const Vec3& direction) const {
+    const float scattered = scale_ * lobes_.sum_densities(direction);
+    return scattered * mixture_.sum_densities(direction);
 }
 
 WEND_VECTOR_CLONES Vec3 MixtureProduct::sample(Vec2 u) const {
-    float target = u.x * total_;
-    const int i = descend(parts_.value, mixture_.size(), 1, target);
-    const int stride = mixture_.blocks() * lanes_per_block;
-    const int j = descend(pairs_ + i, lobes_.size(), stride, target);
-    const float own = target / pairs_[j * stride + i];
+    const float chosen = u.x * below_.total();
+    const int i = below_.find(chosen);
+    float target = chosen - below_[i];
+    float before = 0, upto = sums_[i];
+    int j = 0;
+    if (const int last = lobes_.size() - 1; last > 0) {
+        const int stride = lanes();
+        // By rounding it could be all of the part.
+        target = std::min(target, sums_[last * stride + i] * one_minus_epsilon);
+        for (int k = 0; k < last; ++k) {
+            j += sums_[k * stride + i] <= target ? 1 : 0;
+        }
+        before = j > 0 ? sums_[(j - 1) * stride + i] : 0.0f;
+        upto = sums_[j * stride + i];
+    }
+    u.x = std::min(one_minus_epsilon, (target - before) / (upto - before));
+
     const Vec3 mean(mixture_.mean_x_[i], mixture_.mean_y_[i], mixture_.mean_z_[i]);
     const Vec3 sum = mean * mixture_.kappa_[i] + lobes_.axis() * lobes_.kappa(j);
-    const float joint = length(sum);
-    return Vmf{joint > 0 ? sum * (1 / joint) : mean, joint}.sample({std::min(own, one_minus_epsilon), u.y});
+    const float squared = length_squared(sum), joint = std::sqrt(squared);
+    // 1 / joint without waiting for the root.
+    const float reciprocal = joint * (1 / squared);
+    const bool uniform = !(squared > 1e-20f);
+    return Vmf{uniform ? mean : sum * reciprocal, uniform ? 0 : joint}.sample(u, reciprocal);
 }
 
 }  // namespace wend::guide

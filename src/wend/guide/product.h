@@ -4,6 +4,8 @@
 #include <wend/guide/mixture.h>
 #include <wend/sampling/axial_lobes.h>
 
+#include <span>
+
 namespace wend::guide {
 
 /// The normalized product V H / Z of a mixture V and lobes H, exact in both: samples come from the products of all
@@ -12,18 +14,20 @@ namespace wend::guide {
 /// reference.
 class MixtureProduct {
 public:
-    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture), lobes_(lobes) {
-        weigh_parts(mixture);
+    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture, Unset{}), lobes_(lobes) {
+        weigh(mixture);
     }
-    MixtureProduct(const MixtureView& view, const AxialLobes& lobes) : mixture_(view), lobes_(lobes) {
-        weigh_parts(view.mixture_);
+    MixtureProduct(const MixtureView& view, const AxialLobes& lobes) : mixture_(view.mixture_, Unset{}), lobes_(lobes) {
+        turn_and_weigh(view);
     }
 
     /// Z = ∫ V H dω, in 1/sr.
     float integral() const { return integral_; }
 
     /// The part of Z that each lobe of V has, if Z is not 0.
-    const Lanes& parts() const { return parts_; }
+    std::span<const float> parts() const {
+        return {sums_ + (lobes_.size() - 1) * lanes(), static_cast<std::size_t>(mixture_.size())};
+    }
 
     /// Density at a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
@@ -35,19 +39,24 @@ private:
     /// Numbers for pairs of lobes, those of one axial lobe side by side. Only the pairs there are have some.
     using Pairs = float[AxialLobes::capacity * max_lobes];
 
-    /// Sets the numbers below, and the lobes to the uniform one where the product is too small. What does not depend on
-    /// the position is read from the mixture that was copied: reading what has just been written is slower.
-    void weigh_parts(const VmfMixture& source);
+    /// Set the means and the numbers below, and the lobes to the uniform one where the product is too small.
+    void weigh(const VmfMixture& mixture);
+    void turn_and_weigh(const MixtureView& view);
+    /// Their body, of which each compiles its own copy for several vector widths. What does not depend on the position
+    /// is read from the mixture that was copied: reading what has just been written is slower.
+    template <class MeanOf>
+    void weigh_parts(const VmfMixture& source, const MeanOf& mean_of);
+
+    int lanes() const { return mixture_.blocks() * lanes_per_block; }
 
     VmfMixture mixture_;
     AxialLobes lobes_;
-    /// Of each lobe of the mixture, its part of ∫ V H dω; and their sum.
-    Lanes parts_{Unset{}};
-    float total_;
+    /// Of the parts that the lobes of the mixture have of ∫ V H dω.
+    SumsBelow below_;
     float integral_;
     float scale_;
-    /// Of each pair, its share of the part, so that a sample need not find them again.
-    Pairs pairs_;
+    /// Of each pair, what the pairs up to it have of the part, so that a sample need not find them again.
+    Pairs sums_;
 };
 
 }  // namespace wend::guide

@@ -7,7 +7,7 @@ namespace wend::guide {
 namespace {
 
 constexpr float unit_tolerance = 1e-3f;
-constexpr float largest_weight = 1e30f;
+constexpr double largest_weight = 1e30;
 
 bool in_space(const Vec3& p) {
     // Far beyond any scene, and far enough from overflow for squares and sums.
@@ -27,13 +27,13 @@ bool is_usable(const ScatterRecord& record) {
 }
 
 bool is_usable(const Record& record) {
+    const double most = largest_weight * record.density;
     return in_space(record.position) && std::abs(length_squared(record.direction) - 1) <= unit_tolerance &&
            record.radiance >= 0 && std::isfinite(record.radiance) && record.density > 0 &&
-           std::isfinite(record.density) && record.distance > 0 && weight_of(record) <= largest_weight &&
+           std::isfinite(record.density) && record.distance > 0 && record.radiance <= most &&
            record.classical_density >= 0 && std::isfinite(record.classical_density) && record.guided_density >= 0 &&
-           std::isfinite(record.guided_density) && record.scattered >= 0 &&
-           static_cast<double>(record.scattered) / record.density <= largest_weight && min_value(record.colour) >= 0 &&
-           is_finite(record.colour);
+           std::isfinite(record.guided_density) && record.scattered >= 0 && record.scattered <= most &&
+           min_value(record.colour) >= 0 && is_finite(record.colour);
 }
 
 }  // namespace wend::guide

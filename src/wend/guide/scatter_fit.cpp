@@ -28,9 +28,14 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
     std::vector<double> leaving, connected;
     leaving.reserve(chosen.size());
     connected.reserve(chosen.size());
-    for (const std::uint32_t i : chosen) {
-        leaving.push_back(records[i].leaving);
-        connected.push_back(records[i].connected);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        // The records of a cell lie far apart.
+        constexpr std::size_t ahead = 16;
+        if (k + ahead < chosen.size()) {
+            __builtin_prefetch(&records[chosen[k + ahead]].leaving);
+        }
+        leaving.push_back(records[chosen[k]].leaving);
+        connected.push_back(records[chosen[k]].connected);
     }
     const double most_leaving = weight_limit(leaving), most_connected = weight_limit(connected);
     std::array<double, sides> count{}, leaving_sum{};
@@ -86,10 +91,15 @@ public:
         // A counting sort of the usable records by cell.
         std::vector<std::uint32_t> begin(field.size() + 1, 0), cell_of(records.size());
         constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-        for (std::size_t i = 0; i < records.size(); ++i) {
-            cell_of[i] = is_usable(records[i]) ? field.nodes_[field.leaf_of(records[i].position)].child : none;
-            if (cell_of[i] != none) {
-                ++begin[cell_of[i] + 1];
+        constexpr std::size_t chunk = 1 << 15;
+        parallel_for((records.size() + chunk - 1) / chunk, threads, [&](std::size_t c) {
+            for (std::size_t i = c * chunk; i < std::min((c + 1) * chunk, records.size()); ++i) {
+                cell_of[i] = is_usable(records[i]) ? field.nodes_[field.leaf_of(records[i].position)].child : none;
+            }
+        });
+        for (const std::uint32_t cell : cell_of) {
+            if (cell != none) {
+                ++begin[cell + 1];
             }
         }
         for (std::size_t cell = 0; cell < field.size(); ++cell) {

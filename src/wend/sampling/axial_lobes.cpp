@@ -2,7 +2,6 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/vector_clones.h>
-#include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 #include <wend/sampling/vmf.h>
 
@@ -41,18 +40,7 @@ AxialLobes AxialLobes::around(const Vec3& axis) const {
 }
 
 WEND_VECTOR_CLONES float AxialLobes::density(const Vec3& direction) const {
-    // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
-    constexpr int block = 8;
-    static_assert(capacity % block == 0);
-    const float before = 0.5f * length_squared(direction - axis_), behind = 0.5f * length_squared(direction + axis_);
-    float part[block] = {};
-    for (int first = 0; first < size_; first += block) {
-        for (int j = 0; j < block; ++j) {
-            const float kappa = kappa_[first + j];
-            part[j] += amplitude_[first + j] * fast_exp(kappa * (kappa < 0 ? behind : -before));
-        }
-    }
-    return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+    return sum_densities(direction);
 }
 
 Vec3 AxialLobes::sample(Vec2 u) const {

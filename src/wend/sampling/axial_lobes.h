@@ -3,6 +3,7 @@
 #pragma once
 
 #include <wend/core/vector.h>
+#include <wend/numeric/fast_exp.h>
 
 #include <span>
 
@@ -43,6 +44,25 @@ public:
 
     /// Density at a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
+    /// Its body, for functions that are compiled for several vector widths.
+    [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
+        // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
+        constexpr int block = 8;
+        static_assert(capacity % block == 0);
+        const float before = 0.5f * length_squared(direction - axis_),
+                    behind = 0.5f * length_squared(direction + axis_);
+        if (size_ == 1) {
+            return amplitude_[0] * fast_exp(kappa_[0] * (kappa_[0] < 0 ? behind : -before));
+        }
+        float part[block] = {};
+        for (int first = 0; first < size_; first += block) {
+            for (int j = 0; j < block; ++j) {
+                const float kappa = kappa_[first + j];
+                part[j] += amplitude_[first + j] * fast_exp(kappa * (kappa < 0 ? behind : -before));
+            }
+        }
+        return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+    }
 
     /// A direction distributed by the density, from a point of [0,1)².
     Vec3 sample(Vec2 u) const;

@@ -28,7 +28,9 @@ struct Vmf {
     float density(const Vec3& direction) const;
 
     /// The direction belonging to a point of the unit square, [0,1)² (jakob2012).
-    Vec3 sample(Vec2 u) const;
+    Vec3 sample(Vec2 u) const { return sample(u, 1 / kappa); }
+    /// The same for whoever has 1 / kappa at hand; for concentration 0 it may be any number.
+    Vec3 sample(Vec2 u, float inverse_kappa) const;
 };
 
 /// The density at the mean, kappa / (2 pi (1 - e^{-2 kappa})), in 1/sr.
@@ -40,14 +42,14 @@ inline float vmf_spread(float kappa) {
     return -fast_expm1(-2 * positive) / positive;
 }
 
-inline Vec3 Vmf::sample(Vec2 u) const {
+inline Vec3 Vmf::sample(Vec2 u, float inverse_kappa) const {
     WEND_EXPECT(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
     // Inverts the distribution of s = 1 - cos: u = (1 - e^{-kappa s}) / (1 - e^{-2 kappa}). Of all but wide lobes the
     // denominator is 1, which need not be waited for.
     constexpr float narrow = 10;
     const float all = kappa > narrow ? 1.0f : -fast_expm1(-2 * kappa);
     const float beyond = std::min(one_minus_epsilon, u.x * all);
-    const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) / kappa) : 2 * u.x;
+    const float s = kappa > 1e-30f ? std::min(2.0f, -fast_log1p(-beyond) * inverse_kappa) : 2 * u.x;
     const float sine = safe_sqrt(s * (2 - s));
     const Turn azimuth = fast_turn(u.y);
     return Frame::from_z(mean).to_world({sine * azimuth.cosine, sine * azimuth.sine, 1 - s});
