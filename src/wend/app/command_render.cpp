@@ -141,7 +141,7 @@ Action add_render_command(CLI::App& program) {
     seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options->sampling,
-        "classical, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");
+        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
     options->common.add_to(command);
