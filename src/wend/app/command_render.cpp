@@ -139,9 +139,9 @@ Action add_render_command(CLI::App& program) {
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
     samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
     seconds->check(seconds_problem)->excludes(passes);
-    command.add_option(
-        "--sampling", options->sampling,
-        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: classical)");
+    command.add_option("--sampling", options->sampling,
+                       "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
+                           " (default: classical)");
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
     options->common.add_to(command);
