@@ -3,6 +3,7 @@
 
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
+#include <wend/decision/trust.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <concepts>
@@ -153,7 +154,6 @@ public:
     /// much trust goes on unguided.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
-        constexpr float least_boost = 0.05f;
         const bool guidable = f.is_guidable() && boost >= least_boost;
         const LocalAdjoint* adjoint = guidable ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
         return Distribution<F>(f, adjoint, position,

@@ -4,6 +4,7 @@
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
 #include <wend/decision/guided_tracking.h>
+#include <wend/decision/trust.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
@@ -51,9 +52,6 @@ public:
     }
 
 private:
-    /// A walk that did what the guide did not foresee goes on unguided (direction.h).
-    static constexpr float least_boost = 0.05f;
-
     /// Through grids only the first flights are guided. Later ones would gain less than the cells on their way cost
     /// (docs/theory/distance.md).
     static constexpr int guided_in_grids = 2;

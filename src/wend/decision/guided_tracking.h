@@ -28,8 +28,7 @@ public:
     }
 
     /// To be called once the light is told as far as it is to be. `ahead` is the radiance to be expected at the end of
-    /// the segment. `level`: only whether to scatter follows the
-    /// light, and where does not.
+    /// the segment. `level`: only whether to scatter follows the light, and where does not.
     Flight fly(float ahead, bool level, Pcg32& random);
 
 private:
