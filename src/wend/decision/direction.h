@@ -149,9 +149,7 @@ public:
         float classical_share_;
     };
 
-    /// `boost` is the product of the walk's boosts so far. Each direction that the guide did not foresee multiplies the
-    /// weight by up to 1/classical_share, which over a long walk would give it a heavy tail: a walk that has lost this
-    /// much trust goes on unguided.
+    /// `boost` is the product of the walk's boosts so far; a walk below least_boost goes on unguided.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         const bool guidable = f.is_guidable() && boost >= least_boost;

@@ -50,15 +50,15 @@ template <class D>
 concept DistanceDecision = requires(const D& d, const Medium& m, const FlightStart& start, float u, Pcg32& random) {
     { d.sample(m, start, u, random) } -> std::same_as<Flight>;
     { d.pass_probability(m, start.ray, start.length) } -> std::same_as<Rgb>;
-    /// Whether FlightStart::end matters.
-    { D::looks_ahead } -> std::convertible_to<bool>;
+    /// Whether FlightStart::end matters for a flight from there.
+    { d.looks_ahead(m, start) } -> std::same_as<bool>;
 };
 
 /// Classical sampling: in proportion to transmittance times extinction, absorption by weight. Homogeneous media by
 /// inversion; grids by delta tracking against the local majorant.
 class ClassicalDistance {
 public:
-    static constexpr bool looks_ahead = false;
+    bool looks_ahead(const Medium& /*medium*/, const FlightStart& /*start*/) const { return false; }
 
     /// `u` is uniform in [0,1).
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const;

@@ -28,22 +28,25 @@ enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
-    static constexpr bool looks_ahead = true;
-
     /// The fields are not owned. `classical_share` in (0,1] bounds the weight by 1/classical_share times the classical
     /// one.
     GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding)
         : surface_(surface), volume_(volume), classical_share_(classical_share), guiding_(guiding) {}
 
+    /// Whether a flight is guided: not once a walk has lost its trust, nor while nothing is known.
+    bool looks_ahead(const Medium& medium, const FlightStart& start) const {
+        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
+        return guidable && start.boost >= least_boost && start.length > 0 && volume_->scattered_light(start.ray.origin);
+    }
+
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (start.boost < least_boost || !(start.length > 0) || !volume_->scattered_light(start.ray.origin)) {
+        if (!looks_ahead(medium, start)) {
             return classical_.sample(medium, start, u, random);
         }
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
             return fly(*homogeneous, start, u);
         }
-        return start.depth < guided_in_grids ? fly(std::get<GridMedium>(medium), start, random)
-                                             : classical_.sample(medium, start, u, random);
+        return fly(std::get<GridMedium>(medium), start, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.

@@ -67,10 +67,10 @@ private:
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
             FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}};
-            if constexpr (decltype(d_.distance)::looks_ahead) {
+            start.depth = now_.depth;
+            if (d_.distance.looks_ahead(medium, start)) {
                 start.end = end_of_segment(hit);
             }
-            start.depth = now_.depth;
             const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
             gather(flight.emitted);
             weigh(flight.weight);
