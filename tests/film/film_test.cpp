@@ -25,22 +25,6 @@ Film one_pixel() {
     return Film({1, 1}, {{0, 0}, {1, 1}});
 }
 
-TEST(Film, TakesBackWhatCameFirst) {
-    Film film({4, 3}, {{1, 0}, {4, 3}});
-    film.add({1, 2}, {Rgb(4, 5, 6), Rgb(0.5f), {0, 0, 1}, 4});
-    film.reject({2, 0});
-    const Film earlier = film;
-    film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.25f), {1, 0, 0}, 8});
-    film.take_back(earlier);
-    const Picture picture = film.picture();
-    EXPECT_EQ(picture.image.at(0, 2), Rgb(1, 2, 3));
-    EXPECT_EQ(picture.image.at(1, 0), Rgb(0.0f));
-    EXPECT_EQ(layer(picture, "albedo").values[3 * 6], 0.25f);
-    EXPECT_EQ(layer(picture, "depth").values[6], 8);
-    EXPECT_EQ(layer(picture, "samples").values[6], 1);
-    EXPECT_EQ(layer(picture, "samples").values[1], 0);
-}
-
 TEST(Film, AveragesItsSamples) {
     Film film({4, 3}, {{0, 0}, {4, 3}});
     film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.5f), {0, 0, 1}, 4});
@@ -88,6 +72,91 @@ TEST(Film, MeansScatterAsTheVarianceSays) {
     EXPECT_TRUE(test::is_within_one_percent(green, (1.0 / 5 - 1.0 / 9) / samples));
     EXPECT_TRUE(agrees(squared_deviation, green.mean(), 5));
     EXPECT_FALSE(agrees(squared_deviation, green.mean() * samples / (samples - 1.0), 5));
+}
+
+TEST(Film, AStageOfLessVarianceCountsMore) {
+    constexpr int side = 100, samples = 32;
+    Film film({side, side}, {{0, 0}, {side, side}});
+    Pcg32 random(2);
+    const auto add_stage = [&](float spread) {
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                for (int s = 0; s < samples; ++s) {
+                    film.add({x, y}, sample_of(Rgb(1 + spread * (random.uniform() - 0.5f))));
+                }
+            }
+        }
+    };
+    add_stage(1.9f);
+    film.begin_stage();
+    add_stage(0.19f);
+    const Picture picture = film.picture();
+    Moments deviation, reported;
+    for (std::size_t i = 0; i < picture.image.pixels.size(); ++i) {
+        deviation.add(sqr(static_cast<double>(picture.image.pixels[i].r) - 1));
+        reported.add(static_cast<double>(layer(picture, "variance").values[3 * i]));
+        EXPECT_EQ(layer(picture, "samples").values[i], 2 * samples);
+    }
+    const double first = 1.9 * 1.9 / 12 / samples, second = first / 100, best = 1 / (1 / first + 1 / second);
+    EXPECT_TRUE(agrees(deviation, best, 5)) << deviation.mean() / best;
+    EXPECT_FALSE(agrees(deviation, (first + second) / 4, 5));
+    EXPECT_NEAR(reported.mean() / best, 1, 0.01);
+}
+
+TEST(Film, WeightsOfStagesDoNotDarkenThePicture) {
+    // Values of a rare kind, then of an ordinary one, with the same mean of 1, on films so small that a sample has much
+    // to say about the variance. Weighted by the variance among themselves, they come out too dark.
+    constexpr int side = 4, samples = 8, films = 20000;
+    constexpr float rare = 0.05f;
+    Pcg32 random(3);
+    Moments means, naive;
+    for (int i = 0; i < films; ++i) {
+        Film both({side, side}, {{0, 0}, {side, side}});
+        Film stages[2] = {both, both};
+        for (int stage = 0; stage < 2; ++stage) {
+            for (int k = 0; k < side * side * samples; ++k) {
+                const float u = random.uniform();
+                const Rgb value(stage == 0 ? (u < rare ? 1 / rare : 0.0f) : 2 * u);
+                const Vec2i pixel(k % side, k / side % side);
+                both.add(pixel, sample_of(value));
+                stages[stage].add(pixel, sample_of(value));
+            }
+            if (stage == 0) {
+                both.begin_stage();
+            }
+        }
+        double total = 0, weights = 0;
+        for (const Film& stage : stages) {
+            const Picture picture = stage.picture();
+            double mean = 0, variance = 0;
+            for (std::size_t p = 0; p < picture.image.pixels.size(); ++p) {
+                mean += static_cast<double>(picture.image.pixels[p].r) / (side * side);
+                variance += static_cast<double>(layer(picture, "variance").values[3 * p]);
+            }
+            total += mean / variance;
+            weights += 1 / variance;
+        }
+        naive.add(total / weights);
+        double mean = 0;
+        for (const Rgb& pixel : both.beauty().pixels) {
+            mean += static_cast<double>(pixel.r) / (side * side);
+        }
+        means.add(mean);
+    }
+    EXPECT_TRUE(test::is_within_one_percent(means, 1)) << means.mean();
+    EXPECT_FALSE(agrees(naive, 1, 5)) << naive.mean();
+}
+
+TEST(Film, AStageOfOneSampleCountsAsTheOneBefore) {
+    Film film({2, 1}, {{0, 0}, {2, 1}});
+    for (const float value : {1.0f, 3.0f}) {
+        film.add({0, 0}, sample_of(Rgb(value)));
+        film.add({1, 0}, sample_of(Rgb(value)));
+    }
+    film.begin_stage();
+    film.add({0, 0}, sample_of(Rgb(8)));
+    EXPECT_EQ(film.beauty().at(0, 0), Rgb(4));
+    EXPECT_EQ(film.beauty().at(1, 0), Rgb(2));
 }
 
 TEST(Film, RejectedSamplesCountAsBlack) {

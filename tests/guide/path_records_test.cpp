@@ -98,6 +98,25 @@ TEST(PathRecords, MatchAPathMadeByHand) {
     EXPECT_EQ(records.surface()[0].direction, Vec3(0, 0, 1));
 }
 
+TEST(PathRecords, AMediumsOwnLightIsSeenWhereItIs) {
+    const auto distance_of_record = [](float behind) {
+        PathLog log;
+        log.start();
+        log.scatter(Vec3(0, 0, 0), Vec3(0, 0, 1), 1, Rgb(1), false);
+        log.weigh(Rgb(0.5f));
+        log.glow(Rgb(2), 4);  // a flame
+        log.meet(20);
+        log.gather(Rgb(behind));
+        PathRecords records;
+        records.add(log.vertices());
+        EXPECT_FLOAT_EQ(records.surface()[0].radiance, 1 + behind / 2);
+        return records.surface()[0].distance;
+    };
+    EXPECT_FLOAT_EQ(distance_of_record(0), 4);
+    // As bright as the wall behind: the mean of the inverse distances.
+    EXPECT_FLOAT_EQ(distance_of_record(2), 2 / (1.0f / 4 + 1.0f / 20));
+}
+
 TEST(PathRecords, MatchTheSumsByDefinition) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const bool chain = seed % 2 == 0;

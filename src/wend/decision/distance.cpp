@@ -3,6 +3,15 @@
 #include <wend/medium/transmittance.h>
 
 namespace wend {
+
+void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length) {
+    const Rgb emitted = emitted_along(medium, length);
+    if (!is_black(emitted)) {
+        // It comes from about a mean free path away, unless the segment is shorter.
+        pick_up(flight, emitted, std::min(1 / mean_value(medium.extinction()), length / 2));
+    }
+}
+
 namespace {
 
 Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput, float u) {
@@ -18,7 +27,7 @@ Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput,
             flight.distance = t;
         }
     }
-    flight.emitted = emitted_along(medium, length);
+    pick_up_along(flight, medium, length);
     const Rgb transmitted = transmittance(medium, flight.distance);
     if (flight.scatters) {
         const float density = dot(probability, extinction * transmitted);
@@ -52,11 +61,13 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
     // Tentative collisions at the majorant's rate for the channel of largest extinction: the transmittance of the
     // majorant is then the same in all channels and cancels. Which of them are real is decided for the mixture of
     // channels.
+    const float looks = medium.looks(index_ray, start.length);
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-        const float rate = largest * cell.maximum;
-        if (!(rate > 0)) {
+        if (!(cell.maximum > 0)) {
             return true;
         }
+        const float rate = std::max(largest * cell.maximum, looks);
+        const float majorant = rate / largest;
         // Double: steps in a very dense cell can be below the spacing of floats.
         for (double t_exact = t_in;;) {
             t_exact += to_exponential(random.uniform(), rate);
@@ -64,7 +75,7 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
                 return true;
             }
             const auto t = static_cast<float>(t_exact);
-            const float u = random.uniform() * cell.maximum;
+            const float u = random.uniform() * majorant;
             const float acceptance = grey ? 1.0f : dot(probability, relative);
             if (grey && !emission && u < cell.minimum) {
                 // Certainly real: no need to look.
@@ -73,12 +84,13 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
                 const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
                 const float density = medium.density().sample_nearest(p, corner);
                 if (emission) {
-                    flight.emitted += flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate);
+                    pick_up(flight, flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate),
+                            t);
                 }
                 if (!(u < acceptance * density)) {
                     if (!grey) {
-                        const float none = 1 / (cell.maximum - acceptance * density);
-                        flight.weight *= (Rgb(cell.maximum) - relative * density) * none;
+                        const float none = 1 / (majorant - acceptance * density);
+                        flight.weight *= (Rgb(majorant) - relative * density) * none;
                         probability = channel_probabilities(start.throughput * flight.weight);
                     }
                     continue;

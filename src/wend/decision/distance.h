@@ -15,8 +15,18 @@ struct Flight {
     float distance = 0;  ///< of the collision; the segment's length if it does not scatter
     Rgb weight;
     Rgb emitted;      ///< radiance picked up from an emissive medium on the way, before `weight`
+    float glow = 0;   ///< the mean channel of `emitted`, each part over the distance it came from
     float boost = 1;  ///< density over what classical sampling would have had
 };
+
+/// Adds to a flight what the medium emits at a distance, > 0.
+inline void pick_up(Flight& flight, const Rgb& emitted, float distance) {
+    flight.emitted += emitted;
+    flight.glow += mean_value(emitted) / distance;
+}
+
+/// Adds to a flight all that a homogeneous medium emits along its segment: the expected value, which has no variance.
+void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length);
 
 /// What a walk knows about the end of a flight's segment when the flight is drawn, for decisions that ask what lies
 /// ahead.

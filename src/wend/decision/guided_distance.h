@@ -73,7 +73,7 @@ private:
         const Rgb transmitted = transmittance(medium, flight.distance);
         flight.weight = (flight.scatters ? medium.scattering * transmitted : transmitted) *
                         (outcome.density > 0 ? 1 / outcome.density : 0.0f);
-        flight.emitted = emitted_along(medium, start.length);
+        pick_up_along(flight, medium, start.length);
         return flight;
     }
 

@@ -88,6 +88,7 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
     Rgb channels = channel_probabilities(start_.throughput);
     const bool grey = relative.r == relative.g && relative.g == relative.b;
 
+    const float looks = medium_.looks(index_ray, start_.length);
     for (int i = 0; i < count_; ++i) {
         const Piece& piece = pieces_[i];
         const float length = piece.t_out - piece.t_in;
@@ -96,10 +97,9 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
         // Collisions should come at this many times the rate of the medium; tentative ones come twice as often, so that
         // there is a choice.
         const float wanted = foretold > 0 ? bright / foretold : 1.0f;
-        const float rate =
-            largest * std::max(piece.density.maximum,
-                               std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
-                                        most_stretching * piece.density.maximum));
+        const float stretched = std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
+                                         most_stretching * piece.density.maximum);
+        const float rate = std::max(largest * std::max(piece.density.maximum, stretched), looks);
         // Double: steps in a very dense cell can be below the spacing of floats.
         for (double t_exact = piece.t_in;;) {
             t_exact += to_exponential(random.uniform(), rate);
@@ -110,8 +110,8 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
             const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
             const float density = medium_.density().sample_nearest(index_ray.at(t), corner);
             if (emission) {
-                flight.emitted +=
-                    flight.weight * medium_.absorption() * emission->at(start_.ray.at(t)) * (density / rate);
+                pick_up(flight,
+                        flight.weight * medium_.absorption() * emission->at(start_.ray.at(t)) * (density / rate), t);
             }
             const float classical = largest * density * (grey ? 1.0f : dot(channels, relative)) / rate;
             const float here = classical * bright;
@@ -140,7 +140,9 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
                                flight.boost,
                                {}};
         const Flight last = ClassicalDistance().sample(medium_, rest, random);
-        flight.emitted += flight.weight * last.emitted;
+        if (last.glow > 0) {
+            pick_up(flight, flight.weight * last.emitted, passed + mean_value(last.emitted) / last.glow);
+        }
         flight.weight *= last.weight;
         flight.scatters = last.scatters;
         flight.distance = last.scatters ? passed + last.distance : start_.length;

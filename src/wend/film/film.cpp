@@ -1,9 +1,10 @@
-#include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/film/film.h>
+#include <wend/film/pixel_estimate.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -48,36 +49,131 @@ void Film::reject(const Vec2i& pixel) {
     ++at(pixel).count;
 }
 
-void Film::take_back(const Film& earlier) {
-    WEND_EXPECT(earlier.crop_ == crop_);
+double Film::Pixel::variance(int c) const {
+    if (count < 2) {
+        return 0;
+    }
+    const double n = count;
+    const double first = sum[c] / n;
+    return std::max(0.0, squares[c] / n - first * first) * n / (n - 1);
+}
+
+double Film::Pixel::mean(int c, double weight) const {
+    const double total = this->weight(weight);
+    return total > 0 ? (earlier_sum[c] + weight * sum[c]) / total : 0.0;
+}
+
+double Film::Pixel::spread(int c, double weight) const {
+    const double total = this->weight(weight);
+    return total > 0 ? (earlier_spread[c] + weight * weight * count * variance(c)) / (total * total) : 0.0;
+}
+
+std::size_t Film::half_of(std::size_t index) const {
+    const auto width = static_cast<std::size_t>(crop_.width());
+    return (index % width + index / width) % 2;
+}
+
+Image Film::filled_from(std::size_t half, double weight) const {
+    Image image(crop_.width(), crop_.height());
+    const auto index = [&](int x, int y) { return static_cast<std::size_t>(y * image.width + x); };
+    const auto value = [&](int x, int y) {
+        const Pixel& p = pixels_[index(x, y)];
+        return Rgb(static_cast<float>(p.mean(0, weight)), static_cast<float>(p.mean(1, weight)),
+                   static_cast<float>(p.mean(2, weight)));
+    };
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            if (half_of(index(x, y)) == half) {
+                image.at(x, y) = value(x, y);
+                continue;
+            }
+            Rgb sum;
+            int neighbours = 0;
+            for (const auto& [nx, ny] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+                if (nx >= 0 && ny >= 0 && nx < image.width && ny < image.height) {
+                    sum += value(nx, ny);
+                    ++neighbours;
+                }
+            }
+            image.at(x, y) = neighbours > 0 ? sum / static_cast<float>(neighbours) : sum;
+        }
+    }
+    return image;
+}
+
+Film::Halves Film::relative_variances(const Halves& weights) const {
+    Halves variances{0, 0};
+    for (std::size_t half = 0; half < 2; ++half) {
+        const std::vector<float> estimates =
+            pixel_estimates(filled_from(half, weights[half]), static_cast<int>(pixels_.front().samples()));
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            const Pixel& p = pixels_[i];
+            const double scale = static_cast<double>(estimates[i]);
+            if (half_of(i) == half && p.count > 1 && scale > 0) {
+                sum += (p.variance(0) + p.variance(1) + p.variance(2)) / (scale * scale);
+                ++count;
+            }
+        }
+        variances[half] = count > 0 ? sum / count : 0;
+    }
+    return variances;
+}
+
+Film::Halves Film::stage_weights() const {
+    if (earlier_weights_[0] == 0) {
+        return {1, 1};
+    }
+    const Halves variances = relative_variances(earlier_weights_);
+    Halves weights = earlier_weights_;
+    for (std::size_t half = 0; half < 2; ++half) {
+        const std::size_t other = 1 - half;
+        if (variances[other] > 0) {
+            weights[half] = std::max(weights[half], first_variances_[other] / variances[other]);
+        }
+    }
+    return weights;
+}
+
+void Film::begin_stage() {
+    const Halves weights = stage_weights();
+    if (earlier_weights_[0] == 0) {
+        first_variances_ = relative_variances(weights);
+    }
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         Pixel& p = pixels_[i];
-        const Pixel& e = earlier.pixels_[i];
+        const double weight = weights[half_of(i)];
         for (int c = 0; c < 3; ++c) {
-            p.sum[c] -= e.sum[c];
-            p.squares[c] -= e.squares[c];
-            p.albedo[c] -= e.albedo[c];
-            p.normal[c] -= e.normal[c];
+            p.earlier_spread[c] += weight * weight * p.count * p.variance(c);
+            p.earlier_sum[c] += weight * std::exchange(p.sum[c], 0);
+            p.squares[c] = 0;
         }
-        p.depth -= e.depth;
-        p.count -= e.count;
+        p.earlier_weight += weight * p.count;
+        p.earlier_count += std::exchange(p.count, 0);
     }
+    earlier_weights_ = weights;
 }
 
 Image Film::beauty() const {
+    return beauty(stage_weights());
+}
+
+Image Film::beauty(const Halves& weights) const {
     Image image(crop_.width(), crop_.height());
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const Pixel& p = pixels_[i];
-        const double scale = p.count > 0 ? 1.0 / p.count : 0.0;
-        image.pixels[i] = {static_cast<float>(p.sum[0] * scale), static_cast<float>(p.sum[1] * scale),
-                           static_cast<float>(p.sum[2] * scale)};
+        const double weight = weights[half_of(i)];
+        for (int c = 0; c < 3; ++c) {
+            image.pixels[i][c] = static_cast<float>(p.mean(c, weight));
+        }
     }
     return image;
 }
 
 Picture Film::picture() const {
+    const Halves weights = stage_weights();
     Picture picture;
-    picture.image = beauty();
+    picture.image = beauty(weights);
     picture.offset = crop_.min;
     picture.full_size = full_size_;
     Layer albedo{"albedo", {"R", "G", "B"}, {}};
@@ -85,40 +181,38 @@ Picture Film::picture() const {
     Layer depth{"depth", {"Z"}, {}};
     Layer samples{"samples", {"N"}, {}};
     Layer variance{"variance", {"R", "G", "B"}, {}};
-    for (const Pixel& p : pixels_) {
-        const float n = static_cast<float>(std::max(p.count, 1u));
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const Pixel& p = pixels_[i];
+        const auto n = static_cast<float>(std::max(p.samples(), 1u));
         for (int c = 0; c < 3; ++c) {
             albedo.values.push_back(p.albedo[c] / n);
             normal.values.push_back(p.normal[c] / n);
-            const double mean = p.sum[c] / n;
-            const double spread = p.count > 1 ? std::max(0.0, p.squares[c] / n - mean * mean) / (n - 1.0) : 0.0;
-            variance.values.push_back(static_cast<float>(spread));
+            variance.values.push_back(static_cast<float>(p.spread(c, weights[half_of(i)])));
         }
         depth.values.push_back(p.depth / n);
-        samples.values.push_back(static_cast<float>(p.count));
+        samples.values.push_back(static_cast<float>(p.samples()));
     }
     picture.layers = {std::move(albedo), std::move(normal), std::move(depth), std::move(samples), std::move(variance)};
     return picture;
 }
 
 double Film::relative_noise() const {
+    const Halves weights = stage_weights();
     double total = 0;
-    for (const Pixel& p : pixels_) {
-        total += p.count > 0 ? (p.sum[0] + p.sum[1] + p.sum[2]) / p.count : 0.0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            total += pixels_[i].mean(c, weights[half_of(i)]);
+        }
     }
     const double floor = 0.1 * total / static_cast<double>(pixels_.size());
     double sum = 0;
-    for (const Pixel& p : pixels_) {
-        if (p.count < 2) {
-            continue;
-        }
-        const double n = p.count;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const Pixel& p = pixels_[i];
         double variance = 0;
         double mean = 0;
         for (int c = 0; c < 3; ++c) {
-            const double m = p.sum[c] / n;
-            variance += std::max(0.0, p.squares[c] / n - m * m) / (n - 1);
-            mean += m;
+            variance += p.spread(c, weights[half_of(i)]);
+            mean += p.mean(c, weights[half_of(i)]);
         }
         const double scale = std::max(mean, floor);
         sum += scale > 0 ? 3 * variance / (scale * scale) : 0.0;

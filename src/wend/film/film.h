@@ -4,6 +4,7 @@
 #include <wend/core/vector.h>
 #include <wend/film/picture.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct PixelRect {
 };
 
 /// Sums of samples, pixel by pixel. Two threads must not add to the same pixel.
+///
+/// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, and no less than
+/// the one before: by few samples, noise that comes with rare values is easily missed. So that no sample has a say in
+/// its own weight, which would darken the picture, the pixels are divided like the fields of a chess board, and those
+/// of one colour are weighted by the variance among the other.
 class Film {
 public:
     /// Throws InputError if the crop window is empty, outside the picture, or larger than max_pixels.
@@ -41,8 +47,8 @@ public:
     /// Counts a sample that was not a number: it adds nothing, but is not forgotten.
     void reject(const Vec2i& pixel);
 
-    /// Takes back all samples of an earlier state of this film.
-    void take_back(const Film& earlier);
+    /// Ends a stage: samples from here on are drawn in another way.
+    void begin_stage();
 
     Image beauty() const;
     /// Beauty and the layers albedo, normal, depth, samples, and variance (of the pixel's mean, from the scatter of its
@@ -56,13 +62,38 @@ public:
 
 private:
     struct Pixel {
+        // Of the current stage.
         double sum[3] = {0, 0, 0};
         double squares[3] = {0, 0, 0};
+        std::uint32_t count = 0;
+        // Of the stages before, weighted: `spread` is the variance of `sum`.
+        std::uint32_t earlier_count = 0;
+        double earlier_weight = 0;
+        double earlier_sum[3] = {0, 0, 0};
+        double earlier_spread[3] = {0, 0, 0};
+        // Of all samples.
         float albedo[3] = {0, 0, 0};
         float normal[3] = {0, 0, 0};
         float depth = 0;
-        std::uint32_t count = 0;
+
+        std::uint32_t samples() const { return count + earlier_count; }
+        /// Variance of one sample in this stage; 0 where it is not known.
+        double variance(int c) const;
+        /// The pixel where samples of this stage count `weight` times: its mean, and the variance of that.
+        double weight(double weight) const { return earlier_weight + weight * count; }
+        double mean(int c, double weight) const;
+        double spread(int c, double weight) const;
     };
+    /// By half of the pixels.
+    using Halves = std::array<double, 2>;
+
+    std::size_t half_of(std::size_t index) const;
+    Image beauty(const Halves& weights) const;
+    /// The picture as the pixels of one half tell it.
+    Image filled_from(std::size_t half, double weight) const;
+    /// Variance of one sample of this stage over the squared picture, in each half by itself.
+    Halves relative_variances(const Halves& weights) const;
+    Halves stage_weights() const;
 
     Pixel& at(const Vec2i& p) {
         return pixels_[static_cast<std::size_t>(p.y - crop_.min.y) * static_cast<std::size_t>(crop_.width()) +
@@ -72,6 +103,9 @@ private:
     Vec2i full_size_;
     PixelRect crop_;
     std::vector<Pixel> pixels_;
+    /// Of the stage before this one; none as long as this is the first.
+    Halves earlier_weights_{0, 0};
+    Halves first_variances_{0, 0};
 };
 
 }  // namespace wend

@@ -28,6 +28,16 @@ public:
         }
     }
 
+    /// Gathers a medium's own light, which came before any vertex, from this mean distance from the last vertex.
+    void glow(const Rgb& radiance, float distance) {
+        gather(radiance);
+        if (at_.vertex != PathVertex::root) {
+            const float seen = mean(at_.weight * radiance);
+            current().glow += seen;
+            current().glow_over_distance += seen / distance;
+        }
+    }
+
     /// The vertex at hand was connected to a light: `fluence` is the radiance over the density of the direction, and
     /// `brought` that times the scattering function, which the walk gathers too.
     void connect(const Vec3& to_light, float fluence, const Rgb& brought) {

@@ -4,6 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/guide/records.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -26,6 +27,9 @@ struct PathVertex {
     float guided_density = 0;
     /// Along the direction to what the walk met first; infinity where there was nothing.
     float distance = std::numeric_limits<float>::infinity();
+    /// Of the radiance gathered, the mean channel of what came from a medium before any vertex, and the same over its
+    /// distance.
+    float glow = 0, glow_over_distance = 0;
     /// Weight that the walk gained on the way here since the parent's direction was drawn: transmittance over the
     /// density of the flight, 1 over the probability of surviving, 1 over the number of copies.
     Rgb arrival{1.0f};
@@ -56,6 +60,15 @@ struct PathVertex {
 /// O(vertices); `incident` is resized.
 Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident);
 
+/// The distance that radiance arrived from along a vertex's direction: the harmonic mean of those of its parts.
+inline float distance_of(const PathVertex& vertex, float arrived) {
+    if (!(vertex.glow > 0)) {
+        return vertex.distance;
+    }
+    const float others = std::max(0.0f, arrived - vertex.glow);
+    return (vertex.glow + others) / (vertex.glow_over_distance + others / vertex.distance);
+}
+
 /// What a vertex tells, given the radiance that arrived: by channel, and as a scalar the mean of the channels. Nothing
 /// is clamped: a record that is not finite stays as it is, for fit() to ignore and count.
 inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
@@ -63,7 +76,7 @@ inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
             vertex.direction,
             mean(incident),
             vertex.density,
-            vertex.distance,
+            distance_of(vertex, mean(incident)),
             vertex.classical_density,
             vertex.guided_density,
             mean(vertex.scattering * incident) * vertex.density,

@@ -72,7 +72,9 @@ private:
                 start.end = end_of_segment(hit);
             }
             const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
-            gather(flight.emitted);
+            if (flight.glow > 0) {
+                glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
+            }
             weigh(flight.weight);
             now_.boost *= flight.boost;
             if (is_black(now_.throughput)) {
@@ -393,6 +395,12 @@ private:
         radiance_ += now_.throughput * radiance;
         if (log_) {
             log_->gather(radiance);
+        }
+    }
+    void glow(const Rgb& radiance, float distance) {
+        radiance_ += now_.throughput * radiance;
+        if (log_) {
+            log_->glow(radiance, distance);
         }
     }
     void meet() {

@@ -1,5 +1,5 @@
 #include <wend/core/parallel.h>
-#include <wend/integrator/pixel_estimate.h>
+#include <wend/film/pixel_estimate.h>
 #include <wend/integrator/render.h>
 #include <wend/integrator/training.h>
 #include <wend/integrator/path_tracer.inl>
@@ -34,8 +34,6 @@ constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them.
 constexpr int warm_up_samples = 7;
-// The samples taken until then are as noisy as classical ones; once there are so many times more, they go.
-constexpr int samples_over_warm_up = 16;
 // More vertices of one walk say little that is new: they are correlated.
 constexpr std::size_t most_records = 64;
 
@@ -187,7 +185,6 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         settings.fields ? *settings.fields
                         : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
-    std::optional<Film> warm_up;
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
@@ -224,13 +221,6 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         }
         statistics.samples += count;
         statistics.passes.push_back(count);
-        if (!preset.is_classical() && statistics.samples == warm_up_samples) {
-            warm_up = film;
-        }
-        if (warm_up && statistics.samples >= (1 + samples_over_warm_up) * warm_up_samples) {
-            film.take_back(*warm_up);
-            warm_up.reset();
-        }
         if (plan.record) {
             const Clock::time_point training_start = Clock::now();
             std::vector<guide::PathRecords> records(tiles.size());
@@ -238,6 +228,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 records[i] = std::exchange(tiles[i].records, {});
             }
             fields = learn(fields, records, settings.threads);
+            if (statistics.samples >= warm_up_samples) {
+                film.begin_stage();
+            }
             statistics.training_seconds += seconds_since(training_start);
         }
         const double elapsed = seconds_since(start);

@@ -46,6 +46,13 @@ GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& ind
     WEND_EXPECT(min_value(absorption) >= 0 && min_value(scattering) >= 0);
 }
 
+float GridMedium::looks(const IndexRay& ray, float length) const {
+    constexpr float several = 8;
+    float begin = 0, end = length;
+    const bool passes = emission_ && clip_to_box(majorants_.box(), ray.origin, ray.direction, begin, end);
+    return passes ? several / (end - begin) : 0.0f;
+}
+
 Rgb extinction_at(const Medium& medium, const Vec3& position) {
     if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
         return homogeneous->extinction();

@@ -67,6 +67,9 @@ public:
     IndexRay to_index(const Ray& ray) const {
         return {index_from_world_.point(ray.origin), index_from_world_.vector(ray.direction)};
     }
+    /// Tentative collisions per unit length that a walk should look at for the medium's own light to be seen where it
+    /// is thin: several along the part of a ray, up to a length, that is in it. 0 where it does not glow.
+    float looks(const IndexRay& ray, float length) const;
 
 private:
     std::shared_ptr<const Grid> density_;

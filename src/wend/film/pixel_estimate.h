@@ -1,4 +1,5 @@
-// What the pixels of a picture will be, from noisy beginnings: for decisions on roulette and splitting.
+// What the pixels of a picture will be, from noisy beginnings: what decisions on survival and weights of samples
+// measure against.
 #pragma once
 
 #include <wend/core/image.h>

@@ -1,4 +1,4 @@
-#include <wend/integrator/pixel_estimate.h>
+#include <wend/film/pixel_estimate.h>
 
 #include <algorithm>
 #include <cmath>
