@@ -65,7 +65,7 @@ private:
             return pieces.add(t_out, light.in_scattered(start.ray.direction, medium.phase));
         });
         pieces.finish(start.length, ahead(start), levels());
-        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share_ : 1.0f, u);
+        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share_at(start.ray.origin) : 1.0f, u);
         Flight flight;
         flight.scatters = outcome.scatters;
         flight.distance = outcome.distance;
@@ -78,12 +78,17 @@ private:
     }
 
     Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
-        GuidedTracking tracking(medium, start, classical_share_);
+        GuidedTracking tracking(medium, start, share_at(start.ray.origin));
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;
         });
         return tracking.fly(ahead(start), levels(), random);
+    }
+
+    /// The share of classical flights: what the guide is not trusted with is added to it.
+    float share_at(const Vec3& origin) const {
+        return 1 - (1 - classical_share_) * volume_->scattered_light(origin)->trust;
     }
 
     bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }

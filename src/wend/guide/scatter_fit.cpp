@@ -63,8 +63,13 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
     return sums;
 }
 
-ScatteredLight light_of(const ScatterSums& sums, const Region& region) {
+ScatteredLight light_of(const ScatterSums& sums, const Region& region, const Statistics& statistics) {
+    constexpr double enough = 16;
     ScatteredLight light;
+    if (statistics.fluence_square > 0) {
+        const double effective = sqr(statistics.fluence) / statistics.fluence_square;  // kish1965
+        light.trust = static_cast<float>(effective / (effective + enough));
+    }
     light.walked = {region.fluence(), mean_direction(region.mixture())};
     const float records = std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
     const float leaving = std::accumulate(sums.leaving.begin(), sums.leaving.end(), 0.0f);
@@ -115,7 +120,7 @@ public:
             ScatterSums& sums = field.memories_[cell].scattered;
             sums = sums.scaled(static_cast<float>(decay));
             sums += sums_of(records, std::span(order).subspan(begin[cell], begin[cell + 1] - begin[cell]));
-            field.scattered_[cell] = light_of(sums, field.regions_[cell]);
+            field.scattered_[cell] = light_of(sums, field.regions_[cell], field.memories_[cell].statistics);
         });
         return field;
     }

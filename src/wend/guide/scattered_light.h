@@ -34,6 +34,8 @@ struct ScatteredLight {
     /// Radiance that leaves the vertices of the cell towards where walks came from, by the side that they came from: a
     /// wall may be bright on one side and dark on the other.
     std::array<float, sides> leaving{};
+    /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
+    float trust = 0;
 
     float leaving_to(const Vec3& normal) const { return leaving[static_cast<std::size_t>(side_of(normal))]; }
 
