@@ -28,6 +28,7 @@ struct RenderOptions {
     std::string sampling = "classical";
     std::optional<std::string> passes;
     std::string load_field, save_field;
+    bool half = false;
 };
 
 std::vector<int> parse_passes(const std::string& text) {
@@ -67,6 +68,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     if (!options.output.empty()) {
         require_writable_picture(options.output);
     }
+    if (options.half) {
+        require_exr_extension(options.output);
+    }
     if (preset.is_classical() && !(options.load_field.empty() && options.save_field.empty())) {
         throw InputError(
             "--load-field and --save-field: classical sampling has no field; give --sampling, such as direction");
@@ -100,7 +104,8 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
             return !interrupt.requested();
         });
     }
-    write_picture(output, session.picture(film, settings, statistics));
+    const auto write = options.half ? write_colours : write_picture;
+    write(output, session.picture(film, settings, statistics));
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
     }
@@ -130,9 +135,13 @@ Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
     options->scene.add_to(command);
-    command.add_option(
+    CLI::Option* output = command.add_option(
         "-o,--output", options->output,
         "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name)");
+    command
+        .add_flag("--half", options->half,
+                  "write the colours alone, in half floats, as references are kept (to an .exr file)")
+        ->needs(output);
     CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
     CLI::Option* passes = command.add_option("--passes", options->passes,
