@@ -98,7 +98,7 @@ private:
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
         WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, plan_.record ? &log : nullptr);
         ++tile.counts.paths;
-        tile.counts.segments += result.segments;
+        tile.counts.segments += result.sample.segments;
         if (!is_finite(result.sample.radiance)) {
             ++tile.counts.rejected;
             film_.reject(pixel);
