@@ -71,7 +71,12 @@ TEST_F(FieldCommand, RefusesWhatIsNoFieldAndNamesIt) {
     std::string changed = bytes;
     changed[bytes.size() / 2] = static_cast<char>(changed[bytes.size() / 2] ^ 1);
     folder_.write("changed.field", changed);
-    for (const std::string name : {"short.field", "changed.field", "room.pbrt", "none.field"}) {
+    std::string older = bytes;
+    // The version follows the signature of the first field.
+    older[older.find("WENDFLD\x1a") + 8] = 2;
+    folder_.write("older.field", older);
+    EXPECT_NE(run_wend({"field", folder_.file("older.field")}).err.find("version 2 is not known"), std::string::npos);
+    for (const std::string name : {"short.field", "changed.field", "older.field", "room.pbrt", "none.field"}) {
         const auto result = run_wend({"field", folder_.file(name)});
         EXPECT_EQ(result.status, 2) << name;
         EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
