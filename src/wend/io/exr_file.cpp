@@ -209,13 +209,15 @@ Picture read_exr(const std::filesystem::path& file) {
         picture.offset = window.min - display.min;
         picture.full_size = display.max - display.min + Vec2i(1);
         picture.layers = layer_names(header.channels());
-        Imf::FrameBuffer frame;
-        for (Layer& layer : picture.layers) {
-            layer.values.resize(picture.image.pixels.size() * layer.channels.size());
-            insert_layer(frame, layer, window);
+        if (!picture.layers.empty()) {
+            Imf::FrameBuffer frame;
+            for (Layer& layer : picture.layers) {
+                layer.values.resize(picture.image.pixels.size() * layer.channels.size());
+                insert_layer(frame, layer, window);
+            }
+            input.setFrameBuffer(frame);
+            input.readPixels(window.min.y, window.max.y);
         }
-        input.setFrameBuffer(frame);
-        input.readPixels(window.min.y, window.max.y);
         for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {
                 picture.metadata[attribute.name()] = text->value();
