@@ -17,8 +17,8 @@ class Compare : public testing::Test {
 protected:
     Compare() : scene_(folder_.write("room.pbrt", test::small_scene())) {}
 
-    test::ProgramResult compare(std::vector<std::string> more) const {
-        more.insert(more.begin(), {"compare", scene_, "--time", "0.05", "--seeds", "1", "--json", "-"});
+    test::ProgramResult compare(std::vector<std::string> more, const std::string& seeds = "1") const {
+        more.insert(more.begin(), {"compare", scene_, "--time", "0.05", "--seeds", seeds, "--json", "-"});
         return run_wend(more);
     }
 
@@ -74,10 +74,8 @@ TEST_F(Compare, HalfFloatsAreForExrFiles) {
 }
 
 TEST_F(Compare, AnAblationIsATableOfEachDecision) {
-    const std::vector<std::string> arguments = {"compare", scene_, "--time", "0.01", "--seeds", "1"};
-    auto twice = arguments;
-    twice.insert(twice.end(), {"--sampling", "ablation,full,classical", "--json", folder_.file("rows.json")});
-    const auto result = run_wend(twice);
+    const auto result = run_wend({"compare", scene_, "--time", "0.01", "--seeds", "1", "--sampling",
+                                  "ablation,full,classical", "--json", folder_.file("rows.json")});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto rows = nlohmann::json::parse(test::read_text(folder_.file("rows.json")))["rows"];
     ASSERT_EQ(rows.size(), 12u) << "each once";
@@ -90,7 +88,7 @@ TEST_F(Compare, AnAblationIsATableOfEachDecision) {
 }
 
 TEST_F(Compare, PoolsTheErrorsOfAllRuns) {
-    const auto result = compare({"--sampling", "classical", "--seeds", "2"});
+    const auto result = compare({"--sampling", "classical"}, "2");
     ASSERT_EQ(result.status, 0) << result.err;
     const auto row = result.json()["rows"][0];
     EXPECT_GE(row["error_p9999"], row["relmse"]) << "the largest of few pixels is above their mean";
