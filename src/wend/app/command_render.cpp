@@ -6,6 +6,7 @@
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
+#include <wend/io/records_file.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -27,7 +28,7 @@ struct RenderOptions {
     double seconds = 0;
     std::string sampling = "classical";
     std::optional<std::string> passes;
-    std::string load_field, save_field;
+    std::string load_field, save_field, save_records;
     bool half = false;
 };
 
@@ -71,12 +72,16 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     if (options.half) {
         require_exr_extension(options.output);
     }
-    if (preset.is_classical() && !(options.load_field.empty() && options.save_field.empty())) {
+    if (preset.is_classical() &&
+        !(options.load_field.empty() && options.save_field.empty() && options.save_records.empty())) {
         throw InputError(
-            "--load-field and --save-field: classical sampling has no field; give --sampling, such as direction");
+            "--load-field, --save-field and --save-records: classical sampling has no field; give --sampling, such as "
+            "direction");
     }
-    if (!options.save_field.empty()) {
-        require_writable(options.save_field);
+    for (const std::string& file : {options.save_field, options.save_records}) {
+        if (!file.empty()) {
+            require_writable(file);
+        }
     }
     std::shared_ptr<const GuidingFields> fields;
     if (!options.load_field.empty()) {
@@ -92,6 +97,10 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     settings.samples = options.samples > 0 ? options.samples : settings.samples;
     settings.seconds = options.seconds;
     settings.passes = passes;
+    RecordSamples records;
+    if (!options.save_records.empty()) {
+        settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
+    }
 
     Film film = session.new_film();
     const InterruptGuard interrupt;
@@ -108,6 +117,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     write(output, session.picture(film, settings, statistics));
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
+    }
+    if (!options.save_records.empty()) {
+        write_records(options.save_records, records);
     }
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
@@ -152,6 +164,8 @@ Action add_render_command(CLI::App& program) {
                        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
                            " (default: classical)");
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
+    command.add_option("--save-records", options->save_records,
+                       "write a sample of what the field learned from to this file (for 'wend field --records')");
     command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
     options->common.add_to(command);
     return [options](const Streams& streams) { render_scene(*options, streams); };

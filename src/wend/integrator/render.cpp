@@ -227,6 +227,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             for (std::size_t i = 0; i < tiles.size(); ++i) {
                 records[i] = std::exchange(tiles[i].records, {});
             }
+            if (settings.on_records) {
+                settings.on_records(records);
+            }
             fields = learn(fields, records, settings.threads);
             if (statistics.samples >= warm_up_samples) {
                 film.begin_stage();
