@@ -87,7 +87,7 @@ TEST_P(LongWalks, EndWithoutALimitOfDepthInBoundedMemory) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, LongWalks, testing::Values("classical", "full"));
+INSTANTIATE_TEST_SUITE_P(Presets, LongWalks, testing::Values("classical", "full", "distance+direction+splitting"));
 
 }  // namespace
 }  // namespace wend
