@@ -58,7 +58,7 @@ void walks(benchmark::State& state, const char* name) {
         Sampler sampler(SamplerKind::sobol, 1, i % 1000, i / 1000);
         ++i;
         const WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler, nullptr);
-        segments += result.segments;
+        segments += result.sample.segments;
         benchmark::DoNotOptimize(result);
     }
     state.SetItemsProcessed(state.iterations());

@@ -1,7 +1,11 @@
 // wend render --save-field, --load-field and wend field.
 #include "program_support.h"
 
+#include <wend/io/image_file.h>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace wend {
 namespace {
@@ -54,6 +58,38 @@ TEST_F(FieldCommand, ShowsAPlaceAsLobesAndAsAPicture) {
     EXPECT_NE(vtk.find("CELL_DATA " + std::to_string(json["cells"].get<int>())), std::string::npos);
 }
 
+TEST_F(FieldCommand, PaintsTheRecordsBelowTheLobes) {
+    ASSERT_EQ(render({"--spp", "31", "--sampling", "direction", "--save-field", folder_.file("room.field"),
+                      "--save-records", folder_.file("room.records")})
+                  .status,
+              0);
+    const auto show = [&](const std::string& picture, std::vector<std::string> more) {
+        more.insert(more.begin(), {"field", folder_.file("room.field"), "--at", "0,0.5,0", "-o", folder_.file(picture),
+                                   "--json", "-"});
+        return run_wend(more).json()["at"];
+    };
+    EXPECT_TRUE(show("alone.png", {})["records"].is_null());
+    const auto at = show("both.png", {"--records", folder_.file("room.records")});
+    EXPECT_GT(at["records"], 100);
+    EXPECT_EQ(read_image(folder_.file("both.png")).height, 2 * read_image(folder_.file("alone.png")).height);
+    show("both.exr", {"--records", folder_.file("room.records")});
+    const Picture numbers = read_picture(folder_.file("both.exr"));
+    ASSERT_EQ(numbers.layers.size(), 1u);
+    EXPECT_EQ(numbers.layers[0].name, "records");
+    EXPECT_GT(*std::max_element(numbers.layers[0].values.begin(), numbers.layers[0].values.end()), 0);
+}
+
+TEST_F(FieldCommand, RefusesWhatAreNoRecords) {
+    save_field();
+    const auto result =
+        run_wend({"field", folder_.file("room.field"), "--at", "0,0,0", "--records", folder_.file("room.field")});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find("is no file of records"), std::string::npos) << result.err;
+    EXPECT_EQ(run_wend({"field", folder_.file("room.field"), "--records", folder_.file("room.field")}).status, 2)
+        << "records are for a place";
+    EXPECT_EQ(render({"--spp", "1", "--save-records", folder_.file("x.records")}).status, 2);
+}
+
 TEST_F(FieldCommand, ALoadedFieldGuidesFromTheFirstSample) {
     save_field();
     const auto begin = render({"--spp", "1", "--sampling", "direction"});
@@ -71,7 +107,12 @@ TEST_F(FieldCommand, RefusesWhatIsNoFieldAndNamesIt) {
     std::string changed = bytes;
     changed[bytes.size() / 2] = static_cast<char>(changed[bytes.size() / 2] ^ 1);
     folder_.write("changed.field", changed);
-    for (const std::string name : {"short.field", "changed.field", "room.pbrt", "none.field"}) {
+    std::string older = bytes;
+    // The version follows the signature of the first field.
+    older[older.find("WENDFLD\x1a") + 8] = 2;
+    folder_.write("older.field", older);
+    EXPECT_NE(run_wend({"field", folder_.file("older.field")}).err.find("version 2 is not known"), std::string::npos);
+    for (const std::string name : {"short.field", "changed.field", "older.field", "room.pbrt", "none.field"}) {
         const auto result = run_wend({"field", folder_.file(name)});
         EXPECT_EQ(result.status, 2) << name;
         EXPECT_NE(result.err.find(name), std::string::npos) << result.err;

@@ -240,7 +240,8 @@ TEST_F(Program, MetricReportsTheKeysOfTheContract) {
     ASSERT_EQ(result.status, 0) << result.err;
     const json rows = result.json()["rows"];
     ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(keys(rows[0]), (std::vector<std::string>{"flip", "image", "mape", "mse", "relmse", "relmse_trimmed"}));
+    EXPECT_EQ(keys(rows[0]),
+              (std::vector<std::string>{"error_p9999", "flip", "image", "mape", "mse", "relmse", "relmse_trimmed"}));
     EXPECT_EQ(rows[0]["image"], folder_.file("two.exr"));
     for (const char* measure : {"relmse", "mse", "mape", "flip"}) {
         EXPECT_GT(rows[0][measure], rows[1][measure]) << measure << ": more samples are nearer to the reference";
@@ -266,7 +267,7 @@ void expect_rows_of_compare(const json& rows, const char* guided) {
     EXPECT_EQ(rows[0]["sampling"], "classical");
     EXPECT_EQ(rows[1]["sampling"], guided);
     for (const json& row : rows) {
-        for (const char* key : {"sampling", "spp", "seconds", "relmse", "ratio"}) {
+        for (const char* key : {"sampling", "spp", "seconds", "relmse", "error_p9999", "ratio"}) {
             EXPECT_TRUE(row.contains(key)) << key;
         }
         EXPECT_GE(row["spp"], 1);
@@ -293,9 +294,9 @@ TEST_F(Program, CompareReportsTheKeysOfTheContractAndAPage) {
 }
 
 TEST_F(Program, CompareRefusesBeforeItRenders) {
-    const auto none = run_wend({"compare", scene_, "--time", "100"});
+    const auto none = run_wend({"compare", scene_, "--time", "100", "--reference", folder_.file("hall")});
     EXPECT_EQ(none.status, 2);
-    EXPECT_TRUE(contains(none.err, "room.ref-a.exr")) << none.err;
+    EXPECT_TRUE(contains(none.err, "hall.ref-a.exr")) << none.err;
     make_reference();
     const auto size = run_wend({"compare", scene_, "--time", "100", "--resolution", "8x8"});
     EXPECT_EQ(size.status, 2);

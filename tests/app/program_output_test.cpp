@@ -66,7 +66,7 @@ TEST_F(ProgramOutput, LayersAndMetadataCanBeReadBack) {
         EXPECT_TRUE(d >= 0 && std::isfinite(d)) << d;
         farthest = std::max(farthest, d);
     }
-    EXPECT_GT(farthest, 3);
+    EXPECT_GT(farthest, 2) << "fog shortens what surfaces begin 4.2 away";
     EXPECT_LT(farthest, 7) << "nothing of the room is farther from the eye";
     EXPECT_EQ(picture.metadata.at("wend:scene"), scene_);
     EXPECT_EQ(picture.metadata.at("wend:seed"), "5");

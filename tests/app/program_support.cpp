@@ -138,14 +138,14 @@ std::string read_text(const std::filesystem::path& file) {
 std::string small_scene(const std::string& world) {
     return R"(# A foggy room with a lamp.
 Integrator "volpath" "integer maxdepth" [ 8 ]
+MakeNamedMedium "fog" "string type" "homogeneous"
+  "rgb sigma_a" [ 0.06 0.06 0.06 ] "rgb sigma_s" [ 0.5 0.4 0.3 ] "float g" [ 0.5 ]
+MediumInterface "" "fog"
 LookAt 0 1 5.2  0 1 0  0 1 0
 Camera "perspective" "float fov" [ 32 ]
 Sampler "sobol" "integer pixelsamples" [ 4 ]
 PixelFilter "gaussian" "float xradius" [ 1.5 ] "float yradius" [ 1.5 ]
 Film "rgb" "integer xresolution" [ 16 ] "integer yresolution" [ 12 ] "string filename" "room.exr"
-MakeNamedMedium "fog" "string type" "homogeneous"
-  "rgb sigma_a" [ 0.06 0.06 0.06 ] "rgb sigma_s" [ 0.5 0.4 0.3 ] "float g" [ 0.5 ]
-MediumInterface "" "fog"
 WorldBegin
 MediumInterface "fog" "fog"
 Material "diffuse" "rgb reflectance" [ 0.6 0.6 0.6 ]

@@ -70,14 +70,16 @@ Report example() {
     report.title = "Fog & <script>alert(1)</script>";
     report.scene = "scenes/\"quoted\".pbrt";
     report.settings = {{"seeds", "1, 2, 3"}, {"<i>", "{{rows}}"}};
-    report.rows = {{"classical", 1024, 60, 0.5, 0.25, 0.125, 0.3, 1.0},
-                   {"distance+direction", 512, 60.5, 0.0625, 0.03, 1e-5, 0.1, 8.0},
-                   {"<b>odd</b>", 1, 1, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, std::nullopt}};
-    report.pictures = {{"classical", some_png(0), some_png(1)},
-                       {"it's <full>", some_png(2), some_png(3)},
-                       {"reference", some_png(4), ""}};
-    report.error_quantity = "relative squared error";
-    report.error_scale = {ColourScale::Kind::logarithmic, 1e-3f, 10};
+    report.rows = {{"classical", "", 1024, 60, 0.5, 0.25, 7.5, 0.125, 0.3, 1.0},
+                   {"distance+direction", "no <survival>", 512, 60.5, 0.0625, 0.03, 0.75, 1e-5, 0.1, 8.0},
+                   {"<b>odd</b>", "", 1, 1, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, std::nullopt}};
+    report.maps = {{"Error", "relative squared error", {ColourScale::Kind::logarithmic, 1e-3f, 10}},
+                   {"Walk <length>", "segments & samples", {ColourScale::Kind::linear, 1, 40}}};
+    report.pictures = {{"reference", "", some_png(0), {}},
+                       {"classical", "1024 spp, relMSE 0.5", some_png(1), {some_png(3), some_png(5)}},
+                       {"it's <full>", "<b>", some_png(2), {some_png(4), some_png(6)}}};
+    report.left = 1;
+    report.right = 2;
     report.convergence = {{"classical", {{1, 10}, {60, 0.5}}}, {"a < b", {{1, 2}, {60, 0.06}}}};
     return report;
 }
@@ -107,11 +109,12 @@ TEST(ReportPage, ShowsEveryRowOnce) {
     EXPECT_EQ(count(page, "<th scope=\"row\">"), 3u);
     EXPECT_TRUE(contains(page,
                          "<tr><th scope=\"row\">classical</th><td>0.5</td><td class=\"ratio\">1×</td><td>60</td>"
-                         "<td>1024</td><td>0.25</td><td>0.125</td><td>0.3</td></tr>"));
+                         "<td>1024</td><td>0.25</td><td>7.5</td><td>0.125</td><td>0.3</td></tr>"));
     EXPECT_TRUE(contains(page,
-                         "<tr class=\"best\"><th scope=\"row\">distance+direction</th><td>0.0625</td>"
-                         "<td class=\"ratio\">8×</td><td>60.5</td><td>512</td><td>0.03</td><td>1.00e-05</td>"
-                         "<td>0.1</td></tr>"));
+                         "<tr class=\"best\"><th scope=\"row\">distance+direction "
+                         "<span class=\"role\">no &lt;survival&gt;</span></th><td>0.0625</td>"
+                         "<td class=\"ratio\">8×</td><td>60.5</td><td>512</td><td>0.03</td><td>0.75</td>"
+                         "<td>1.00e-05</td><td>0.1</td></tr>"));
     EXPECT_TRUE(contains(page, "<td>–</td>")) << "what is not finite shows as a dash";
     EXPECT_EQ(count(page, "class=\"best\""), 1u);
 }
@@ -131,7 +134,7 @@ TEST(ReportPage, EscapesEveryText) {
 
 TEST(ReportPage, EmbedsAllPicturesExactly) {
     const std::vector<std::string> pictures = embedded_pictures(report_page(example()));
-    ASSERT_EQ(pictures.size(), 5u);
+    ASSERT_EQ(pictures.size(), 7u);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         EXPECT_EQ(pictures[i], some_png(i));
     }
@@ -149,8 +152,33 @@ TEST(ReportPage, NeedsNothingFromOutside) {
 TEST(ReportPage, OffersEveryPictureOnBothSides) {
     const std::string page = report_page(example());
     EXPECT_EQ(count(page, "<option "), 6u);
-    EXPECT_EQ(count(page, "<option value=\"0\" selected>classical</option>"), 1u);
-    EXPECT_EQ(count(page, "<option value=\"1\" selected>it&#39;s &lt;full&gt;</option>"), 1u);
+    EXPECT_EQ(count(page, "<option value=\"1\" selected>classical</option>"), 1u);
+    EXPECT_EQ(count(page, "<option value=\"2\" selected>it&#39;s &lt;full&gt;</option>"), 1u);
+}
+
+TEST(ReportPage, ShowsThePicturesInAStripWithTheirFigures) {
+    const std::string page = report_page(example());
+    const std::string strip = page.substr(page.find("id=\"view-0\""), page.find("id=\"view-1\""));
+    const std::size_t reference = strip.find("<b>reference</b>");
+    const std::size_t classical = strip.find("<b>classical</b> 1024 spp, relMSE 0.5</figcaption>");
+    const std::size_t full = strip.find("<b>it&#39;s &lt;full&gt;</b> &lt;b&gt;</figcaption>");
+    ASSERT_NE(full, std::string::npos);
+    EXPECT_LT(reference, classical);
+    EXPECT_LT(classical, full);
+}
+
+TEST(ReportPage, EveryMapHasItsColoursAndAPlaceInTheSlider) {
+    const std::string page = report_page(example());
+    EXPECT_TRUE(contains(page, "relative squared error, logarithmic scale"));
+    EXPECT_TRUE(contains(page, "segments &amp; samples, linear scale"));
+    EXPECT_TRUE(contains(page, "<span>1</span><i></i><span>40</span>"));
+    EXPECT_EQ(count(page, "name=\"view\""), 1u + 2u) << "the pictures and two maps";
+    EXPECT_TRUE(contains(page, "value=\"2\"><span>Walk &lt;length&gt;</span>"));
+    for (const char* section : {"id=\"view-0\"", "id=\"view-1\"", "id=\"view-2\""}) {
+        EXPECT_EQ(count(page, section), 1u);
+    }
+    EXPECT_EQ(count(page, "<figure data-picture=\"0\">"), 1u) << "the reference has no maps";
+    EXPECT_EQ(count(page, "<figure data-picture=\"1\">"), 3u);
 }
 
 TEST(ReportPage, AnEmptyReportIsStillAPage) {

@@ -40,6 +40,35 @@ TEST(Film, AveragesItsSamples) {
     EXPECT_EQ(layer(picture, "samples").values[0], 0);
 }
 
+TEST(Film, TellsWhatWalksDid) {
+    Film film({2, 1}, {{0, 0}, {2, 1}});
+    FilmSample sample = sample_of(Rgb(1));
+    sample.segments = 7;
+    film.add({0, 0}, sample);
+    film.begin_stage();
+    sample.scattered = true;
+    sample.segments = 5;
+    sample.branches = 4;
+    film.add({0, 0}, sample);
+    const Picture picture = film.picture();
+    EXPECT_EQ(layer(picture, "scatter").values, (std::vector<float>{0.5f, 0}));
+    EXPECT_EQ(layer(picture, "segments").values, (std::vector<float>{6, 0}));
+    EXPECT_EQ(layer(picture, "branches").values, (std::vector<float>{2.5f, 0}));
+}
+
+TEST(Film, CountsLongWalksExactly) {
+    // More segments than a float can count one by one.
+    Film film = one_pixel();
+    FilmSample sample;
+    sample.segments = 1u << 25;
+    film.add({0, 0}, sample);
+    for (int i = 0; i < 3; ++i) {
+        sample.segments = 1;
+        film.add({0, 0}, sample);
+    }
+    EXPECT_EQ(layer(film.picture(), "segments").values[0], static_cast<float>(((1u << 25) + 3) / 4.0));
+}
+
 TEST(Film, VarianceIsThatOfTheMean) {
     Film film = one_pixel();
     for (const float v : {1.0f, 2.0f, 3.0f, 6.0f}) {

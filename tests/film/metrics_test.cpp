@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -32,6 +33,7 @@ TEST(Metrics, IdenticalPicturesHaveNoError) {
     EXPECT_EQ(metrics.relmse, 0);
     EXPECT_EQ(metrics.relmse_std_error, 0);
     EXPECT_EQ(metrics.relmse_trimmed, 0);
+    EXPECT_EQ(metrics.error_p9999, 0);
     EXPECT_EQ(metrics.mse, 0);
     EXPECT_EQ(metrics.mape, 0);
 }
@@ -59,6 +61,27 @@ TEST(Metrics, ChannelsCountApartAndHalvesMultiply) {
     const Metrics dark = measure(Image(1, 1), reference);
     EXPECT_NEAR(dark.relmse, (0 / 1.04 + 4 / 4.04 + 8 / 9.04) / 3, 1e-7);
     EXPECT_NEAR(dark.mse, 4, 1e-6);
+}
+
+TEST(Metrics, FireflyErrorIsThe9999thOfTenThousand) {
+    // Against a grey reference of 1, e = 0.01: 57600 pixels are off by 0.1, and six of them by much more.
+    constexpr int width = 320, height = 180;
+    const Image reference(width, height, Rgb(1));
+    Image image(width, height, Rgb(1.1f));
+    for (int i = 0; i < 6; ++i) {
+        image.pixels[static_cast<std::size_t>(997 * i)] = Rgb(11.0f + static_cast<float>(i));
+    }
+    const auto error = [](double difference) { return difference * difference / 1.01; };
+    // Of 57600, five may exceed it.
+    EXPECT_NEAR(measure(image, single(reference)).error_p9999, error(10), 1e-4 * error(10));
+    image.pixels[0] = Rgb(1.1f);
+    EXPECT_NEAR(measure(image, single(reference)).error_p9999, error(0.1), 1e-4 * error(0.1));
+
+    std::vector<float> pooled(20000);
+    std::iota(pooled.begin(), pooled.end(), 1.0f);
+    EXPECT_EQ(firefly_error(pooled), 19998);
+    EXPECT_EQ(firefly_error({3, 7, 5}), 7);
+    EXPECT_EQ(firefly_error({}), 0);
 }
 
 TEST(Metrics, ErrorMapAveragesToRelmse) {

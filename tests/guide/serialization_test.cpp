@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
 
 namespace wend::guide {
 namespace {
@@ -80,6 +83,23 @@ TEST(Serialization, EveryChangeIsRefused) {
         EXPECT_THROW(field_from_bytes(changed), InputError) << at;
     }
     EXPECT_THROW(field_from_bytes("PNG or something else that is long enough"), InputError);
+}
+
+TEST(Serialization, OtherVersionsAreRefusedByNumber) {
+    std::string bytes = to_bytes(learned());
+    constexpr std::size_t place = 8;  // after the signature
+    std::uint32_t version;
+    std::memcpy(&version, bytes.data() + place, sizeof version);
+    for (const std::uint32_t other : {2u, version - 1, version + 1}) {
+        std::memcpy(bytes.data() + place, &other, sizeof other);
+        try {
+            field_from_bytes(bytes);
+            FAIL() << "version " << other << " was read";
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.what(), "guiding field: version " + std::to_string(other) +
+                                        " is not known; this is version " + std::to_string(version));
+        }
+    }
 }
 
 TEST(Serialization, CellsFillTheBounds) {

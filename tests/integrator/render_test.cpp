@@ -229,5 +229,22 @@ TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
     }
 }
 
+TEST(Preset, TheAblationHasEachDecisionAloneAndEachLeftOut) {
+    std::vector<std::string> names, roles;
+    for (const Preset& preset : ablation_presets()) {
+        names.push_back(to_string(preset));
+        roles.push_back(ablation_role(preset));
+        EXPECT_EQ(parse_preset(names.back()), preset);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"classical", "scatter", "distance", "direction", "roulette", "splitting",
+                                               "full", "direction+roulette+splitting",
+                                               "scatter+direction+roulette+splitting", "distance+roulette+splitting",
+                                               "distance+direction+splitting", "distance+direction+roulette"}));
+    EXPECT_EQ(roles, (std::vector<std::string>{"", "only scatter", "only distance", "only direction", "only roulette",
+                                               "only splitting", "", "no scatter", "no distance", "no direction",
+                                               "no roulette", "no splitting"}));
+    EXPECT_EQ(ablation_role(parse_preset("distance+direction")), "");
+}
+
 }  // namespace
 }  // namespace wend

@@ -65,6 +65,43 @@ std::string message_of(const std::function<void()>& action) {
     return "no InputError";
 }
 
+TEST_F(ImageFile, ColoursAloneAreHalfFloats) {
+    Picture picture;
+    picture.image = gradient(64, 48);
+    picture.image.at(3, 4) = {65000, 1e-3f, -2.5f};
+    picture.offset = {5, 7};
+    picture.full_size = {100, 80};
+    picture.metadata = {{"seed", "17"}};
+    picture.layers = {{"depth", {"Z"}, std::vector<float>(64 * 48, 2.0f)}};
+    write_picture(folder / "all.exr", picture);
+    write_colours(folder / "colours.exr", picture);
+    EXPECT_LT(2 * fs::file_size(folder / "colours.exr"), fs::file_size(folder / "all.exr"));
+    const Picture read = read_picture(folder / "colours.exr");
+    EXPECT_TRUE(read.layers.empty());
+    EXPECT_EQ(read.offset, picture.offset);
+    EXPECT_EQ(read.full_size, picture.full_size);
+    EXPECT_EQ(read.metadata.at("seed"), "17");
+    bool rounded = false;
+    for (std::size_t i = 0; i < read.image.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const float before = picture.image.pixels[i][c], after = read.image.pixels[i][c];
+            ASSERT_NEAR(after, before, std::abs(before) * 0x1p-11f) << "pixel " << i;
+            rounded = rounded || after != before;
+        }
+    }
+    EXPECT_TRUE(rounded) << "these are no half floats";
+}
+
+TEST_F(ImageFile, ColoursTooLargeForHalfFloatsAreKeptAsTheyAre) {
+    Picture picture;
+    picture.image = gradient(9, 5);
+    picture.image.at(3, 4).g = 1e6f;
+    write_colours(folder / "bright.exr", picture);
+    EXPECT_EQ(read_image(folder / "bright.exr").pixels, picture.image.pixels);
+    EXPECT_THROW(write_colours(folder / "bright.png", picture), InputError);
+    EXPECT_EQ(files(), 1);
+}
+
 TEST_F(ImageFile, ExrKeepsEverything) {
     Picture picture;
     picture.image = gradient(17, 9);

@@ -1,11 +1,18 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
+#include <wend/app/comparison_page.h>
 #include <wend/app/reference.h>
+#include <wend/app/reference_render.h>
+#include <wend/app/report_folder.h>
 #include <wend/core/error.h>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
 #include <ostream>
 
 namespace wend {
@@ -15,28 +22,54 @@ struct CompareOptions {
     CommonOptions common;
     SceneOptions scene;
     double seconds = 30;
-    std::string sampling = "classical,direction,full";
+    std::string sampling = "classical,distance+direction,full";
     std::string reference;
     std::string folder;
     int seeds = 3;
 };
 
-void compare_scene(const CompareOptions& options, const Streams& streams) {
+/// Presets separated by commas, "ablation" standing for many of them; each of them once.
+std::vector<Preset> parse_presets(const std::string& text) {
     std::vector<Preset> presets;
-    for (const std::string& name : split_list(options.sampling)) {
-        presets.push_back(parse_preset(name));
+    for (const std::string& name : split_list(text)) {
+        for (const Preset& preset : name == "ablation" ? ablation_presets() : std::vector{parse_preset(name)}) {
+            if (std::find(presets.begin(), presets.end(), preset) == presets.end()) {
+                presets.push_back(preset);
+            }
+        }
     }
+    return presets;
+}
+
+/// Renders what the comparison judges by; it is kept where there is a folder.
+Reference make_reference(const Session& session, const CompareOptions& options, const Streams& streams) {
     const std::filesystem::path scene = options.scene.file;
-    const Reference reference = read_reference(options.reference.empty() ? scene.parent_path() / scene.stem()
-                                                                         : std::filesystem::path(options.reference));
+    const std::filesystem::path name =
+        options.folder.empty() ? std::filesystem::path() : std::filesystem::path(options.folder) / scene.stem();
+    options.common.note(
+        streams, fmt::format("no {} beside the scene: rendering a reference, two halves of {:g} s each{}",
+                             reference_files(scene.stem()).a.string(), reference_effort * options.seconds,
+                             name.empty() ? " (--out keeps it)" : ", for --reference " + name.string() + " next time"));
+    return render_reference(session, options.seconds, name, options.common, streams);
+}
+
+void compare_scene(const CompareOptions& options, const Streams& streams) {
+    const std::vector<Preset> presets = parse_presets(options.sampling);
+    const std::filesystem::path scene = options.scene.file;
+    std::optional<Reference> reference = options.reference.empty()
+                                             ? read_reference_pair(scene.parent_path() / scene.stem())
+                                             : read_reference(options.reference);
     if (!options.folder.empty()) {
         make_report_folder(options.folder);
     }
     const Session session(options.scene, options.common, streams);
+    if (!reference) {
+        reference = make_reference(session, options, streams);
+    }
     const auto rows =
-        compare_presets(session, presets, options.seconds, options.seeds, reference, options.common, streams);
+        compare_presets(session, presets, options.seconds, options.seeds, *reference, options.common, streams);
     if (!options.folder.empty()) {
-        write_comparison(options.folder, session, rows, reference, options.seconds, options.seeds);
+        write_comparison(options.folder, session, rows, *reference, options.seconds, options.seeds);
     }
     if (options.common.json != "-") {
         streams.out << comparison_table(rows) << std::flush;
@@ -56,9 +89,15 @@ Action add_compare_command(CLI::App& program) {
     command.add_option("--time", options->seconds, "seconds for each render, training included")
         ->check(seconds_problem)
         ->capture_default_str();
-    command.add_option("--sampling", options->sampling, "ways to compare, separated by commas")->capture_default_str();
+    command
+        .add_option("--sampling", options->sampling,
+                    "ways to compare, separated by commas; ablation: each decision alone, and all but each")
+        ->capture_default_str();
     command.add_option("--reference", options->reference,
-                       "NAME of the pair NAME.ref-a.exr, NAME.ref-b.exr, or a picture (default: beside the scene)");
+                       fmt::format("NAME of the pair NAME.ref-a.exr, NAME.ref-b.exr, or a picture (default: the pair "
+                                   "beside the scene; where there is none, one is rendered by 'full', each half for {} "
+                                   "times --time, and kept in the folder of --out)",
+                                   reference_effort));
     command.add_option("--out", options->folder, "folder for pictures, error maps and index.html");
     command.add_option("--seeds", options->seeds, "renders of each, of which the median counts")
         ->check(CLI::Range(1, 1000))

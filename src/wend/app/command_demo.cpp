@@ -1,6 +1,8 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
+#include <wend/app/comparison_page.h>
 #include <wend/app/reference.h>
+#include <wend/app/report_folder.h>
 #include <wend/core/error.h>
 
 #include <fmt/format.h>

@@ -1,12 +1,13 @@
 #include <wend/app/commands.h>
+#include <wend/app/direction_map.h>
 #include <wend/app/session.h>
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>
-#include <wend/film/false_colour.h>
 #include <wend/guide/lobe_revision.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
+#include <wend/io/records_file.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -16,7 +17,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 namespace wend {
@@ -29,6 +32,7 @@ struct FieldOptions {
     std::string part;
     std::string picture = "field.png";
     std::string vtk;
+    std::string records;
 };
 
 /// A part of the file by name.
@@ -92,53 +96,16 @@ const Part& choose_part(const std::array<Part, 2>& parts, const std::string& nam
     return summarize(*parts[0].field).samples >= summarize(*parts[1].field).samples ? parts[0] : parts[1];
 }
 
-/// Where a direction is in a latitude-longitude picture: z on top, x in the middle.
-constexpr int map_width = 512, map_height = 256;
-
-Vec3 direction_at(int x, int y) {
-    const float theta = pi * (static_cast<float>(y) + 0.5f) / map_height;
-    const float phi = 2 * pi * ((static_cast<float>(x) + 0.5f) / map_width - 0.5f);
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+/// The records of a sample that lie in a region of the field.
+guide::Records records_in(const guide::Region* region, const guide::Field& field, const guide::RecordSample& sample) {
+    guide::Records found;
+    std::copy_if(sample.records().begin(), sample.records().end(), std::back_inserter(found),
+                 [&](const guide::Record& r) { return field.find(r.position) == region; });
+    return found;
 }
 
-std::array<int, 2> place_of(const Vec3& w) {
-    const float x = (std::atan2(w.y, w.x) / (2 * pi) + 0.5f) * map_width;
-    const float y = std::acos(std::clamp(w.z, -1.0f, 1.0f)) / pi * map_height;
-    return {std::clamp(static_cast<int>(x), 0, map_width - 1), std::clamp(static_cast<int>(y), 0, map_height - 1)};
-}
-
-/// Radiance around a point: as it is, with the lobes' shares as a layer, or in false colours over four decades with a
-/// mark at each lobe's mean.
-Picture radiance_picture(const guide::VmfMixture& incident, float fluence, bool floating_point) {
-    std::vector<float> radiance;
-    for (int y = 0; y < map_height; ++y) {
-        for (int x = 0; x < map_width; ++x) {
-            radiance.push_back(fluence * incident.density(direction_at(x, y)));
-        }
-    }
-    Picture picture;
-    picture.full_size = {map_width, map_height};
-    if (floating_point) {
-        picture.image = Image(map_width, map_height);
-        for (std::size_t i = 0; i < radiance.size(); ++i) {
-            picture.image.pixels[i] = Rgb(radiance[i]);
-        }
-        return picture;
-    }
-    const float largest = std::max(*std::max_element(radiance.begin(), radiance.end()), 1e-30f);
-    picture.image =
-        false_colour(radiance, map_width, map_height, {ColourScale::Kind::logarithmic, largest * 1e-4f, largest});
-    for (int i = 0; i < incident.size(); ++i) {
-        const auto [x, y] = place_of(incident.lobe(i).vmf.mean);
-        for (int d = -3; d <= 3; ++d) {
-            picture.image.at((x + d + map_width) % map_width, y) = Rgb(1.0f);
-            picture.image.at(x, std::clamp(y + d, 0, map_height - 1)) = Rgb(1.0f);
-        }
-    }
-    return picture;
-}
-
-nlohmann::json show_position(const FieldOptions& options, const std::array<Part, 2>& parts, const Streams& streams) {
+nlohmann::json show_position(const FieldOptions& options, const std::array<Part, 2>& parts,
+                             const std::optional<RecordSamples>& samples, const Streams& streams) {
     const Vec3 position = parse_position(options.at);
     const Part& part = choose_part(parts, options.part);
     const guide::Region* region = part.field->find(position);
@@ -146,8 +113,14 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
         throw InputError(fmt::format("{}: the {} field has learned nothing", options.file, part.name));
     }
     const guide::VmfMixture incident = region->incident(position);
+    std::optional<guide::Records> told;
+    if (samples) {
+        told = records_in(region, *part.field, part.field == parts[0].field ? samples->surface : samples->volume);
+    }
+    const DirectionMaps maps{radiance_map(incident, region->fluence()),
+                             told ? record_map(*told) : std::vector<float>()};
     const bool floating_point = std::filesystem::path(options.picture).extension() == ".exr";
-    write_picture(options.picture, radiance_picture(incident, region->fluence(), floating_point));
+    write_picture(options.picture, floating_point ? numbers_picture(maps) : colours_picture(maps, incident));
 
     std::vector<std::vector<std::string>> rows = {
         {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
@@ -187,6 +160,10 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
             << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
                "them spreads otherwise than the lobe\n"
             << "incident radiance by direction: " << options.picture << '\n';
+        if (told) {
+            streams.out << fmt::format("with that of {} records of the cell {}\n", told->size(),
+                                       floating_point ? "as the layer 'records'" : "below");
+        }
     }
     return {{"position", vector_json(position)},
             {"part", part.name},
@@ -197,6 +174,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
             {"cost", means.cost},
             {"reference", vector_json(region->reference())},
             {"lobes", std::move(lobes)},
+            {"records", told ? nlohmann::json(told->size()) : nlohmann::json(nullptr)},
             {"picture", options.picture}};
 }
 
@@ -264,6 +242,8 @@ void show_field(const FieldOptions& options, const Streams& streams) {
         require_writable_picture(options.picture);
     }
     const GuidingFields fields = read_fields(options.file);
+    const std::optional<RecordSamples> samples =
+        options.records.empty() ? std::nullopt : std::optional(read_records(options.records));
     const std::array<Part, 2> parts = parts_of(fields);
     Summary all;
     Box3 bounds;
@@ -290,7 +270,7 @@ void show_field(const FieldOptions& options, const Streams& streams) {
     nlohmann::json json = summary_json(all, bounds);
     json["fields"] = std::move(by_part);
     if (!options.at.empty()) {
-        json["at"] = show_position(options, parts, streams);
+        json["at"] = show_position(options, parts, samples, streams);
     }
     if (!options.vtk.empty()) {
         write_atomically(options.vtk, vtk_text(parts));
@@ -306,16 +286,21 @@ Action add_field_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("field", "show what a guiding field holds (a file of 'wend render --save-field')");
     command.add_option("file", options->file, "file of guiding fields")->required();
-    command.add_option(
+    CLI::Option* at = command.add_option(
         "--at", options->at,
-        "x,y,z: the lobes of incident radiance there, and a picture of them; a field keeps no "
-        "records, but of each lobe how many taught it (those of equal weight that would know as much) and by "
-        "how many nats their directions spread otherwise than it does");
+        "x,y,z: the lobes of incident radiance there, and a picture of them; of each lobe how many records taught it "
+        "(those of equal weight that would know as much) and by how many nats their directions spread otherwise than "
+        "it does");
     command.add_option("--part", options->part, "surface or volume (default: the one with more samples)")
         ->check(CLI::IsMember({"surface", "volume"}));
     command.add_option("-o,--output", options->picture,
                        "picture of --at, latitude and longitude: .exr with radiance, .png in false colours over four "
                        "decades (default: field.png)");
+    command
+        .add_option("--records", options->records,
+                    "records of the same render (--save-records): what those of the cell saw goes below the picture of "
+                    "--at, in .exr into the layer 'records'")
+        ->needs(at);
     command.add_option("--vtk", options->vtk, "write the cells to this file, for ParaView");
     options->common.add_to(command);
     return [options](const Streams& streams) { show_field(*options, streams); };

@@ -1,5 +1,6 @@
 #include <wend/app/commands.h>
 #include <wend/app/reference.h>
+#include <wend/app/text_table.h>
 #include <wend/core/error.h>
 #include <wend/film/flip.h>
 #include <wend/io/image_file.h>
@@ -8,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <ostream>
 
@@ -25,12 +25,7 @@ void print_metrics(const MetricOptions& options, const Streams& streams) {
     const Reference reference = read_reference(options.reference);
     const Image average = reference.average();
     nlohmann::json rows = nlohmann::json::array();
-    std::size_t width = 5;
-    for (const std::string& name : options.images) {
-        width = std::max(width, name.size());
-    }
-    std::string table = fmt::format("{:<{}}  {:>11}  {:>11}  {:>11}  {:>11}  {:>7}\n", "image", width, "relMSE",
-                                    "trimmed", "MSE", "MAPE", "FLIP");
+    std::vector<std::vector<std::string>> table = {{"image", "relMSE", "trimmed", "99.99 %", "MSE", "MAPE", "FLIP"}};
     for (const std::string& name : options.images) {
         try {
             const Image image = read_image(name);
@@ -39,18 +34,20 @@ void print_metrics(const MetricOptions& options, const Streams& streams) {
             rows.push_back({{"image", name},
                             {"relmse", json_number(m.relmse)},
                             {"relmse_trimmed", json_number(m.relmse_trimmed)},
+                            {"error_p9999", json_number(m.error_p9999)},
                             {"mse", json_number(m.mse)},
                             {"mape", json_number(m.mape)},
                             {"flip", json_number(difference)}});
-            table += fmt::format("{:<{}}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>7.4f}\n", name, width,
-                                 m.relmse, m.relmse_trimmed, m.mse, m.mape, difference);
+            table.push_back({name, fmt::format("{:.5g}", m.relmse), fmt::format("{:.5g}", m.relmse_trimmed),
+                             fmt::format("{:.5g}", m.error_p9999), fmt::format("{:.5g}", m.mse),
+                             fmt::format("{:.5g}", m.mape), fmt::format("{:.4f}", difference)});
         } catch (const InputError& e) {
             const std::string what = e.what();
             throw InputError(what.find(name) != std::string::npos ? what : name + ": error: " + what);
         }
     }
     if (options.common.json != "-") {
-        streams.out << table << std::flush;
+        streams.out << text_table(table) << std::flush;
     }
     options.common.write_json(streams, {{"reference", options.reference}, {"rows", std::move(rows)}});
 }

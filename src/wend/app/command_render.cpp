@@ -6,6 +6,7 @@
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
+#include <wend/io/records_file.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -27,7 +28,8 @@ struct RenderOptions {
     double seconds = 0;
     std::string sampling = "classical";
     std::optional<std::string> passes;
-    std::string load_field, save_field;
+    std::string load_field, save_field, save_records;
+    bool half = false;
 };
 
 std::vector<int> parse_passes(const std::string& text) {
@@ -67,12 +69,19 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     if (!options.output.empty()) {
         require_writable_picture(options.output);
     }
-    if (preset.is_classical() && !(options.load_field.empty() && options.save_field.empty())) {
-        throw InputError(
-            "--load-field and --save-field: classical sampling has no field; give --sampling, such as direction");
+    if (options.half) {
+        require_exr_extension(options.output);
     }
-    if (!options.save_field.empty()) {
-        require_writable(options.save_field);
+    if (preset.is_classical() &&
+        !(options.load_field.empty() && options.save_field.empty() && options.save_records.empty())) {
+        throw InputError(
+            "--load-field, --save-field and --save-records: classical sampling has no field; give --sampling, such as "
+            "direction");
+    }
+    for (const std::string& file : {options.save_field, options.save_records}) {
+        if (!file.empty()) {
+            require_writable(file);
+        }
     }
     std::shared_ptr<const GuidingFields> fields;
     if (!options.load_field.empty()) {
@@ -88,6 +97,10 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     settings.samples = options.samples > 0 ? options.samples : settings.samples;
     settings.seconds = options.seconds;
     settings.passes = passes;
+    RecordSamples records;
+    if (!options.save_records.empty()) {
+        settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
+    }
 
     Film film = session.new_film();
     const InterruptGuard interrupt;
@@ -100,9 +113,13 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
             return !interrupt.requested();
         });
     }
-    write_picture(output, session.picture(film, settings, statistics));
+    const auto write = options.half ? write_colours : write_picture;
+    write(output, session.picture(film, settings, statistics));
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
+    }
+    if (!options.save_records.empty()) {
+        write_records(options.save_records, records);
     }
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
@@ -130,9 +147,13 @@ Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
     options->scene.add_to(command);
-    command.add_option(
+    CLI::Option* output = command.add_option(
         "-o,--output", options->output,
         "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name)");
+    command
+        .add_flag("--half", options->half,
+                  "write the colours alone, in half floats, as references are kept (to an .exr file)")
+        ->needs(output);
     CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
     CLI::Option* passes = command.add_option("--passes", options->passes,
@@ -143,6 +164,8 @@ Action add_render_command(CLI::App& program) {
                        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
                            " (default: classical)");
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
+    command.add_option("--save-records", options->save_records,
+                       "write a sample of what the field learned from to this file (for 'wend field --records')");
     command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
     options->common.add_to(command);
     return [options](const Streams& streams) { render_scene(*options, streams); };

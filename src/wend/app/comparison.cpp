@@ -1,29 +1,25 @@
 #include <wend/app/comparison.h>
 #include <wend/app/progress.h>
-#include <wend/app/report_page.h>
+#include <wend/app/text_table.h>
 #include <wend/core/error.h>
-#include <wend/film/false_colour.h>
 #include <wend/film/flip.h>
-#include <wend/io/atomic_file.h>
-#include <wend/io/image_file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace wend {
 namespace {
-
-constexpr ColourScale error_scale{ColourScale::Kind::logarithmic, 1e-3f, 10.0f};
 
 /// One render of one preset with one seed.
 struct Run {
     RenderStatistics statistics;
     Image image;
+    std::vector<Layer> walks;
     Metrics metrics;
-    ConvergenceSeries::Point at(double seconds) const { return {seconds, metrics.relmse}; }
+    std::vector<float> errors;
 };
 
 Run run_once(const Session& session, const RenderSettings& settings, const Reference& reference, ProgressBar& bar,
@@ -42,7 +38,9 @@ Run run_once(const Session& session, const RenderSettings& settings, const Refer
         return true;
     });
     run.image = film.beauty();
+    run.walks = film.walk_layers();
     run.metrics = measure(run.image, reference);
+    run.errors = relative_squared_errors(run.image, reference);
     for (const auto& [seconds, image] : snapshots) {
         points.push_back({seconds, measure(image, reference).relmse});
     }
@@ -50,10 +48,13 @@ Run run_once(const Session& session, const RenderSettings& settings, const Refer
     return run;
 }
 
-std::string file_name(const std::string& preset) {
-    std::string name = preset;
-    std::replace(name.begin(), name.end(), '+', '-');
-    return name;
+/// firefly_error() over the pixels of all runs.
+double pooled_firefly_error(const std::vector<Run>& runs) {
+    std::vector<float> errors;
+    for (const Run& run : runs) {
+        errors.insert(errors.end(), run.errors.begin(), run.errors.end());
+    }
+    return firefly_error(std::move(errors));
 }
 
 }  // namespace
@@ -96,8 +97,10 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
         row.samples = run.statistics.samples;
         row.seconds = run.statistics.seconds;
         row.metrics = run.metrics;
+        row.metrics.error_p9999 = pooled_firefly_error(runs[p]);
         row.flip = flip(run.image, reference.average()).mean;
         row.image = std::move(run.image);
+        row.walks = std::move(run.walks);
         row.convergence = {to_string(presets[p]), points[p][median]};
         rows.push_back(std::move(row));
     }
@@ -112,14 +115,16 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
 }
 
 std::string comparison_table(const std::vector<ComparisonRow>& rows) {
-    std::string table = fmt::format("{:<24}  {:>7}  {:>8}  {:>11}  {:>11}  {:>7}  {:>6}\n", "sampling", "spp",
-                                    "seconds", "relMSE", "trimmed", "FLIP", "ratio");
+    std::vector<std::vector<std::string>> table = {
+        {"sampling", "", "spp", "seconds", "relMSE", "trimmed", "99.99 %", "FLIP", "ratio"}};
     for (const ComparisonRow& r : rows) {
-        table += fmt::format("{:<24}  {:>7.0f}  {:>8.2f}  {:>11.4g}  {:>11.4g}  {:>7.4f}  {:>6}\n", to_string(r.preset),
-                             r.samples, r.seconds, r.metrics.relmse, r.metrics.relmse_trimmed, r.flip,
-                             r.ratio ? fmt::format("{:.2f}", *r.ratio) : "-");
+        const Metrics& m = r.metrics;
+        table.push_back({to_string(r.preset), ablation_role(r.preset), fmt::format("{:.0f}", r.samples),
+                         fmt::format("{:.2f}", r.seconds), fmt::format("{:.4g}", m.relmse),
+                         fmt::format("{:.4g}", m.relmse_trimmed), fmt::format("{:.4g}", m.error_p9999),
+                         fmt::format("{:.4f}", r.flip), r.ratio ? fmt::format("{:.2f}", *r.ratio) : "-"});
     }
-    return table;
+    return text_table(table, 2);
 }
 
 nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows) {
@@ -130,50 +135,13 @@ nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows) {
                         {"seconds", r.seconds},
                         {"relmse", json_number(r.metrics.relmse)},
                         {"relmse_trimmed", json_number(r.metrics.relmse_trimmed)},
+                        {"error_p9999", json_number(r.metrics.error_p9999)},
                         {"mse", json_number(r.metrics.mse)},
                         {"mape", json_number(r.metrics.mape)},
                         {"flip", json_number(r.flip)},
                         {"ratio", r.ratio ? json_number(*r.ratio) : nlohmann::json(nullptr)}});
     }
     return list;
-}
-
-void make_report_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw InputError(Place{folder.string()}, "the folder cannot be made: " + error.message());
-    }
-    require_writable(folder / "index.html");
-}
-
-void write_comparison(const std::filesystem::path& folder, const Session& session,
-                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds) {
-    Report report;
-    report.scene = std::filesystem::path(session.scene_file()).filename().string();
-    report.title = fmt::format("{}: {:g} seconds each", report.scene, seconds);
-    report.settings = {
-        {"resolution", fmt::format("{} x {}", reference.a.width, reference.a.height)},
-        {"seeds", fmt::format("{}, the median shown", seeds)},
-        {"threads", session.settings().threads == 0 ? "all" : std::to_string(session.settings().threads)},
-        {"maximum depth", std::to_string(session.settings().max_depth)}};
-    report.error_quantity = "relative squared error";
-    report.error_scale = error_scale;
-    for (const ComparisonRow& r : rows) {
-        const std::string name = file_name(to_string(r.preset));
-        const Image errors =
-            false_colour(relative_squared_errors(r.image, reference), r.image.width, r.image.height, error_scale);
-        for (const auto& [file, image] : {std::pair{name, &r.image}, {name + "-error", &errors}}) {
-            write_picture(folder / (file + ".png"), {*image, {}, {}, {0, 0}, {image->width, image->height}});
-        }
-        write_picture(folder / (name + ".exr"), {r.image, {}, {}, {0, 0}, {r.image.width, r.image.height}});
-        report.pictures.push_back({to_string(r.preset), png_bytes(r.image), png_bytes(errors)});
-        report.rows.push_back({to_string(r.preset), r.samples, r.seconds, r.metrics.relmse, r.metrics.relmse_trimmed,
-                               r.metrics.mse, r.flip, r.ratio});
-        report.convergence.push_back(r.convergence);
-    }
-    report.pictures.push_back({"reference", png_bytes(reference.average()), ""});
-    write_atomically(folder / "index.html", report_page(report));
 }
 
 }  // namespace wend

@@ -16,10 +16,11 @@ struct ComparisonRow {
     Preset preset;
     double samples = 0;
     double seconds = 0;
-    Metrics metrics;
+    Metrics metrics;  ///< but error_p9999 is of the pixels of all runs: one run has few beyond it
     double flip = 0;
     std::optional<double> ratio;  ///< relMSE times seconds of classical sampling, over the same of this row
-    Image image;                  ///< of the median run
+    Image image;
+    std::vector<Layer> walks;  ///< Film::walk_layers()
     ConvergenceSeries convergence;
 };
 
@@ -33,12 +34,5 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
 std::string comparison_table(const std::vector<ComparisonRow>& rows);
 /// The rows as the contract's JSON.
 nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows);
-
-/// Makes the folder for write_comparison(). Throws InputError where that cannot be.
-void make_report_folder(const std::filesystem::path& folder);
-
-/// Writes pictures, error maps and index.html into a folder that exists.
-void write_comparison(const std::filesystem::path& folder, const Session& session,
-                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds);
 
 }  // namespace wend

@@ -1,4 +1,3 @@
-#include <wend/app/comparison.h>
 #include <wend/app/halfspace_figures.h>
 #include <wend/app/halfspace_report.h>
 #include <wend/app/halfspace_table.h>
@@ -6,6 +5,7 @@
 #include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
 #include <wend/app/progress.h>
+#include <wend/app/report_folder.h>
 #include <wend/app/report_template.h>
 #include <wend/app/text_table.h>
 #include <wend/io/atomic_file.h>

@@ -40,10 +40,12 @@ std::string table_rows(const Report& report) {
     std::string html;
     for (const ReportRow& row : report.rows) {
         const std::string ratio = row.ratio ? number(*row.ratio) + "×" : "–";
-        html += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td><td class=\"ratio\">{}</td>",
-                            row.ratio == best ? " class=\"best\"" : "", escape_markup(row.sampling), number(row.relmse),
-                            ratio);
-        for (const double value : {row.seconds, row.spp, row.relmse_trimmed, row.mse, row.flip}) {
+        const std::string role =
+            row.role.empty() ? "" : fmt::format(" <span class=\"role\">{}</span>", escape_markup(row.role));
+        html += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td class=\"ratio\">{}</td>",
+                            row.ratio == best ? " class=\"best\"" : "", escape_markup(row.sampling), role,
+                            number(row.relmse), ratio);
+        for (const double value : {row.seconds, row.spp, row.relmse_trimmed, row.error_p9999, row.mse, row.flip}) {
             html += fmt::format("<td>{}</td>", number(value));
         }
         html += "</tr>\n";
@@ -60,24 +62,7 @@ std::string options(const Report& report, std::size_t selected) {
     return html;
 }
 
-std::string image_element(const char* kind, const std::string& description, const std::string& png) {
-    return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", kind,
-                       escape_markup(description), encode_base64(png));
-}
-
-std::string gallery(const Report& report) {
-    std::string html;
-    for (const ReportPicture& picture : report.pictures) {
-        html += "<figure>" + image_element("picture", picture.name, picture.png);
-        if (!picture.error_png.empty()) {
-            html += image_element("error", "error map of " + picture.name, picture.error_png);
-        }
-        html += fmt::format("<figcaption>{}</figcaption></figure>\n", escape_markup(picture.name));
-    }
-    return html;
-}
-
-/// The colours of the error maps as a CSS gradient.
+/// The colours of all maps as a CSS gradient.
 std::string gradient() {
     constexpr int steps = 16;
     std::string css = "linear-gradient(to right";
@@ -88,25 +73,82 @@ std::string gradient() {
     return css + ")";
 }
 
+std::string colour_bar(const ReportMap& map) {
+    const bool logarithmic = map.scale.kind == ColourScale::Kind::logarithmic;
+    return fmt::format(
+        "<div class=\"scale\"><span>{}, {} scale</span><span class=\"bar\"><span>{}</span><i></i>"
+        "<span>{}</span></span></div>\n",
+        escape_markup(map.quantity), logarithmic ? "logarithmic" : "linear", number(map.scale.low),
+        number(map.scale.high));
+}
+
+/// A picture or map, with the number of its picture for the script.
+std::string figure(std::size_t picture, const std::string& description, const std::string& png,
+                   const std::string& caption) {
+    return fmt::format(
+        "<figure data-picture=\"{}\"><img alt=\"{}\" src=\"data:image/png;base64,{}\">"
+        "<figcaption>{}</figcaption></figure>\n",
+        picture, escape_markup(description), encode_base64(png), caption);
+}
+
+std::string picture_strip(const Report& report) {
+    std::string html;
+    for (std::size_t i = 0; i < report.pictures.size(); ++i) {
+        const ReportPicture& picture = report.pictures[i];
+        html += figure(i, picture.name, picture.png,
+                       fmt::format("<b>{}</b> {}", escape_markup(picture.name), escape_markup(picture.detail)));
+    }
+    return html;
+}
+
+std::string map_strip(const Report& report, std::size_t map) {
+    std::string html;
+    for (std::size_t i = 0; i < report.pictures.size(); ++i) {
+        const ReportPicture& picture = report.pictures[i];
+        if (!picture.maps.empty()) {
+            html += figure(i, fmt::format("{}: {}", report.maps[map].name, picture.name), picture.maps[map],
+                           escape_markup(picture.name));
+        }
+    }
+    return html;
+}
+
+/// A section for each map. View 0 is the pictures.
+std::string map_sections(const Report& report) {
+    std::string html;
+    for (std::size_t i = 0; i < report.maps.size(); ++i) {
+        html +=
+            fmt::format("<section id=\"view-{}\">\n<h2>{}</h2>\n{}<div class=\"strip\">\n{}</div>\n</section>\n\n",
+                        i + 1, escape_markup(report.maps[i].name), colour_bar(report.maps[i]), map_strip(report, i));
+    }
+    return html;
+}
+
+std::string view_choices(const Report& report) {
+    std::string html;
+    for (std::size_t i = 0; i < report.maps.size(); ++i) {
+        html += fmt::format("<label><input type=\"radio\" name=\"view\" value=\"{}\"><span>{}</span></label>\n", i + 1,
+                            escape_markup(report.maps[i].name));
+    }
+    return html;
+}
+
 }  // namespace
 
 std::string report_page(const Report& report) {
-    const bool logarithmic = report.error_scale.kind == ColourScale::Kind::logarithmic;
     return fill_template(report_template, {{"style", std::string(report_style)},
+                                           {"gradient", gradient()},
                                            {"script", std::string(report_script)},
                                            {"title", escape_markup(report.title)},
                                            {"scene", escape_markup(report.scene)},
                                            {"settings", settings_list(report)},
                                            {"rows", table_rows(report)},
-                                           {"left_options", options(report, 0)},
-                                           {"right_options", options(report, 1)},
-                                           {"error_quantity", escape_markup(report.error_quantity)},
-                                           {"error_scale", logarithmic ? "logarithmic" : "linear"},
-                                           {"error_low", number(report.error_scale.low)},
-                                           {"error_high", number(report.error_scale.high)},
-                                           {"gradient", gradient()},
-                                           {"convergence", convergence_svg(report.convergence)},
-                                           {"gallery", gallery(report)}});
+                                           {"left_options", options(report, report.left)},
+                                           {"right_options", options(report, report.right)},
+                                           {"views", view_choices(report)},
+                                           {"pictures", picture_strip(report)},
+                                           {"maps", map_sections(report)},
+                                           {"convergence", convergence_svg(report.convergence)}});
 }
 
 }  // namespace wend

@@ -9,7 +9,9 @@ const std::string_view report_template = R"html(<!doctype html>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>{{title}}</title>
-<style>{{style}}</style>
+<style>{{style}}
+.bar i { background: {{gradient}}; }
+</style>
 </head>
 <body>
 <header>
@@ -24,9 +26,8 @@ const std::string_view report_template = R"html(<!doctype html>
 <label>Left <select id="left">{{left_options}}</select></label>
 <fieldset>
 <legend>Show</legend>
-<label><input type="radio" name="view" value="picture" checked><span>Pictures</span></label>
-<label><input type="radio" name="view" value="error"><span>Error maps</span></label>
-</fieldset>
+<label><input type="radio" name="view" value="0" checked><span>Pictures</span></label>
+{{views}}</fieldset>
 <label>Right <select id="right">{{right_options}}</select></label>
 </div>
 <div id="stage">
@@ -37,35 +38,32 @@ const std::string_view report_template = R"html(<!doctype html>
 <span class="badge at-right" id="right-name"></span>
 </div>
 <input id="split" type="range" min="0" max="100" step="0.5" value="50" aria-label="Position of the divider">
+<div id="legend" hidden></div>
 </section>
-<div id="scale" class="scale">
-<span>{{error_quantity}}, {{error_scale}} scale</span>
-<span class="bar"><span>{{error_low}}</span><i style="background:{{gradient}}"></i><span>{{error_high}}</span></span>
-</div>
+
+<section id="view-0">
+<h2>Pictures</h2>
+<div class="strip">
+{{pictures}}</div>
+</section>
 
 <section>
 <h2>Results</h2>
 <div class="scroll" tabindex="0" role="region" aria-label="Table of results">
 <table>
-<thead><tr><th scope="col">sampling</th><th scope="col">relMSE</th><th scope="col">ratio</th><th scope="col">seconds</th><th scope="col">spp</th><th scope="col">relMSE, trimmed</th><th scope="col">MSE</th><th scope="col">FLIP</th></tr></thead>
+<thead><tr><th scope="col">sampling</th><th scope="col">relMSE</th><th scope="col">ratio</th><th scope="col">seconds</th><th scope="col">spp</th><th scope="col">relMSE, trimmed</th><th scope="col">99.99&nbsp;%</th><th scope="col">MSE</th><th scope="col">FLIP</th></tr></thead>
 <tbody>
 {{rows}}</tbody>
 </table>
 </div>
-<p class="note"><b>relMSE</b> is the mean squared error relative to the squared reference; <b>trimmed</b> leaves out the worst 0.1&nbsp;% of pixels. <b>ratio</b> is relMSE&nbsp;×&nbsp;seconds of classical sampling over that of the row: how many times faster the row reaches the same error.</p>
+<p class="note"><b>relMSE</b> is the mean squared error relative to the squared reference; <b>trimmed</b> leaves out the worst 0.1&nbsp;% of pixels; <b>99.99&nbsp;%</b> of the pixels of all runs have a relative squared error of at most so much, and fireflies have more. <b>ratio</b> is relMSE&nbsp;×&nbsp;seconds of classical sampling over that of the row: how many times faster the row reaches the same error.</p>
 </section>
 
 <section>
 <h2>Convergence</h2>
 {{convergence}}</section>
 
-<section>
-<h2>Pictures and error maps</h2>
-<div id="gallery">
-{{gallery}}</div>
-</section>
-
-<section>
+{{maps}}<section>
 <h2>Settings</h2>
 <dl>
 {{settings}}</dl>
@@ -120,7 +118,7 @@ fieldset input:focus-visible + span { outline: 2px solid var(--accent); outline-
   position: relative; overflow: hidden; border-radius: .4rem; background: #000;
   cursor: ew-resize; touch-action: pan-y; user-select: none; -webkit-user-select: none;
 }
-#stage img, #gallery img { display: block; width: 100%; image-rendering: pixelated; }
+#stage img, .strip img { display: block; width: 100%; image-rendering: pixelated; }
 #over { position: absolute; inset: 0; height: 100%; clip-path: inset(0 calc(100% - var(--split)) 0 0); }
 #divider { position: absolute; top: 0; bottom: 0; left: var(--split); width: 2px; margin-left: -1px; background: #fff; box-shadow: 0 0 4px #000a; }
 #divider::after {
@@ -146,17 +144,19 @@ th:first-child { position: sticky; left: 0; padding-left: 0; background: var(--g
 td:last-child, th:last-child { padding-right: 0; }
 thead th { color: var(--quiet); font-size: .8rem; font-weight: 500; }
 tbody th { font-weight: 500; }
+.role { color: var(--quiet); font-size: .8rem; font-weight: 400; }
 .best th, .best td { font-weight: 700; }
 .best .ratio { color: var(--accent); }
 
 .plot { display: block; max-width: 100%; height: auto; margin: 0 auto; color: inherit; }
 section > .plot { width: 100%; max-width: 46rem; }
 
-#gallery { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr)); }
+.strip { display: grid; gap: 1.5rem 1rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 13rem), 1fr)); }
 figure { margin: 0; }
-figure img + img { margin-top: .4rem; }
 figure img { border-radius: .3rem; }
-figcaption { margin-top: .4rem; color: var(--quiet); font-size: .875rem; overflow-wrap: anywhere; }
+figcaption { margin-top: .4rem; color: var(--quiet); font-size: .875rem; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
+figcaption b { display: block; color: var(--ink); font-weight: 600; }
+.scale + .strip { margin-top: 1rem; }
 
 dl { display: grid; gap: .25rem 2rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 18rem), 1fr)); margin: 0; font-size: .9rem; }
 dl div { display: flex; gap: 1rem; justify-content: space-between; padding: .3rem 0; border-bottom: 1px solid var(--rule); }
@@ -177,21 +177,24 @@ const std::string_view report_script = R"js(
 "use strict";
 {
   const find = (id) => document.getElementById(id);
-  const figures = [...document.querySelectorAll("#gallery figure")];
+  const image = (view, picture) => document.querySelector(`#view-${view} [data-picture="${picture}"] img`);
   const stage = find("stage");
   const split = find("split");
 
-  const show = (figure, image, badge, view) => {
-    const chosen = (view === "error" && figure.querySelector(".error")) || figure.querySelector(".picture");
-    image.src = chosen.src;
-    image.alt = chosen.alt;
+  const show = (view, picture, shown, badge) => {
+    const chosen = image(view, picture) || image(0, picture);
+    shown.src = chosen.src;
+    shown.alt = chosen.alt;
     badge.textContent = chosen.alt;
   };
 
   const update = () => {
     const view = document.querySelector("input[name=view]:checked").value;
-    show(figures[find("left").value], find("over"), find("left-name"), view);
-    show(figures[find("right").value], find("under"), find("right-name"), view);
+    const scale = document.querySelector(`#view-${view} .scale`);
+    show(view, find("left").value, find("over"), find("left-name"));
+    show(view, find("right").value, find("under"), find("right-name"));
+    find("legend").hidden = !scale;
+    find("legend").innerHTML = scale ? scale.outerHTML : "";
   };
 
   const place = () => stage.style.setProperty("--split", split.value + "%");
@@ -214,7 +217,7 @@ const std::string_view report_script = R"js(
     control.addEventListener("change", update);
   }
 
-  if (figures.length > 1) {
+  if (image(0, 1)) {
     find("compare").hidden = false;
     update();
     place();

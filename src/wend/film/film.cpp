@@ -43,6 +43,9 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
     }
     p.depth += sample.depth;
     ++p.count;
+    p.scattered += sample.scattered ? 1 : 0;
+    p.segments += sample.segments;
+    p.branches += sample.branches;
 }
 
 void Film::reject(const Vec2i& pixel) {
@@ -192,8 +195,23 @@ Picture Film::picture() const {
         depth.values.push_back(p.depth / n);
         samples.values.push_back(static_cast<float>(p.samples()));
     }
-    picture.layers = {std::move(albedo), std::move(normal), std::move(depth), std::move(samples), std::move(variance)};
+    picture.layers = walk_layers();
+    picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
+                                                   std::move(samples), std::move(variance)});
     return picture;
+}
+
+std::vector<Layer> Film::walk_layers() const {
+    Layer scatter{"scatter", {"P"}, {}};
+    Layer segments{"segments", {"N"}, {}};
+    Layer branches{"branches", {"N"}, {}};
+    for (const Pixel& p : pixels_) {
+        const double scale = p.samples() > 0 ? 1.0 / p.samples() : 0.0;
+        scatter.values.push_back(static_cast<float>(p.scattered * scale));
+        segments.values.push_back(static_cast<float>(static_cast<double>(p.segments) * scale));
+        branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));
+    }
+    return {std::move(scatter), std::move(segments), std::move(branches)};
 }
 
 double Film::relative_noise() const {

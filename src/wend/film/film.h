@@ -15,7 +15,10 @@ struct FilmSample {
     Rgb radiance;
     Rgb albedo;
     Vec3 normal{0, 0, 0};
-    float depth = 0;  ///< distance to the first vertex; 0 where there is none
+    float depth = 0;             ///< distance to the first vertex; 0 where there is none
+    bool scattered = false;      ///< whether the first vertex was in a medium
+    std::uint32_t segments = 0;  ///< flights to a collision, surface or interface, of all branches
+    std::uint32_t branches = 1;  ///< 1 and one more for each copy that splitting made
 };
 
 /// A rectangle of pixels, the upper end exclusive.
@@ -51,9 +54,13 @@ public:
     void begin_stage();
 
     Image beauty() const;
-    /// Beauty and the layers albedo, normal, depth, samples, and variance (of the pixel's mean, from the scatter of its
-    /// samples; with stratified samples an overestimate).
+    /// Beauty and the layers albedo, normal, depth, samples, variance (of the pixel's mean, from the scatter of its
+    /// samples; with stratified samples an overestimate), and walk_layers().
     Picture picture() const;
+    /// What walks did, over the samples of all stages alike: `scatter`, the share of samples that met a medium before
+    /// any surface (an estimate of the probability that the first flight was given, not of its absorption), `segments`,
+    /// the mean length of walks, and `branches`, the mean number of those that splitting made of one.
+    std::vector<Layer> walk_layers() const;
     /// Root mean square of the relative standard error of pixels, their luminance measured against at least a tenth of
     /// the mean.
     double relative_noise() const;
@@ -75,6 +82,9 @@ private:
         float albedo[3] = {0, 0, 0};
         float normal[3] = {0, 0, 0};
         float depth = 0;
+        std::uint32_t scattered = 0;
+        std::uint64_t segments = 0;
+        std::uint64_t branches = 0;
 
         std::uint32_t samples() const { return count + earlier_count; }
         /// Variance of one sample in this stage; 0 where it is not known.

@@ -82,6 +82,14 @@ std::vector<double> relative_squared(const Image& image, const Reference& refere
                      [=](double i, double a, double b, double r) { return (i - a) * (i - b) / (r * r + regularizer); });
 }
 
+std::vector<float> to_floats(const std::vector<double>& values) {
+    constexpr double largest = std::numeric_limits<float>::max();
+    std::vector<float> floats(values.size());
+    std::transform(values.begin(), values.end(), floats.begin(),
+                   [=](double value) { return static_cast<float>(std::clamp(value, -largest, largest)); });
+    return floats;
+}
+
 }  // namespace
 
 Image Reference::average() const {
@@ -108,6 +116,7 @@ Metrics measure(const Image& image, const Reference& reference) {
     metrics.relmse = mean_of(relative);
     metrics.relmse_std_error = std_error_of_mean(relative, metrics.relmse);
     metrics.relmse_trimmed = trimmed_mean(relative);
+    metrics.error_p9999 = firefly_error(to_floats(relative));
     metrics.mse = mean_of(per_pixel(image, reference, average, squared));
     metrics.mape = mean_of(per_pixel(image, reference, average, absolute));
     return metrics;
@@ -116,13 +125,16 @@ Metrics measure(const Image& image, const Reference& reference) {
 std::vector<float> relative_squared_errors(const Image& image, const Reference& reference) {
     require_valid(image, reference);
     const Image average = reference.average();
-    const std::vector<double> errors = relative_squared(image, reference, average, required_level(average));
+    return to_floats(relative_squared(image, reference, average, required_level(average)));
+}
 
-    constexpr double largest = std::numeric_limits<float>::max();
-    std::vector<float> map(errors.size());
-    std::transform(errors.begin(), errors.end(), map.begin(),
-                   [=](double error) { return static_cast<float>(std::clamp(error, -largest, largest)); });
-    return map;
+double firefly_error(std::vector<float> errors) {
+    if (errors.empty()) {
+        return 0;
+    }
+    const auto exceeding = static_cast<std::ptrdiff_t>(errors.size() / 10000);
+    std::nth_element(errors.begin(), errors.begin() + exceeding, errors.end(), std::greater<>());
+    return errors[static_cast<std::size_t>(exceeding)];
 }
 
 }  // namespace wend

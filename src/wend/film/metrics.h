@@ -27,6 +27,8 @@ struct Metrics {
     double relmse_std_error = 0;
     /// `relmse` without the worst 0.1 % of pixels (rounded down: none below 1000 pixels).
     double relmse_trimmed = 0;
+    /// firefly_error() of this picture's errors.
+    double error_p9999 = 0;
     /// Mean of (I − a)(I − b).
     double mse = 0;
     /// Mean of |I − R| / (|R| + 0.01 · |mean(R)|). Noise of R counts here, also with two halves.
@@ -40,5 +42,10 @@ Metrics measure(const Image& image, const Reference& reference);
 /// The terms of relMSE pixel by pixel, averaged over channels: their mean is `Metrics::relmse`. Row-major like the
 /// image. Throws as `measure` does.
 std::vector<float> relative_squared_errors(const Image& image, const Reference& reference);
+
+/// The 99.99th percentile of the errors of pixels (relative_squared_errors(), of one picture or of several of equal
+/// sampling): the smallest of them that at most one in 10 000 exceeds. It tells how far fireflies are off. Below 10 000
+/// errors it is the largest; without any, 0.
+double firefly_error(std::vector<float> errors);
 
 }  // namespace wend

@@ -84,6 +84,7 @@ public:
 
 private:
     friend class Fitting;
+    friend class RecordsByCell;
     friend class ScatterFitting;
     friend class FieldBytes;
 

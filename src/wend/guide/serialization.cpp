@@ -1,34 +1,21 @@
 #include <wend/core/error.h>
 #include <wend/guide/scatter_fit.h>
+#include <wend/guide/sealed_bytes.h>
 #include <wend/guide/serialization.h>
-
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 namespace wend::guide {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "fields of big-endian machines need a signature of their own");
-
-constexpr std::string_view signature = "WENDFLD\x1a";
-constexpr std::uint32_t version = 3;
-
-std::uint32_t checksum(std::string_view bytes) {
-    boost::crc_32_type crc;
-    crc.process_bytes(bytes.data(), bytes.size());
-    return crc.checksum();
-}
+constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 3};
 
 [[noreturn]] void refuse(const std::string& reason) {
-    throw InputError("guiding field: " + reason);
+    throw InputError(std::string(kind.title) + ": " + reason);
 }
 
 template <class T>
@@ -281,31 +268,11 @@ private:
 };
 
 std::string to_bytes(const Field& field) {
-    std::string out(signature);
-    put(out, version);
-    out += FieldBytes::body(field);
-    put(out, checksum(out));
-    return out;
+    return seal(kind, FieldBytes::body(field));
 }
 
 Field field_from_bytes(std::string_view bytes) {
-    if (bytes.substr(0, signature.size()) != signature) {
-        refuse("these are no bytes of a field");
-    }
-    constexpr std::size_t frame = signature.size() + 2 * sizeof(std::uint32_t);
-    if (bytes.size() < frame) {
-        refuse("the bytes are truncated");
-    }
-    Reader in(bytes.substr(signature.size(), bytes.size() - signature.size() - sizeof(std::uint32_t)));
-    if (const auto found = in.take<std::uint32_t>(); found != version) {
-        refuse("version " + std::to_string(found) + " is not known; this is version " + std::to_string(version));
-    }
-    const std::string_view covered = bytes.substr(0, bytes.size() - sizeof(std::uint32_t));
-    std::uint32_t stored;
-    std::memcpy(&stored, covered.data() + covered.size(), sizeof stored);
-    if (stored != checksum(covered)) {
-        refuse("the checksum does not fit: the bytes are truncated or were changed");
-    }
+    Reader in(unseal(kind, bytes));
     // What rays are told follows from the sums.
     Field field = fit_scattered(FieldBytes::field(in), {}, 1);
     if (!in.empty()) {

@@ -31,7 +31,6 @@ struct WalkCounts {
 /// What a walk found. The radiance may be not finite: the caller counts and rejects.
 struct WalkResult {
     FilmSample sample;
-    std::uint32_t segments = 0;
 };
 
 /// The decisions of a walk, as a bundle of values.

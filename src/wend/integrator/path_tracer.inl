@@ -61,7 +61,7 @@ private:
 
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
-        ++result_.segments;
+        ++result_.sample.segments;
         const std::optional<Hit> hit = scene_.intersect(now_.ray);
         const float length = hit ? hit->distance : farthest;
         if (now_.medium != vacuum) {
@@ -127,6 +127,7 @@ private:
         meet();
         if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
+            result_.sample.scattered = true;
         }
         if (now_.depth++ >= tracer_.max_depth_) {
             return false;
@@ -175,6 +176,7 @@ private:
         if (outcome->expected != 1) {
             weigh(Rgb(static_cast<float>(1 / outcome->expected)));
         }
+        result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
         for (int i = 1; i < outcome->copies; ++i) {
             if (log_) {
                 now_.logged = log_->branch();

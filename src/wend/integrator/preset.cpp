@@ -1,7 +1,9 @@
 #include <wend/core/error.h>
 #include <wend/integrator/preset.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace wend {
@@ -12,6 +14,20 @@ constexpr std::array entries = {Entry{"scatter", &Preset::scatter}, Entry{"dista
                                 Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
                                 Entry{"splitting", &Preset::splitting}};
 constexpr Preset full = {.scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true};
+
+Preset only(const Entry& entry) {
+    Preset preset;
+    preset.*entry.second = true;
+    preset.scatter = preset.guides_distance();
+    return preset;
+}
+
+Preset all_but(const Entry& entry) {
+    Preset preset = full;
+    preset.*entry.second = false;
+    preset.distance = preset.distance && preset.scatter;
+    return preset;
+}
 
 [[noreturn]] void reject(std::string_view text) {
     std::string message =
@@ -41,7 +57,7 @@ Preset parse_preset(std::string_view text) {
             if (entry == name) {
                 preset.*member = true;
                 // Where to scatter is chosen along with whether to.
-                preset.scatter = preset.scatter || preset.distance;
+                preset.scatter = preset.guides_distance();
                 known = true;
             }
         }
@@ -66,6 +82,26 @@ std::string to_string(const Preset& preset) {
         }
     }
     return text.empty() ? "classical" : text;
+}
+
+std::vector<Preset> ablation_presets() {
+    std::vector<Preset> presets = {Preset()};
+    std::transform(entries.begin(), entries.end(), std::back_inserter(presets), only);
+    presets.push_back(full);
+    std::transform(entries.begin(), entries.end(), std::back_inserter(presets), all_but);
+    return presets;
+}
+
+std::string ablation_role(const Preset& preset) {
+    for (const Entry& entry : entries) {
+        if (preset == only(entry)) {
+            return "only " + std::string(entry.first);
+        }
+        if (preset == all_but(entry)) {
+            return "no " + std::string(entry.first);
+        }
+    }
+    return {};
 }
 
 std::vector<std::string> guidable_decisions() {

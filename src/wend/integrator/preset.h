@@ -28,6 +28,14 @@ Preset parse_preset(std::string_view text);
 /// The canonical name.
 std::string to_string(const Preset& preset);
 
+/// Classical sampling, each decision guided alone, all of them, and all but each: what tells how much each one brings.
+/// A guided distance comes with a guided choice to scatter, so leaving out scatter leaves out both.
+std::vector<Preset> ablation_presets();
+
+/// The decision that a preset of the ablation has alone ("only distance") or leaves out ("no distance"); empty for
+/// others.
+std::string ablation_role(const Preset& preset);
+
 /// Names of the decisions that can be guided.
 std::vector<std::string> guidable_decisions();
 

@@ -98,7 +98,7 @@ private:
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
         WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, plan_.record ? &log : nullptr);
         ++tile.counts.paths;
-        tile.counts.segments += result.segments;
+        tile.counts.segments += result.sample.segments;
         if (!is_finite(result.sample.radiance)) {
             ++tile.counts.rejected;
             film_.reject(pixel);
@@ -226,6 +226,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             std::vector<guide::PathRecords> records(tiles.size());
             for (std::size_t i = 0; i < tiles.size(); ++i) {
                 records[i] = std::exchange(tiles[i].records, {});
+            }
+            if (settings.on_records) {
+                settings.on_records(records);
             }
             fields = learn(fields, records, settings.threads);
             if (statistics.samples >= warm_up_samples) {

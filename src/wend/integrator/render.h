@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace wend {
@@ -26,6 +27,8 @@ struct RenderSettings {
     Preset preset;
     /// What an earlier render of the scene learned; null: nothing yet.
     std::shared_ptr<const GuidingFields> fields;
+    /// Is shown what the walks of each pass told the field, in the order of the picture's tiles; may be empty.
+    std::function<void(std::span<const guide::PathRecords>)> on_records;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
     int threads = 0;  ///< 0: all

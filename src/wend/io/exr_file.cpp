@@ -13,8 +13,10 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <fmt/format.h>
+#include <half.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -27,11 +29,22 @@ namespace {
 // More numbers than this in all channels together are refused.
 constexpr std::int64_t max_values = std::int64_t{1} << 30;
 
-Imf::Slice float_slice(const float* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
-    const std::size_t pixel = values_per_pixel * sizeof(float);
+template <class Value>
+Imf::Slice slice(Imf::PixelType type, const Value* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
+    const std::size_t pixel = values_per_pixel * sizeof(Value);
     const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
     // The library's one type of slice serves reading and writing, so it wants a mutable pointer.
-    return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(first), window, pixel, pixel * width);
+    return Imf::Slice::Make(type, const_cast<Value*>(first), window, pixel, pixel * width);
+}
+
+Imf::Slice float_slice(const float* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
+    return slice(Imf::FLOAT, first, window, values_per_pixel);
+}
+
+void insert_colours(Imf::FrameBuffer& frame, const Rgb& first, const Imath::Box2i& window) {
+    frame.insert("R", float_slice(&first.r, window, 3));
+    frame.insert("G", float_slice(&first.g, window, 3));
+    frame.insert("B", float_slice(&first.b, window, 3));
 }
 
 /// Looks at the header alone: opening the file for reading already takes memory in proportion to its declared size.
@@ -93,9 +106,7 @@ Image read_beauty(Imf::InputFile& input) {
     Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
     Imf::FrameBuffer frame;
     if (colour) {
-        frame.insert("R", float_slice(&image.pixels[0].r, window, 3));
-        frame.insert("G", float_slice(&image.pixels[0].g, window, 3));
-        frame.insert("B", float_slice(&image.pixels[0].b, window, 3));
+        insert_colours(frame, image.pixels[0], window);
     } else {
         frame.insert("Y", float_slice(&image.pixels[0].r, window, 3));
     }
@@ -152,6 +163,31 @@ void insert_layer(Imf::FrameBuffer& frame, const Layer& layer, const Imath::Box2
     }
 }
 
+Imath::Box2i data_window(const Picture& picture) {
+    return {picture.offset, picture.offset + Vec2i(picture.image.width, picture.image.height) - Vec2i(1)};
+}
+
+/// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
+void write_frame(const std::filesystem::path& file, const Picture& picture, const Imf::FrameBuffer& frame) {
+    const Imath::Box2i window = data_window(picture);
+    const Vec2i full_size = picture.full_size == Vec2i(0, 0) ? window.max + Vec2i(1) : picture.full_size;
+    try {
+        Imf::Header header(Imath::Box2i(Vec2i(0, 0), full_size - Vec2i(1)), window);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (const auto& [name, value] : picture.metadata) {
+            header.insert(name, Imf::StringAttribute(value));
+        }
+        for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
+            header.channels().insert(slice.name(), Imf::Channel(slice.slice().type));
+        }
+        Imf::OutputFile output(file.c_str(), header);
+        output.setFrameBuffer(frame);
+        output.writePixels(picture.image.height);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(file.string() + ": cannot write: " + error.what());
+    }
+}
+
 }  // namespace
 
 bool is_exr(const std::filesystem::path& file) {
@@ -173,13 +209,15 @@ Picture read_exr(const std::filesystem::path& file) {
         picture.offset = window.min - display.min;
         picture.full_size = display.max - display.min + Vec2i(1);
         picture.layers = layer_names(header.channels());
-        Imf::FrameBuffer frame;
-        for (Layer& layer : picture.layers) {
-            layer.values.resize(picture.image.pixels.size() * layer.channels.size());
-            insert_layer(frame, layer, window);
+        if (!picture.layers.empty()) {
+            Imf::FrameBuffer frame;
+            for (Layer& layer : picture.layers) {
+                layer.values.resize(picture.image.pixels.size() * layer.channels.size());
+                insert_layer(frame, layer, window);
+            }
+            input.setFrameBuffer(frame);
+            input.readPixels(window.min.y, window.max.y);
         }
-        input.setFrameBuffer(frame);
-        input.readPixels(window.min.y, window.max.y);
         for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {
                 picture.metadata[attribute.name()] = text->value();
@@ -190,34 +228,36 @@ Picture read_exr(const std::filesystem::path& file) {
 }
 
 void write_exr(const std::filesystem::path& file, const Picture& picture) {
-    const Image& image = picture.image;
-    const Vec2i size(image.width, image.height);
-    const Vec2i full_size = picture.full_size == Vec2i(0, 0) ? picture.offset + size : picture.full_size;
-    const Imath::Box2i window(picture.offset, picture.offset + size - Vec2i(1));
-    const Imath::Box2i display(Vec2i(0, 0), full_size - Vec2i(1));
-    try {
-        Imf::Header header(display, window);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        for (const auto& [name, value] : picture.metadata) {
-            header.insert(name, Imf::StringAttribute(value));
-        }
-        Imf::FrameBuffer frame;
-        frame.insert("R", float_slice(&image.pixels[0].r, window, 3));
-        frame.insert("G", float_slice(&image.pixels[0].g, window, 3));
-        frame.insert("B", float_slice(&image.pixels[0].b, window, 3));
-        for (const Layer& layer : picture.layers) {
-            WEND_EXPECT(layer.values.size() == image.pixels.size() * layer.channels.size());
-            insert_layer(frame, layer, window);
-        }
-        for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
-            header.channels().insert(slice.name(), Imf::Channel(Imf::FLOAT));
-        }
-        Imf::OutputFile output(file.c_str(), header);
-        output.setFrameBuffer(frame);
-        output.writePixels(image.height);
-    } catch (const std::exception& error) {
-        throw std::runtime_error(file.string() + ": cannot write: " + error.what());
+    const Imath::Box2i window = data_window(picture);
+    Imf::FrameBuffer frame;
+    insert_colours(frame, picture.image.pixels[0], window);
+    for (const Layer& layer : picture.layers) {
+        WEND_EXPECT(layer.values.size() == picture.image.pixels.size() * layer.channels.size());
+        insert_layer(frame, layer, window);
     }
+    write_frame(file, picture, frame);
+}
+
+void write_exr_colours(const std::filesystem::path& file, const Picture& picture) {
+    const Imath::Box2i window = data_window(picture);
+    const std::vector<Rgb>& pixels = picture.image.pixels;
+    const bool fit = std::all_of(pixels.begin(), pixels.end(), [](const Rgb& p) {
+        return std::max({std::abs(p.r), std::abs(p.g), std::abs(p.b)}) <= static_cast<float>(HALF_MAX);
+    });
+    Imf::FrameBuffer frame;
+    std::vector<half> halves;
+    if (fit) {
+        halves.reserve(3 * pixels.size());
+        for (const Rgb& p : pixels) {
+            halves.insert(halves.end(), {half(p.r), half(p.g), half(p.b)});
+        }
+        frame.insert("R", slice(Imf::HALF, &halves[0], window, 3));
+        frame.insert("G", slice(Imf::HALF, &halves[1], window, 3));
+        frame.insert("B", slice(Imf::HALF, &halves[2], window, 3));
+    } else {
+        insert_colours(frame, pixels[0], window);
+    }
+    write_frame(file, picture, frame);
 }
 
 }  // namespace wend

@@ -51,6 +51,12 @@ void require_known_picture_extension(const std::filesystem::path& file) {
     }
 }
 
+void require_exr_extension(const std::filesystem::path& file) {
+    if (kind_of(file) != PictureKind::exr) {
+        throw InputError(Place{file.string()}, "half floats can be written as .exr only");
+    }
+}
+
 std::string png_bytes(const Image& image) {
     return encode_png(image);
 }
@@ -69,6 +75,12 @@ void write_picture(const std::filesystem::path& file, const Picture& picture) {
             write_atomically(file, encode_jpeg(picture.image));
             break;
     }
+}
+
+void write_colours(const std::filesystem::path& file, const Picture& picture) {
+    WEND_EXPECT(!picture.image.pixels.empty());
+    require_exr_extension(file);
+    write_atomically(file, [&](const std::filesystem::path& temporary) { write_exr_colours(temporary, picture); });
 }
 
 }  // namespace wend

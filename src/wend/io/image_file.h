@@ -26,6 +26,11 @@ Picture read_picture(const std::filesystem::path& file);
 /// Throws InputError for an unknown extension, std::runtime_error when the disk refuses.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
 
+/// Writes the colours and the metadata alone, as references are kept: OpenEXR in half floats, or in 32-bit floats where
+/// a colour is too large for them. The file appears whole or not at all. Throws InputError for any extension but .exr,
+/// std::runtime_error when the disk refuses.
+void write_colours(const std::filesystem::path& file, const Picture& picture);
+
 /// Pictures with more pixels are refused before any memory is taken.
 inline constexpr long long max_pixels = 1ll << 28;
 
@@ -33,6 +38,9 @@ inline constexpr long long max_pixels = 1ll << 28;
 bool is_known_picture_extension(const std::filesystem::path& file);
 /// Throws InputError, naming the extensions there are, unless it does: to ask before a long render.
 void require_known_picture_extension(const std::filesystem::path& file);
+
+/// Throws InputError unless write_colours() takes the extension.
+void require_exr_extension(const std::filesystem::path& file);
 
 /// The bytes of a PNG file of an image in sRGB, clamped to [0,1].
 std::string png_bytes(const Image& image);

@@ -1,0 +1,42 @@
+#include <wend/io/atomic_file.h>
+#include <wend/io/bytes.h>
+#include <wend/io/parts_file.h>
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+namespace wend {
+
+void write_parts(const std::filesystem::path& file, std::string_view signature, std::span<const std::string> parts) {
+    std::string out(signature);
+    for (const std::string& part : parts) {
+        const auto size = static_cast<std::uint64_t>(part.size());
+        out.append(reinterpret_cast<const char*>(&size), sizeof size);
+        out += part;
+    }
+    write_atomically(file, out);
+}
+
+PartsFile::PartsFile(const std::filesystem::path& file, std::string_view signature, std::size_t count,
+                     const std::string& what)
+    : place_{file.string(), 0, 0} {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file)) {
+        throw InputError(place_, "cannot be read");
+    }
+    content_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    if (!std::string_view(content_).starts_with(signature)) {
+        throw InputError(place_, "is no file of " + what);
+    }
+    Bytes bytes(content_, place_);
+    bytes.seek(signature.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        parts_.push_back(bytes.take(bytes.take<std::uint64_t>()));
+    }
+    if (!bytes.empty()) {
+        throw InputError(place_, "has more in it than " + what);
+    }
+}
+
+}  // namespace wend

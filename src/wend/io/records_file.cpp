@@ -1,0 +1,29 @@
+#include <wend/io/parts_file.h>
+#include <wend/io/records_file.h>
+
+#include <array>
+
+namespace wend {
+namespace {
+
+constexpr std::string_view signature = "WENDRECORDS\n";
+
+}  // namespace
+
+void RecordSamples::add(std::span<const guide::PathRecords> records) {
+    for (const guide::PathRecords& part : records) {
+        surface.add(part.surface());
+        volume.add(part.volume());
+    }
+}
+
+void write_records(const std::filesystem::path& file, const RecordSamples& samples) {
+    write_parts(file, signature, std::array{guide::to_bytes(samples.surface), guide::to_bytes(samples.volume)});
+}
+
+RecordSamples read_records(const std::filesystem::path& file) {
+    const PartsFile parts(file, signature, 2, "records");
+    return {parts.decode(0, guide::record_sample_from_bytes), parts.decode(1, guide::record_sample_from_bytes)};
+}
+
+}  // namespace wend
