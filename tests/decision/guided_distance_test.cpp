@@ -24,6 +24,7 @@ class Slices {
 public:
     struct Light {
         float brightness = 0;
+        float trust = 1;
         float in_scattered(const Vec3&, const PhaseFunction&) const { return brightness; }
         float leaving_to(const Vec3& normal) const { return brightness * (normal.x < 0 ? 2.0f : 1.0f); }
     };

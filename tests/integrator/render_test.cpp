@@ -172,21 +172,6 @@ INSTANTIATE_TEST_SUITE_P(Presets, Guided,
                          testing::Values(Comparison{false, flights}, Comparison{true, flights},
                                          Comparison{false, others}, Comparison{true, others}));
 
-TEST(Render, DropsTheSamplesOfTheWarmUpOnceThereAreManyMore) {
-    const Scene scene(foggy_room());
-    const auto samples_kept = [&](const char* preset, int samples) {
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-        RenderSettings settings;
-        settings.preset = parse_preset(preset);
-        settings.samples = samples;
-        EXPECT_EQ(render(scene, film, settings).samples, samples);
-        return film.picture().layers[3].values[0];
-    };
-    EXPECT_EQ(samples_kept("direction", 118), 118);
-    EXPECT_EQ(samples_kept("direction", 119), 112);
-    EXPECT_EQ(samples_kept("classical", 119), 119);
-}
-
 TEST(Render, CountsItsWork) {
     const Scene scene(foggy_room());
     RenderStatistics statistics;

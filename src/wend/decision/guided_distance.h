@@ -16,6 +16,7 @@ template <class F>
 concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ray, const PhaseFunction& phase) {
     { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->leaving_to(p) } -> std::same_as<float>;
+    { field.scattered_light(p)->trust } -> std::convertible_to<float>;
     field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving_to({}) > 0; });
     { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
 };
