@@ -87,7 +87,7 @@ TEST_F(FieldCommand, RefusesWhatAreNoRecords) {
     EXPECT_NE(result.err.find("is no file of records"), std::string::npos) << result.err;
     EXPECT_EQ(run_wend({"field", folder_.file("room.field"), "--records", folder_.file("room.field")}).status, 2)
         << "records are for a place";
-    EXPECT_EQ(render({"--spp", "1", "--save-records", folder_.file("x.records")}).status, 2);
+    EXPECT_EQ(render({"--spp", "1", "--sampling", "classical", "--save-records", folder_.file("x.records")}).status, 2);
 }
 
 TEST_F(FieldCommand, ALoadedFieldGuidesFromTheFirstSample) {
@@ -118,7 +118,7 @@ TEST_F(FieldCommand, RefusesWhatIsNoFieldAndNamesIt) {
         EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
     }
     EXPECT_EQ(run_wend({"field", folder_.file("room.field"), "--at", "1,2"}).status, 2);
-    EXPECT_EQ(render({"--spp", "1", "--save-field", folder_.file("x.field")}).status, 2);
+    EXPECT_EQ(render({"--spp", "1", "--sampling", "classical", "--save-field", folder_.file("x.field")}).status, 2);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct RenderOptions {
     std::string output;
     int samples = 0;
     double seconds = 0;
-    std::string sampling = "classical";
+    std::string sampling = "full";
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
@@ -162,7 +162,7 @@ Action add_render_command(CLI::App& program) {
     seconds->check(seconds_problem)->excludes(passes);
     command.add_option("--sampling", options->sampling,
                        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
-                           " (default: classical)");
+                           " (default: full)");
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     command.add_option("--save-records", options->save_records,
                        "write a sample of what the field learned from to this file (for 'wend field --records')");
