@@ -7,7 +7,7 @@ namespace wend {
 namespace {
 
 /// Legendre's polynomials, summed with coefficients, as powers.
-std::vector<double> to_powers(std::span<const double> legendre) {
+std::vector<float> to_powers(std::span<const double> legendre) {
     std::vector<double> sum(legendre.size());
     std::vector<double> before;
     std::vector<double> current = {1};
@@ -26,7 +26,7 @@ std::vector<double> to_powers(std::span<const double> legendre) {
         before = std::move(current);
         current = std::move(next);
     }
-    return sum;
+    return {sum.begin(), sum.end()};
 }
 
 }  // namespace

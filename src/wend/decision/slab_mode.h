@@ -26,11 +26,11 @@ public:
     float k() const { return k_; }
     /// S(mu) up to a factor.
     float source(float mu) const {
-        double sum = 0;
+        float sum = 0;
         for (std::size_t i = source_.size(); i-- > 0;) {
-            sum = sum * static_cast<double>(mu) + source_[i];
+            sum = sum * mu + source_[i];
         }
-        return static_cast<float>(sum);
+        return sum;
     }
     /// I(mu) up to the same factor.
     float radiance(float mu) const { return albedo_ * source(mu) / rate(mu); }
@@ -43,8 +43,8 @@ public:
 private:
     float k_ = 0;
     float albedo_ = 1;
-    std::vector<double> source_{1};  // coefficients of powers of mu
-    float most_ = 1;                 // bounds of radiance()
+    std::vector<float> source_{1};  // coefficients of powers of mu
+    float most_ = 1;                // bounds of radiance()
     float least_ = 1;
 };
 

@@ -28,7 +28,7 @@ BoundaryField::BoundaryField(std::span<const BoundaryPoint> points, std::span<co
                              int threads)
     : box_(bounds_of(points)), points_(points.begin(), points.end()), cells_(side * side * side) {
     const Vec3 step = box_.size() * (1.0f / side);
-    // Nearer than this the points are not seen apart.
+    // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
     const float spacing = length(box_.size()) / std::sqrt(static_cast<float>(points.size()));
     parallel_for(cells_.size(), threads, [&](std::size_t i) {
         const int n = static_cast<int>(i);
@@ -45,14 +45,12 @@ BoundaryField::BoundaryField(std::span<const BoundaryPoint> points, std::span<co
         Imath::V3d slope(0, 0, 0);
         const float nearest = std::min_element(distances.begin(), distances.end())->first;
         for (const auto& [distance, p] : distances) {
+            const Vec3 way = points_[p].position + points_[p].normal * spacing - centre;
+            const double r = std::max(length(way), 1e-3f * spacing);
             // The gradient of exp(-decay r) / r, up to a factor that keeps it within the range of numbers.
-            const double r = std::max(distance, spacing);
-            const double value = irradiance[p] * std::exp(-decay * (distance - nearest)) / r;
+            const double value = irradiance[p] * std::exp(-decay * (r - nearest)) / r;
             light += value;
-            if (distance > 0) {
-                slope += Imath::V3d(points_[p].position - centre) / static_cast<double>(distance) * value *
-                         (static_cast<double>(decay) + 1 / r);
-            }
+            slope += Imath::V3d(way) * (value * (decay + 1 / r) / r);
         }
         const double size = slope.length();
         if (light > 0 && size > 0) {

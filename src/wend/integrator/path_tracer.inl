@@ -274,7 +274,7 @@ private:
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
-        now_.density = s->density;
+        now_.density = s->density * own_preference(in_volume);
         now_.receiver = {position, normal};
         now_.pass_probability = Rgb(1.0f);
         now_.channels = channel_probabilities(now_.throughput);
@@ -303,6 +303,11 @@ private:
         now_.travelled = 0;
         return true;
     }
+
+    /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
+    /// lights. A guided stay brings nearly the same wherever it ends, to which connections would only add noise: they
+    /// are left what it hardly finds itself. 4 and 100 are worse (docs/theory/subsurface.md).
+    float own_preference(bool in_volume) const { return in_volume && now_.slab.is_inside() ? 16.0f : 1.0f; }
 
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
@@ -358,7 +363,8 @@ private:
         float weight = 1;
         if (!light->point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
-            const float other = directions.density(light->direction) * dot(channels, passage.probability);
+            const float other =
+                own_preference(in_volume) * directions.density(light->direction) * dot(channels, passage.probability);
             weight = light_density / (light_density + other);
         }
         return {light->direction, light->radiance * passage.transmittance * (weight / light_density), value};

@@ -96,7 +96,7 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
             continue;
         }
         Pcg32 random(id);
-        const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, random);
+        const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
         const float depth =
             mean_chord(scene, static_cast<MediumId>(id), points, random) * max_value(medium->extinction());
         if (points.empty() || !(depth >= least_depth)) {

@@ -1,4 +1,5 @@
 #include <wend/sampling/discrete.h>
+#include <wend/sampling/sobol.h>
 #include <wend/scene/boundary_points.h>
 
 #include <algorithm>
@@ -53,15 +54,15 @@ public:
 
     bool is_empty() const { return elements_.empty(); }
 
-    BoundaryPoint sample(Pcg32& random) const {
-        const Element& element = elements_[static_cast<std::size_t>(table_.sample(random.uniform()))];
+    BoundaryPoint sample(float u, const Vec2& u2) const {
+        const Element& element = elements_[static_cast<std::size_t>(table_.sample(u))];
         const Surface& surface = *element.surface;
         BoundaryPoint point;
         if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
             const Vec3 p0 = mesh->vertex(element.primitive, 0);
             const Vec3 e1 = mesh->vertex(element.primitive, 1) - p0;
             const Vec3 e2 = mesh->vertex(element.primitive, 2) - p0;
-            const Vec2 b = to_triangle(random.uniform2());
+            const Vec2 b = to_triangle(u2);
             point.position = p0 + e1 * b.x + e2 * b.y;
             point.normal = cross(e1, e2);
             if (mesh->normals.empty()) {
@@ -71,9 +72,8 @@ public:
             }
         } else {
             const auto& quadric = std::get<Quadric>(surface.shape);
-            const Vec2 u = random.uniform2();
             const QuadricPoint on =
-                project(quadric, std::visit([&](const auto& s) { return random_point(s, u); }, quadric.shape));
+                project(quadric, std::visit([&](const auto& s) { return random_point(s, u2); }, quadric.shape));
             point.position = quadric.world_from_object.point(on.position);
             point.normal = quadric.object_from_world.transposed_vector(on.normal);
             point.normal = surface.flip_normal ? -point.normal : point.normal;
@@ -124,11 +124,14 @@ private:
 
 }  // namespace
 
-std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, MediumId medium, int count, Pcg32& random) {
+std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, MediumId medium, int count,
+                                           std::uint64_t seed) {
     const BoundarySampler sampler(scene, medium);
     std::vector<BoundaryPoint> points;
     for (int i = 0; i < count && !sampler.is_empty(); ++i) {
-        const BoundaryPoint point = sampler.sample(random);
+        const auto index = static_cast<std::uint32_t>(i);
+        const BoundaryPoint point =
+            sampler.sample(owen_sobol(index, hash_of(seed, 0)).x, owen_sobol(index, hash_of(seed, 1)));
         if (is_finite(point.position) && is_finite(point.normal)) {
             points.push_back(point);
         }

@@ -32,7 +32,7 @@ DiscreteMode discrete_mode(double albedo, std::span<const double> moments) {
     for (std::size_t l = 1; l < moments.size() && l <= degrees; ++l) {
         mode.source.push_back((2 * static_cast<double>(l) + 1) * moments[l] * radiance[l] / radiance[0]);
     }
-    while (mode.source.size() > 1 && std::abs(mode.source.back()) < 1e-10) {
+    while (mode.source.size() > 1 && std::abs(mode.source.back()) < 1e-8) {
         mode.source.pop_back();
     }
     return mode;

@@ -17,7 +17,7 @@ struct DiscreteMode {
 };
 
 /// The mode for an albedo in (0, 1] and a phase function by its Legendre moments (1, mean cosine, ...), each of size
-/// below 1 but the first; those not listed are 0. S is accurate to 1e-9 of its largest value.
+/// below 1 but the first; those not listed are 0. S is accurate to 1e-7 of its mean.
 DiscreteMode discrete_mode(double albedo, std::span<const double> moments);
 
 }  // namespace wend
