@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wend {
 namespace {
@@ -104,7 +105,8 @@ std::size_t SlabWalk::choose(float& u) const {
 }
 
 void SlabWalk::normalize(float total) {
-    const float scale = total > 0 ? 1 / total : 0.0f;
+    // What never happens may still be asked for, by connections: the inverse of its probability must not overflow.
+    const float scale = total >= std::numeric_limits<float>::min() ? 1 / total : 0.0f;
     for (int i = 0; i < techniques(); ++i) {
         posterior_[static_cast<std::size_t>(i)] *= scale;
     }
@@ -119,7 +121,7 @@ SlabFlight SlabWalk::fly(float length, float u) {
     if (!flight.scatters) {
         flight.distance = length;
         result.pass_probability = pass(length);
-        flight.weight = result.pass_probability > 0
+        flight.weight = result.pass_probability >= std::numeric_limits<float>::min()
                             ? transmittance(guide_->medium, length) * (1 / result.pass_probability)
                             : Rgb(0.0f);
         return result;

@@ -43,9 +43,13 @@ BoundaryField::BoundaryField(std::span<const BoundaryPoint> points, std::span<co
         Cell& cell = cells_[i];
         double light = 0;
         Imath::V3d slope(0, 0, 0);
-        const float nearest = std::min_element(distances.begin(), distances.end())->first;
-        for (const auto& [distance, p] : distances) {
-            const Vec3 way = points_[p].position + points_[p].normal * spacing - centre;
+        const auto way_to = [&](std::size_t p) { return points_[p].position + points_[p].normal * spacing - centre; };
+        float nearest = infinity;
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            nearest = std::min(nearest, length(way_to(p)));
+        }
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            const Vec3 way = way_to(p);
             const double r = std::max(length(way), 1e-3f * spacing);
             // The gradient of exp(-decay r) / r, up to a factor that keeps it within the range of numbers.
             const double value = irradiance[p] * std::exp(-decay * (r - nearest)) / r;
