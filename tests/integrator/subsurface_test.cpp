@@ -145,7 +145,7 @@ class GuidedObject : public testing::TestWithParam<Object> {};
 TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     const Scene scene(lit(GetParam()));
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    constexpr int walks = 300000;
+    constexpr int walks = 100000;
     const Measured classical = test::measure_radiance(scene, ray, walks);
     for (const char* strategy : guided) {
         SCOPED_TRACE(strategy);
@@ -153,8 +153,8 @@ TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
         const double error = std::hypot(m.standard_error, classical.standard_error);
         EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
             << m.mean << " and " << classical.mean << " +- " << error;
-        EXPECT_LT(4 * error, 0.015 * classical.mean);
-        EXPECT_FALSE(agrees(1.03 * m.mean - classical.mean, error, 0, 4)) << "a bias of 3 % must be seen";
+        EXPECT_LT(4 * error, 0.03 * classical.mean);
+        EXPECT_FALSE(agrees(1.06 * m.mean - classical.mean, error, 0, 4)) << "a bias of 6 % must be seen";
     }
 }
 

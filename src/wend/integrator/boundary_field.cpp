@@ -26,10 +26,11 @@ int cell_of(float x, float low, float high, int side) {
 
 BoundaryField::BoundaryField(std::span<const BoundaryPoint> points, std::span<const float> irradiance, float decay,
                              int threads)
-    : box_(bounds_of(points)), points_(points.begin(), points.end()), cells_(side * side * side) {
+    : box_(bounds_of(points)),
+      spacing_(length(box_.size()) / std::sqrt(static_cast<float>(points.size()))),
+      points_(points.begin(), points.end()),
+      cells_(side * side * side) {
     const Vec3 step = box_.size() * (1.0f / side);
-    // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
-    const float spacing = length(box_.size()) / std::sqrt(static_cast<float>(points.size()));
     parallel_for(cells_.size(), threads, [&](std::size_t i) {
         const int n = static_cast<int>(i);
         const Vec3 index(static_cast<float>(n % side), static_cast<float>(n / side % side),
@@ -38,19 +39,20 @@ BoundaryField::BoundaryField(std::span<const BoundaryPoint> points, std::span<co
         std::vector<std::pair<float, std::uint16_t>> distances;
         distances.reserve(points_.size());
         for (std::size_t p = 0; p < points_.size(); ++p) {
-            distances.emplace_back(length(points_[p].position - centre), static_cast<std::uint16_t>(p));
+            distances.emplace_back(distance_to(points_[p], centre), static_cast<std::uint16_t>(p));
         }
         Cell& cell = cells_[i];
         double light = 0;
         Imath::V3d slope(0, 0, 0);
-        const auto way_to = [&](std::size_t p) { return points_[p].position + points_[p].normal * spacing - centre; };
+        // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
+        const auto way_to = [&](std::size_t p) { return points_[p].position + points_[p].normal * spacing_ - centre; };
         float nearest = infinity;
         for (std::size_t p = 0; p < points_.size(); ++p) {
             nearest = std::min(nearest, length(way_to(p)));
         }
         for (std::size_t p = 0; p < points_.size(); ++p) {
             const Vec3 way = way_to(p);
-            const double r = std::max(length(way), 1e-3f * spacing);
+            const double r = std::max(length(way), 1e-3f * spacing_);
             // The gradient of exp(-decay r) / r, up to a factor that keeps it within the range of numbers.
             const double value = irradiance[p] * std::exp(-decay * (r - nearest)) / r;
             light += value;
@@ -80,16 +82,18 @@ std::size_t BoundaryField::cell_at(const Vec3& p) const {
 }
 
 SlabAim BoundaryField::closest(const Vec3& position) const {
-    const BoundaryPoint* nearest = nullptr;
-    float least = infinity;
-    for (const std::uint16_t i : cells_[cell_at(position)].nearest) {
-        const float square = length_squared(points_[i].position - position);
-        if (square < least) {
-            least = square;
-            nearest = &points_[i];
-        }
-    }
-    return nearest ? SlabAim{nearest->normal, 1} : SlabAim{{0, 0, 1}, 0};
+    const auto& nearest = cells_[cell_at(position)].nearest;
+    const auto best = std::min_element(nearest.begin(), nearest.end(), [&](std::uint16_t a, std::uint16_t b) {
+        return distance_to(points_[a], position) < distance_to(points_[b], position);
+    });
+    return {points_[*best].normal, 1};
+}
+
+float BoundaryField::distance_to(const BoundaryPoint& point, const Vec3& position) const {
+    const Vec3 way = position - point.position;
+    const float height = dot(way, point.normal);
+    const float aside = std::max(0.0f, length(way - point.normal * height) - spacing_);
+    return std::hypot(height, aside);
 }
 
 SlabAim BoundaryField::incident(const Vec3& position) const {

@@ -22,7 +22,7 @@ public:
     /// `irradiance` is what each point gets from outside; `decay`, per scene unit, how fast light falls off inside.
     BoundaryField(std::span<const BoundaryPoint> points, std::span<const float> irradiance, float decay, int threads);
 
-    /// The outward normal at the nearest of the points.
+    /// The outward normal of the nearest piece of boundary.
     SlabAim closest(const Vec3& position) const;
     /// The direction in which the light grows that diffuses inwards from all boundary points, each as a source of
     /// exp(-decay r) / r: with many lights around they share one direction, and where they cancel it has little
@@ -37,8 +37,11 @@ private:
         SlabAim incident;
     };
     std::size_t cell_at(const Vec3& position) const;
+    /// To the flat piece of surface that a point stands for.
+    float distance_to(const BoundaryPoint& point, const Vec3& position) const;
 
     Box3 box_;
+    float spacing_;  ///< of the points
     std::vector<BoundaryPoint> points_;
     std::vector<Cell> cells_;
 };

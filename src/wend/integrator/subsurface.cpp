@@ -47,6 +47,10 @@ bool may_be_dense(const HomogeneousMedium& medium) {
            std::abs(medium.phase.mean_cosine()) < most_peaked;
 }
 
+bool looks_around(SlabStrategy strategy) {
+    return strategy != SlabStrategy::entry;
+}
+
 /// The rate of decay, per scene unit, of the channel that reaches deepest.
 float least_decay(const SlabGuide& guide) {
     float least = infinity;
@@ -106,9 +110,12 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         guide.strategies = static_cast<int>(strategies_.size());
         guide.share.fill((1 - classical_share) / static_cast<float>(guide.strategies));
         guide.share[0] = classical_share;
-        const float decay = least_decay(guide);
-        const auto irradiance = boundary_irradiance(scene, points, rays_to_lights, random);
-        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), {points, irradiance, decay, threads}});
+        std::optional<BoundaryField> field;
+        if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
+            const auto irradiance = boundary_irradiance(scene, points, rays_to_lights, random);
+            field.emplace(points, irradiance, least_decay(guide), threads);
+        }
+        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(field)});
     }
 }
 
@@ -130,14 +137,13 @@ void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direct
 }
 
 void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk) const {
-    const BoundaryField& field = media_[static_cast<std::size_t>(medium)]->field;
+    const std::optional<BoundaryField>& field = media_[static_cast<std::size_t>(medium)]->field;
     for (std::size_t i = 0; i < strategies_.size(); ++i) {
-        if (strategies_[i] == SlabStrategy::entry) {
-            continue;
+        if (looks_around(strategies_[i])) {
+            const SlabAim aim =
+                strategies_[i] == SlabStrategy::closest ? field->closest(position) : field->incident(position);
+            walk.aim(static_cast<int>(i), aim.normal, aim.steepness);
         }
-        const SlabAim aim =
-            strategies_[i] == SlabStrategy::closest ? field.closest(position) : field.incident(position);
-        walk.aim(static_cast<int>(i), aim.normal, aim.steepness);
     }
 }
 

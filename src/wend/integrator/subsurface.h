@@ -6,6 +6,7 @@
 #include <wend/scene/scene.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,7 +57,7 @@ public:
 private:
     struct Dense {
         SlabGuide guide;
-        BoundaryField field;
+        std::optional<BoundaryField> field;  ///< where a strategy asks it
     };
 
     std::vector<SlabStrategy> strategies_;
