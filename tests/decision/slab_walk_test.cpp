@@ -190,6 +190,8 @@ TEST(SlabWalk, SurvivesWhileTheStrategiesExpectLight) {
     // Once it has survived that, it is expected to bring as much again.
     EXPECT_EQ(walk.survival(1e-3f), 1);
     EXPECT_EQ(begin(guide).survival(1), 1);
+    // Wherever a strategy is at home, a walk has more throughput left.
+    EXPECT_FLOAT_EQ(begin(guide).survival(1e-5f), 1e-2f);
 }
 
 }  // namespace

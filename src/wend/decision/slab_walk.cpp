@@ -11,6 +11,8 @@ namespace {
 
 /// Below this share of what it was expected to bring a walk is up for roulette.
 constexpr float least_expectation = 0.3f;
+/// No walk of so little throughput is still where a strategy that is right would have it.
+constexpr float least_throughput = 1e-3f;
 
 float extinction_of(const SlabGuide& guide, int channel) {
     return guide.medium.absorption[channel] + guide.medium.scattering[channel];
@@ -134,8 +136,9 @@ SlabFlight SlabWalk::fly(float length, float u) {
         density += posterior_[k];
     }
     normalize(density);
-    flight.weight =
-        density > 0 ? guide_->medium.scattering * transmittance(guide_->medium, t) * (1 / density) : Rgb(0.0f);
+    flight.weight = density >= std::numeric_limits<float>::min()
+                        ? guide_->medium.scattering * transmittance(guide_->medium, t) * (1 / density)
+                        : Rgb(0.0f);
     return result;
 }
 
@@ -166,7 +169,7 @@ float SlabWalk::survival(float throughput) {
     for (int s = 1; s <= guide_->strategies; ++s) {
         expected = std::max(expected, relative_density(s));
     }
-    expected /= survived_;
+    expected = std::min(expected / survived_, throughput / least_throughput);
     if (expected >= least_expectation) {
         return 1;
     }
