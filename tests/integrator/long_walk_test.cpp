@@ -48,7 +48,8 @@ TEST(LongWalk, AHundredThousandCollisionsLeaveAFewRecords) {
     constexpr std::size_t most_records = 64;
     const Scene scene(sea());
     const EndlessDecisions decisions;
-    const PathTracer tracer(scene, decisions, collisions);
+    const SubsurfaceGuides unguided;
+    const PathTracer tracer(scene, decisions, unguided, collisions);
     guide::PathLog log;
     guide::PathRecords records;
     for (std::uint32_t i = 0; i < 3; ++i) {

@@ -94,9 +94,11 @@ void add_environment(SceneDescription& scene, const Rgb& radiance) {
     scene.lights.push_back(UniformInfiniteLight{radiance});
 }
 
-Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth, std::uint64_t seed) {
+Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth, std::uint64_t seed,
+                          const SubsurfacePreset& strategies) {
     const ClassicalDecisions decisions;
-    const PathTracer tracer(scene, decisions, max_depth);
+    const SubsurfaceGuides subsurface(scene, strategies, 0);
+    const PathTracer tracer(scene, decisions, subsurface, max_depth);
     Moments moments;
     for (int i = 0; i < walks; ++i) {
         Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));

@@ -43,7 +43,7 @@ struct Measured {
 };
 
 /// Mean radiance (average of the channels) along the same ray, by independent walks.
-Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth = 100000,
-                          std::uint64_t seed = 1);
+Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth = 100000, std::uint64_t seed = 1,
+                          const SubsurfacePreset& strategies = {});
 
 }  // namespace wend::test

@@ -23,6 +23,7 @@ struct CompareOptions {
     SceneOptions scene;
     double seconds = 30;
     std::string sampling = "classical,distance+direction,full";
+    std::string subsurface = "classical";
     std::string reference;
     std::string folder;
     int seeds = 3;
@@ -41,6 +42,17 @@ std::vector<Preset> parse_presets(const std::string& text) {
     return presets;
 }
 
+/// Every preset with every subsurface sampling.
+std::vector<WayOfSampling> ways_to_compare(const CompareOptions& options) {
+    std::vector<WayOfSampling> ways;
+    for (const Preset& preset : parse_presets(options.sampling)) {
+        for (const std::string& name : split_list(options.subsurface)) {
+            ways.push_back({preset, parse_subsurface(name)});
+        }
+    }
+    return ways;
+}
+
 /// Renders what the comparison judges by; it is kept where there is a folder.
 Reference make_reference(const Session& session, const CompareOptions& options, const Streams& streams) {
     const std::filesystem::path scene = options.scene.file;
@@ -54,7 +66,7 @@ Reference make_reference(const Session& session, const CompareOptions& options, 
 }
 
 void compare_scene(const CompareOptions& options, const Streams& streams) {
-    const std::vector<Preset> presets = parse_presets(options.sampling);
+    const std::vector<WayOfSampling> ways = ways_to_compare(options);
     const std::filesystem::path scene = options.scene.file;
     std::optional<Reference> reference = options.reference.empty()
                                              ? read_reference_pair(scene.parent_path() / scene.stem())
@@ -67,7 +79,7 @@ void compare_scene(const CompareOptions& options, const Streams& streams) {
         reference = make_reference(session, options, streams);
     }
     const auto rows =
-        compare_presets(session, presets, options.seconds, options.seeds, *reference, options.common, streams);
+        compare_presets(session, ways, options.seconds, options.seeds, *reference, options.common, streams);
     if (!options.folder.empty()) {
         write_comparison(options.folder, session, rows, *reference, options.seconds, options.seeds);
     }
@@ -92,6 +104,10 @@ Action add_compare_command(CLI::App& program) {
     command
         .add_option("--sampling", options->sampling,
                     "ways to compare, separated by commas; ablation: each decision alone, and all but each")
+        ->capture_default_str();
+    command
+        .add_option("--subsurface", options->subsurface,
+                    "each with these walks inside dense media, separated by commas: " + subsurface_names())
         ->capture_default_str();
     command.add_option("--reference", options->reference,
                        fmt::format("NAME of the pair NAME.ref-a.exr, NAME.ref-b.exr, or a picture (default: the pair "

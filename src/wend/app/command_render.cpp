@@ -27,6 +27,7 @@ struct RenderOptions {
     int samples = 0;
     double seconds = 0;
     std::string sampling = "full";
+    std::string subsurface = "classical";
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
@@ -65,6 +66,7 @@ std::filesystem::path default_output(const Session& session) {
 
 void render_scene(const RenderOptions& options, const Streams& streams) {
     const Preset preset = parse_preset(options.sampling);
+    const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
     const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
     if (!options.output.empty()) {
         require_writable_picture(options.output);
@@ -93,6 +95,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
 
     RenderSettings settings = session.settings();
     settings.preset = preset;
+    settings.subsurface = subsurface;
     settings.fields = std::move(fields);
     settings.samples = options.samples > 0 ? options.samples : settings.samples;
     settings.seconds = options.seconds;
@@ -163,6 +166,9 @@ Action add_render_command(CLI::App& program) {
     command.add_option("--sampling", options->sampling,
                        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
                            " (default: full)");
+    command
+        .add_option("--subsurface", options->subsurface, "walks inside dense homogeneous media: " + subsurface_names())
+        ->capture_default_str();
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     command.add_option("--save-records", options->save_records,
                        "write a sample of what the field learned from to this file (for 'wend field --records')");

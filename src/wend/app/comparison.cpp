@@ -59,31 +59,36 @@ double pooled_firefly_error(const std::vector<Run>& runs) {
 
 }  // namespace
 
-std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<Preset>& presets, double seconds,
-                                           int seeds, const Reference& reference, const CommonOptions& common,
-                                           const Streams& streams) {
+std::string to_string(const WayOfSampling& way) {
+    const std::string name = to_string(way.preset);
+    return way.subsurface == SubsurfacePreset() ? name : name + "/" + to_string(way.subsurface);
+}
+
+std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<WayOfSampling>& ways,
+                                           double seconds, int seeds, const Reference& reference,
+                                           const CommonOptions& common, const Streams& streams) {
     const Film film = session.new_film();
     if (reference.a.width != film.crop().width() || reference.a.height != film.crop().height()) {
         throw InputError(
             fmt::format("the reference has {} x {} pixels, the picture {} x {}: choose --resolution to match",
                         reference.a.width, reference.a.height, film.crop().width(), film.crop().height()));
     }
-    std::vector<std::vector<Run>> runs(presets.size());
-    std::vector<std::vector<std::vector<ConvergenceSeries::Point>>> points(presets.size());
+    std::vector<std::vector<Run>> runs(ways.size());
+    std::vector<std::vector<std::vector<ConvergenceSeries::Point>>> points(ways.size());
     for (int seed = 0; seed < seeds; ++seed) {
-        for (std::size_t p = 0; p < presets.size(); ++p) {
+        for (std::size_t p = 0; p < ways.size(); ++p) {
             RenderSettings settings = session.settings();
-            settings.preset = presets[p];
+            settings.preset = ways[p].preset;
+            settings.subsurface = ways[p].subsurface;
             settings.seconds = seconds;
             settings.seed += static_cast<std::uint64_t>(seed) + 1;
-            ProgressBar bar(streams.err, !common.quiet,
-                            fmt::format("{} {}/{}", to_string(presets[p]), seed + 1, seeds));
+            ProgressBar bar(streams.err, !common.quiet, fmt::format("{} {}/{}", to_string(ways[p]), seed + 1, seeds));
             points[p].emplace_back();
             runs[p].push_back(run_once(session, settings, reference, bar, points[p].back()));
         }
     }
     std::vector<ComparisonRow> rows;
-    for (std::size_t p = 0; p < presets.size(); ++p) {
+    for (std::size_t p = 0; p < ways.size(); ++p) {
         std::vector<std::size_t> order(runs[p].size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             order[i] = i;
@@ -93,7 +98,7 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
         const std::size_t median = order[order.size() / 2];
         Run& run = runs[p][median];
         ComparisonRow row;
-        row.preset = presets[p];
+        row.way = ways[p];
         row.samples = run.statistics.samples;
         row.seconds = run.statistics.seconds;
         row.metrics = run.metrics;
@@ -101,11 +106,11 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
         row.flip = flip(run.image, reference.average()).mean;
         row.image = std::move(run.image);
         row.walks = std::move(run.walks);
-        row.convergence = {to_string(presets[p]), points[p][median]};
+        row.convergence = {to_string(ways[p]), points[p][median]};
         rows.push_back(std::move(row));
     }
     const auto classical =
-        std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& r) { return r.preset.is_classical(); });
+        std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& r) { return r.way.is_classical(); });
     if (classical != rows.end()) {
         for (ComparisonRow& row : rows) {
             row.ratio = classical->metrics.relmse * classical->seconds / (row.metrics.relmse * row.seconds);
@@ -119,7 +124,7 @@ std::string comparison_table(const std::vector<ComparisonRow>& rows) {
         {"sampling", "", "spp", "seconds", "relMSE", "trimmed", "99.99 %", "FLIP", "ratio"}};
     for (const ComparisonRow& r : rows) {
         const Metrics& m = r.metrics;
-        table.push_back({to_string(r.preset), ablation_role(r.preset), fmt::format("{:.0f}", r.samples),
+        table.push_back({to_string(r.way), ablation_role(r.way.preset), fmt::format("{:.0f}", r.samples),
                          fmt::format("{:.2f}", r.seconds), fmt::format("{:.4g}", m.relmse),
                          fmt::format("{:.4g}", m.relmse_trimmed), fmt::format("{:.4g}", m.error_p9999),
                          fmt::format("{:.4f}", r.flip), r.ratio ? fmt::format("{:.2f}", *r.ratio) : "-"});
@@ -130,7 +135,7 @@ std::string comparison_table(const std::vector<ComparisonRow>& rows) {
 nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows) {
     nlohmann::json list = nlohmann::json::array();
     for (const ComparisonRow& r : rows) {
-        list.push_back({{"sampling", to_string(r.preset)},
+        list.push_back({{"sampling", to_string(r.way)},
                         {"spp", r.samples},
                         {"seconds", r.seconds},
                         {"relmse", json_number(r.metrics.relmse)},

@@ -11,9 +11,20 @@
 
 namespace wend {
 
+/// What is compared.
+struct WayOfSampling {
+    Preset preset;
+    SubsurfacePreset subsurface;
+
+    bool is_classical() const { return preset.is_classical() && subsurface.is_classical(); }
+};
+
+/// "full", or "full/dwivedi" where the subsurface sampling is not the default.
+std::string to_string(const WayOfSampling& way);
+
 /// One way of sampling: its median run over the seeds.
 struct ComparisonRow {
-    Preset preset;
+    WayOfSampling way;
     double samples = 0;
     double seconds = 0;
     Metrics metrics;  ///< but error_p9999 is of the pixels of all runs: one run has few beyond it
@@ -24,11 +35,11 @@ struct ComparisonRow {
     ConvergenceSeries convergence;
 };
 
-/// Renders the scene with every preset for `seconds` each, presets taking turns, once a seed, and measures against the
+/// Renders the scene in every way for `seconds` each, ways taking turns, once a seed, and measures against the
 /// reference.
-std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<Preset>& presets, double seconds,
-                                           int seeds, const Reference& reference, const CommonOptions& common,
-                                           const Streams& streams);
+std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<WayOfSampling>& ways,
+                                           double seconds, int seeds, const Reference& reference,
+                                           const CommonOptions& common, const Streams& streams);
 
 /// The rows as text.
 std::string comparison_table(const std::vector<ComparisonRow>& rows);

@@ -14,9 +14,10 @@ namespace {
 
 constexpr ColourScale error_scale{ColourScale::Kind::logarithmic, 1e-3f, 10.0f};
 
-std::string file_name(const Preset& preset) {
-    std::string name = to_string(preset);
-    std::replace(name.begin(), name.end(), '+', '-');
+std::string file_name(const WayOfSampling& way) {
+    std::string name = to_string(way);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '+' || c == '/'; }, '-');
     return name;
 }
 
@@ -52,8 +53,8 @@ std::vector<WalkMap> walk_maps(const std::vector<ComparisonRow>& rows) {
 }
 
 ReportRow report_row(const ComparisonRow& r) {
-    return {to_string(r.preset),      ablation_role(r.preset), r.samples,     r.seconds, r.metrics.relmse,
-            r.metrics.relmse_trimmed, r.metrics.error_p9999,   r.metrics.mse, r.flip,    r.ratio};
+    return {to_string(r.way),         ablation_role(r.way.preset), r.samples,     r.seconds, r.metrics.relmse,
+            r.metrics.relmse_trimmed, r.metrics.error_p9999,       r.metrics.mse, r.flip,    r.ratio};
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ void write_comparison(const std::filesystem::path& folder, const Session& sessio
     }
     report.pictures.push_back({"reference", "", png_bytes(reference.average()), {}});
     for (const ComparisonRow& r : rows) {
-        const std::string name = file_name(r.preset);
+        const std::string name = file_name(r.way);
         const int width = r.image.width, height = r.image.height;
         const Image errors = false_colour(relative_squared_errors(r.image, reference), width, height, error_scale);
         for (const auto& [file, image] : {std::pair{name, &r.image}, {name + "-error", &errors}}) {
@@ -86,7 +87,7 @@ void write_comparison(const std::filesystem::path& folder, const Session& sessio
         for (const WalkMap& map : walks) {
             maps.push_back(png_bytes(false_colour(values_of(r, map.layer), width, height, map.shown.scale)));
         }
-        report.pictures.push_back({to_string(r.preset),
+        report.pictures.push_back({to_string(r.way),
                                    fmt::format("{:.0f} spp, relMSE {:.3g}", r.samples, r.metrics.relmse),
                                    png_bytes(r.image), std::move(maps)});
         report.rows.push_back(report_row(r));

@@ -85,6 +85,7 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, const
 nlohmann::json Session::describe(const RenderSettings& settings) const {
     return {{"scene", scene_file_},
             {"sampling", to_string(settings.preset)},
+            {"subsurface", to_string(settings.subsurface)},
             {"resolution", {resolution_.x, resolution_.y}},
             {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
             {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},

@@ -7,6 +7,7 @@
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
 #include <wend/guide/path_log.h>
+#include <wend/integrator/subsurface.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 
@@ -58,9 +59,9 @@ struct GuidedDecisions {
 template <class Decisions>
 class PathTracer {
 public:
-    /// Both are referred to. `max_depth` is the largest number of vertices (pbrt's maxdepth).
-    PathTracer(const Scene& scene, const Decisions& decisions, int max_depth)
-        : scene_(scene), decisions_(decisions), max_depth_(max_depth) {}
+    /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to.
+    PathTracer(const Scene& scene, const Decisions& decisions, const SubsurfaceGuides& subsurface, int max_depth)
+        : scene_(scene), decisions_(decisions), subsurface_(subsurface), max_depth_(max_depth) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
     /// none. Where a log is given, it is started anew and the walk written into it.
@@ -71,6 +72,7 @@ private:
 
     const Scene& scene_;
     const Decisions& decisions_;
+    const SubsurfaceGuides& subsurface_;
     int max_depth_;
 };
 

@@ -48,6 +48,7 @@ private:
         int depth = 0;
         int interfaces = 0;
         float travelled = 0;  ///< since the last vertex
+        SlabWalk slab;        ///< the stay in a dense medium, if it is guided
 
         // The last vertex, as multiple importance sampling wants it.
         LightReceiver receiver{};
@@ -66,12 +67,7 @@ private:
         const float length = hit ? hit->distance : farthest;
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
-            FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}};
-            start.depth = now_.depth;
-            if (d_.distance.looks_ahead(medium, start)) {
-                start.end = end_of_segment(hit);
-            }
-            const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
+            const Flight flight = fly(medium, length, hit);
             if (flight.glow > 0) {
                 glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
             }
@@ -84,7 +80,6 @@ private:
                 now_.travelled += flight.distance;
                 return scatter_in(medium, flight.distance);
             }
-            now_.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
         }
         if (!hit) {
             if (const Rgb arriving = environment(); !is_black(arriving)) {
@@ -101,10 +96,41 @@ private:
         if (scene_.is_interface(*hit)) {
             now_.medium = scene_.medium_beyond(*hit, now_.ray.direction, now_.medium);
             now_.ray = spawn_ray(hit->position, hit->normal, now_.ray.direction);
+            enter_medium(*hit);
             // A walk that meets hundreds of interfaces in a row is caught between coincident surfaces.
             return ++now_.interfaces < max_interfaces;
         }
         return scatter_at(*hit);
+    }
+
+    /// The next flight, up to the hit; if it passes the segment, that is counted in.
+    Flight fly(const Medium& medium, float length, const std::optional<Hit>& hit) {
+        if (now_.slab.is_inside()) {
+            // Connections know the probabilities of a stay where they start from one of its collisions.
+            const bool told = now_.slab.has_turned();
+            const SlabFlight flight = now_.slab.fly(length, sampler_.uniform());
+            now_.pass_probability *=
+                told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
+            return flight.flight;
+        }
+        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}};
+        start.depth = now_.depth;
+        if (d_.distance.looks_ahead(medium, start)) {
+            start.end = end_of_segment(hit);
+        }
+        const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
+        if (!flight.scatters) {
+            now_.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
+        }
+        return flight;
+    }
+
+    /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
+    void enter_medium(const Hit& hit) {
+        if (hit.surface->bounds_medium()) {
+            tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
+                                      now_.slab);
+        }
     }
 
     FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
@@ -159,7 +185,17 @@ private:
     /// Connects a vertex to a light, draws a direction, and decides on survival. `normal` is zero in a volume.
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
-        const auto directions = d_.direction.at(position, in_volume, f, now_.boost);
+        if (in_volume && now_.slab.is_inside()) {
+            tracer_.subsurface_.aim(now_.medium, position, now_.slab);
+            const SlabWalk slab = now_.slab;
+            return scatter(f, SlabWalk::Directions(slab, now_.ray.direction, sampler_.random()), position, normal,
+                           true);
+        }
+        return scatter(f, d_.direction.at(position, in_volume, f, now_.boost), position, normal, in_volume);
+    }
+
+    template <class F, class Directions>
+    bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
         if (!f.is_specular()) {
             const Connection found = connect(f, directions, position, normal, in_volume);
             const Rgb brought = found.scattering * found.light;
@@ -238,13 +274,15 @@ private:
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
-        now_.density = s->density;
+        now_.density = s->density * own_preference(in_volume);
         now_.receiver = {position, normal};
         now_.pass_probability = Rgb(1.0f);
         now_.channels = channel_probabilities(now_.throughput);
+        if (in_volume && now_.slab.is_inside()) {
+            now_.slab.turn(now_.ray.direction, s->direction);
+        }
         if (!judged) {
-            const float survival =
-                d_.survival.after_direction({now_.throughput, now_.boost, now_.index_scale, now_.depth});
+            const float survival = survival_probability();
             if (survival < 1) {
                 if (!(sampler_.uniform() < survival)) {
                     return false;
@@ -257,9 +295,24 @@ private:
         } else {
             now_.medium = scene_.medium_beyond(*hit_, s->direction, now_.medium);
             now_.ray = spawn_ray(position, normal, s->direction);
+            enter_medium(*hit_);
+            if (now_.slab.is_inside()) {
+                now_.slab.head(s->direction);
+            }
         }
         now_.travelled = 0;
         return true;
+    }
+
+    /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
+    /// lights. A guided stay brings nearly the same wherever it ends, to which connections would only add noise: they
+    /// are left what it hardly finds itself. 4 and 100 are worse (docs/theory/subsurface.md).
+    float own_preference(bool in_volume) const { return in_volume && now_.slab.is_inside() ? 16.0f : 1.0f; }
+
+    float survival_probability() {
+        const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
+        return now_.slab.is_inside() ? now_.slab.survival(max_value(now_.throughput) * now_.index_scale)
+                                     : d_.survival.after_direction(state);
     }
 
     /// What one connection to one light finds: its direction, an estimate of the light's fluence, weighted for multiple
@@ -297,7 +350,12 @@ private:
             shadow.direction = rest / distance;
         }
         const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light->direction, now_.medium);
-        const Passage passage = pass(shadow, distance, medium);
+        SlabWalk slab;
+        if (in_volume && now_.slab.is_inside()) {
+            slab = now_.slab;
+            slab.turn(now_.ray.direction, light->direction);
+        }
+        const Passage passage = pass(shadow, distance, medium, slab);
         if (is_black(passage.transmittance)) {
             return {};
         }
@@ -305,19 +363,20 @@ private:
         float weight = 1;
         if (!light->point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
-            const float other = directions.density(light->direction) * dot(channels, passage.probability);
+            const float other =
+                own_preference(in_volume) * directions.density(light->direction) * dot(channels, passage.probability);
             weight = light_density / (light_density + other);
         }
         return {light->direction, light->radiance * passage.transmittance * (weight / light_density), value};
     }
 
     /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the
-    /// probability, by channel, that a walk would have flown through.
+    /// probability, by channel, that a walk would have flown through: in `slab`, if it is inside, on its stay.
     struct Passage {
         Rgb transmittance{1.0f};
         Rgb probability{1.0f};
     };
-    Passage pass(Ray ray, float distance, MediumId medium) {
+    Passage pass(Ray ray, float distance, MediumId medium, SlabWalk slab) {
         Passage passage;
         float rest = distance == infinity ? farthest : distance * (1 - 1e-4f);
         if (scene_.is_occluded(ray, rest)) {
@@ -332,7 +391,9 @@ private:
             const float length = hit ? hit->distance : rest;
             if (medium != vacuum) {
                 passage.transmittance *= estimate_transmittance(scene_.medium(medium), ray, length, sampler_.random());
-                passage.probability *= d_.distance.pass_probability(scene_.medium(medium), ray, length);
+                passage.probability *= slab.is_inside()
+                                           ? Rgb(slab.pass(length))
+                                           : d_.distance.pass_probability(scene_.medium(medium), ray, length);
                 if (is_black(passage.transmittance)) {
                     return passage;
                 }
@@ -341,7 +402,11 @@ private:
                 return passage;
             }
             rest -= length;
-            medium = scene_.medium_beyond(*hit, ray.direction, medium);
+            const MediumId beyond = scene_.medium_beyond(*hit, ray.direction, medium);
+            if (beyond != medium) {
+                slab.leave();
+            }
+            medium = beyond;
             ray = spawn_ray(hit->position, hit->normal, ray.direction);
         }
         return {Rgb(0.0f), Rgb(0.0f)};

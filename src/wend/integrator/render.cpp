@@ -69,8 +69,8 @@ template <class Decisions>
 class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
-         const PassPlan& plan)
-        : tracer_(scene, decisions, settings.max_depth),
+         const SubsurfaceGuides& subsurface, const PassPlan& plan)
+        : tracer_(scene, decisions, subsurface, settings.max_depth),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
@@ -185,6 +185,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         settings.fields ? *settings.fields
                         : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
+    const SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
@@ -193,7 +194,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         const Preset& preset = settings.preset;
         PassPlan plan{statistics.samples, count, !preset.is_classical() && statistics.samples < training_samples, {}};
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene, film, settings, decisions, plan);
+            const Pass one(scene, film, settings, decisions, subsurface, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
         const GuidedDistance distance(

@@ -5,6 +5,7 @@
 #include <wend/film/filter.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/preset.h>
+#include <wend/integrator/subsurface.h>
 #include <wend/integrator/training.h>
 #include <wend/sampling/sampler.h>
 
@@ -25,6 +26,7 @@ struct RenderSettings {
     std::vector<int> passes;
 
     Preset preset;
+    SubsurfacePreset subsurface;
     /// What an earlier render of the scene learned; null: nothing yet.
     std::shared_ptr<const GuidingFields> fields;
     /// Is shown what the walks of each pass told the field, in the order of the picture's tiles; may be empty.

@@ -39,6 +39,14 @@ float HenyeyGreensteinMixture::mean_cosine() const {
     return sum / total_;
 }
 
+double HenyeyGreensteinMixture::moment(int degree) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+        sum += static_cast<double>(weight_[i]) * lobe_[i].moment(degree);
+    }
+    return sum / static_cast<double>(total_);
+}
+
 float HenyeyGreensteinMixture::blurred(const Vec3& before, const Vec3& mean) const {
     float sum = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {

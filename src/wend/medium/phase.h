@@ -33,6 +33,8 @@ struct HenyeyGreenstein {
     }
 
     float mean_cosine() const { return g; }
+    /// The integral of the function times Legendre's polynomial of the scattering cosine.
+    double moment(int degree) const { return std::pow(static_cast<double>(g), degree); }
 
     /// Convolved with a function of this kind with mean cosine length(mean), around the direction of `mean`, which is
     /// shorter than 1: the mean cosines multiply.
@@ -59,6 +61,7 @@ public:
     float evaluate(float cosine) const;
     float sample_cosine(float u) const;
     float mean_cosine() const;
+    double moment(int degree) const;
     float blurred(const Vec3& before, const Vec3& mean) const;
 
 private:
@@ -86,6 +89,10 @@ public:
     }
     float mean_cosine() const {
         return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
+    }
+    /// The integral of the function times Legendre's polynomial of the scattering cosine: 1, the mean cosine, ...
+    double moment(int degree) const {
+        return std::visit([&](const auto& p) { return p.moment(degree); }, kind_);
     }
     /// ∫ p(before, ω) h(ω) dω for Henyey and Greenstein's function h around the direction of `mean`, whose mean cosine
     /// is the length of `mean`, less than 1.

@@ -114,6 +114,8 @@ public:
 
     const Medium& medium(MediumId id) const { return d_.media[static_cast<std::size_t>(id)]; }
     const std::vector<Medium>& media() const { return d_.media; }
+    /// What the scene was built from.
+    const SceneDescription& description() const { return d_; }
     const Camera& camera() const { return d_.camera; }
     MediumId camera_medium() const { return d_.camera_medium; }
     const std::vector<Light>& lights() const { return d_.lights; }

@@ -1,0 +1,38 @@
+// What walks in one dense medium know about it beforehand.
+#pragma once
+
+#include <wend/decision/slab_mode.h>
+#include <wend/medium/medium.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace wend {
+
+/// Ways to guide a walk in a dense homogeneous medium. Each aims at an outward normal of its own, chosen by the
+/// integrator, and is mixed with classical sampling.
+struct SlabGuide {
+    static constexpr int most_strategies = 3;
+
+    HomogeneousMedium medium;
+    /// Modes that decay ever faster, the first not at all and the last as the medium's own; for one channel where all
+    /// channels are alike, or for three.
+    std::vector<std::vector<SlabMode>> modes;
+    int strategies = 0;
+    /// Probability of classical sampling, then of each strategy; their sum is 1, and the first is above 0.
+    std::array<float, 1 + most_strategies> share{1};
+
+    int channels() const { return static_cast<int>(modes.size()); }
+    /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.
+    int level(float steepness) const {
+        const auto last = static_cast<float>(modes[0].size() - 1);
+        return static_cast<int>(std::lround(std::clamp(steepness, 0.0f, 1.0f) * last));
+    }
+    const SlabMode& mode(int channel, int level) const {
+        return modes[static_cast<std::size_t>(channel)][static_cast<std::size_t>(level)];
+    }
+};
+
+}  // namespace wend

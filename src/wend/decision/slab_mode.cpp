@@ -1,0 +1,67 @@
+#include <wend/decision/slab_mode.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// Legendre's polynomials, summed with coefficients, as powers.
+std::vector<float> to_powers(std::span<const double> legendre) {
+    std::vector<double> sum(legendre.size());
+    std::vector<double> before;
+    std::vector<double> current = {1};
+    for (std::size_t l = 0; l < legendre.size(); ++l) {
+        for (std::size_t i = 0; i < current.size(); ++i) {
+            sum[i] += legendre[l] * current[i];
+        }
+        const auto n = static_cast<double>(l);
+        std::vector<double> next(current.size() + 1);
+        for (std::size_t i = 0; i < current.size(); ++i) {
+            next[i + 1] += (2 * n + 1) / (n + 1) * current[i];
+        }
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            next[i] -= n / (n + 1) * before[i];
+        }
+        before = std::move(current);
+        current = std::move(next);
+    }
+    return {sum.begin(), sum.end()};
+}
+
+}  // namespace
+
+SlabMode::SlabMode(double k, double albedo, std::span<const double> source)
+    : k_(static_cast<float>(k)), albedo_(static_cast<float>(albedo)), source_(to_powers(source)) {
+    constexpr int steps = 256;
+    most_ = least_ = radiance(-1);
+    for (int i = 1; i <= steps; ++i) {
+        const float value = radiance(-1 + 2 * static_cast<float>(i) / steps);
+        most_ = std::max(most_, value);
+        least_ = std::min(least_, value);
+    }
+    most_ *= 1.01f;  // it may be larger between the steps, by far less
+}
+
+Vec3 SlabMode::sample(const PhaseFunction& phase, const Vec3& before, const Vec3& normal, Pcg32& random) const {
+    if (source_.size() == 1) {
+        // Isotropic scattering: (1 - k mu)^-1 is inverted in closed form.
+        const Vec2 u = random.uniform2();
+        if (k_ == 0) {
+            return to_sphere(u);
+        }
+        const double k = k_;
+        const double logarithm = std::log1p(2 * k / (1 - k));
+        const double cosine = -1 - (1 + k) / k * std::expm1(-logarithm * static_cast<double>(u.x));
+        const auto mu = static_cast<float>(std::clamp(cosine, -1.0, 1.0));
+        return Frame::from_z(normal).to_world(direction_from_cosine(mu, u.y));
+    }
+    for (;;) {
+        const Vec3 w = phase.sample(before, random.uniform2());
+        if (random.uniform() * most_ < radiance(dot(w, normal))) {
+            return w;
+        }
+    }
+}
+
+}  // namespace wend

@@ -1,0 +1,51 @@
+// Directions and flights of a zero-variance walk for one exponential mode of a slab: Dwivedi's, for any phase function.
+#pragma once
+
+#include <wend/core/random.h>
+#include <wend/medium/phase.h>
+
+#include <span>
+#include <vector>
+
+namespace wend {
+
+/// The light that a walk deep inside a medium may expect if it grows as exp(k h) with the height h, in mean free paths
+/// along an outward normal n: from a direction of cosine mu to n, I(mu) = albedo S(mu) / (1 - k mu), and scattered to a
+/// walk that arrives along mu, S(mu), which is I convolved with the phase function. The zero-variance walk draws
+/// directions with the density phase function times I(after) / S(before), which is normalized, and distances with the
+/// rate 1 - k mu (dwivedi1982, krivanek2014; docs/theory/subsurface.md).
+class SlabMode {
+public:
+    /// No preference: classical sampling.
+    SlabMode() = default;
+    /// `source` are the coefficients of Legendre's polynomials in S, positive on [-1, 1]; k in [0, 1), albedo and S are
+    /// those of a discrete mode of the phase function that the walk is going to use.
+    SlabMode(double k, double albedo, std::span<const double> source);
+
+    float rate(float mu) const { return 1 - k_ * mu; }
+    float k() const { return k_; }
+    /// S(mu) up to a factor.
+    float source(float mu) const {
+        float sum = 0;
+        for (std::size_t i = source_.size(); i-- > 0;) {
+            sum = sum * mu + source_[i];
+        }
+        return sum;
+    }
+    /// I(mu) up to the same factor.
+    float radiance(float mu) const { return albedo_ * source(mu) / rate(mu); }
+    /// The largest radiance over the smallest.
+    float contrast() const { return most_ / least_; }
+
+    /// A direction after a collision, of density phase.evaluate(before · w) radiance(w · n) / source(before · n).
+    Vec3 sample(const PhaseFunction& phase, const Vec3& before, const Vec3& normal, Pcg32& random) const;
+
+private:
+    float k_ = 0;
+    float albedo_ = 1;
+    std::vector<float> source_{1};  // coefficients of powers of mu
+    float most_ = 1;                // bounds of radiance()
+    float least_ = 1;
+};
+
+}  // namespace wend

@@ -1,0 +1,182 @@
+#include <wend/decision/slab_walk.h>
+#include <wend/medium/transmittance.h>
+#include <wend/sampling/discrete.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wend {
+namespace {
+
+/// Below this share of what it was expected to bring a walk is up for roulette.
+constexpr float least_expectation = 0.3f;
+/// No walk of so little throughput is still where a strategy that is right would have it.
+constexpr float least_throughput = 1e-3f;
+
+float extinction_of(const SlabGuide& guide, int channel) {
+    return guide.medium.absorption[channel] + guide.medium.scattering[channel];
+}
+
+}  // namespace
+
+void SlabWalk::enter(const SlabGuide& guide, const Rgb& channels) {
+    guide_ = &guide;
+    survived_ = 1;
+    const int count = guide.channels();
+    for (int s = 0; s <= guide.strategies; ++s) {
+        for (int c = 0; c < count; ++c) {
+            posterior_[static_cast<std::size_t>(s * count + c)] =
+                guide.share[static_cast<std::size_t>(s)] * (count == 1 ? 1.0f : channels[c]);
+        }
+    }
+}
+
+void SlabWalk::aim(int strategy, const Vec3& normal, float steepness) {
+    normal_[static_cast<std::size_t>(strategy)] = normal;
+    level_[static_cast<std::size_t>(strategy)] = guide_->level(steepness);
+}
+
+void SlabWalk::head(const Vec3& w) {
+    has_turned_ = false;
+    for (int c = 0; c < guide_->channels(); ++c) {
+        rate_[static_cast<std::size_t>(c)] = extinction_of(*guide_, c);
+    }
+    for_guided([&](std::size_t i, int s, int c) {
+        rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
+    });
+}
+
+SlabWalk::Directions::Directions(const SlabWalk& walk, const Vec3& before, Pcg32& random)
+    : walk_(walk), before_(before), random_(random) {
+    relative_ = walk.posterior_;
+    walk.for_guided([&](std::size_t i, int s, int c) {
+        relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
+    });
+}
+
+float SlabWalk::Directions::density(const Vec3& w) const {
+    float boost = 0;
+    for (int c = 0; c < walk_.guide_->channels(); ++c) {
+        boost += relative_[static_cast<std::size_t>(c)];
+    }
+    walk_.for_guided([&](std::size_t i, int s, int c) {
+        boost += relative_[i] * walk_.mode(s, c).radiance(dot(w, walk_.normal_[static_cast<std::size_t>(s)]));
+    });
+    return boost * walk_.guide_->medium.phase.evaluate(dot(before_, w));
+}
+
+std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2& u2) const {
+    const PhaseFunction& phase = walk_.guide_->medium.phase;
+    const std::size_t technique = walk_.choose(u);
+    const auto channels = static_cast<std::size_t>(walk_.guide_->channels());
+    Vec3 w;
+    if (technique < channels) {
+        w = phase.sample(before_, u2);
+    } else {
+        const std::size_t strategy = technique / channels - 1;
+        w = walk_.mode(static_cast<int>(strategy), static_cast<int>(technique % channels))
+                .sample(phase, before_, walk_.normal_[strategy], random_);
+    }
+    DirectionSample s;
+    s.direction = w;
+    s.value = Rgb(phase.evaluate(dot(before_, w)));
+    s.density = density(w);
+    return s;
+}
+
+void SlabWalk::turn(const Vec3& before, const Vec3& w) {
+    head(w);
+    float total = 0;
+    for (int c = 0; c < guide_->channels(); ++c) {
+        total += posterior_[static_cast<std::size_t>(c)];
+    }
+    for_guided([&](std::size_t i, int s, int c) {
+        const Vec3& normal = normal_[static_cast<std::size_t>(s)];
+        const SlabMode& m = mode(s, c);
+        posterior_[i] *= m.radiance(dot(w, normal)) / m.source(dot(before, normal));
+        total += posterior_[i];
+    });
+    normalize(total);
+    has_turned_ = true;
+}
+
+std::size_t SlabWalk::choose(float& u) const {
+    const std::span<const float> probabilities(posterior_.data(), static_cast<std::size_t>(techniques()));
+    return static_cast<std::size_t>(select(probabilities, 1, u));
+}
+
+void SlabWalk::normalize(float total) {
+    // What never happens may still be asked for, by connections: the inverse of its probability must not overflow.
+    const float scale = total >= std::numeric_limits<float>::min() ? 1 / total : 0.0f;
+    for (int i = 0; i < techniques(); ++i) {
+        posterior_[static_cast<std::size_t>(i)] *= scale;
+    }
+}
+
+SlabFlight SlabWalk::fly(float length, float u) {
+    const std::size_t technique = choose(u);
+    SlabFlight result;
+    Flight& flight = result.flight;
+    const float t = rate_[technique] > 0 ? to_exponential(u, rate_[technique]) : infinity;
+    flight.scatters = t < length;
+    if (!flight.scatters) {
+        flight.distance = length;
+        result.pass_probability = pass(length);
+        flight.weight = result.pass_probability >= std::numeric_limits<float>::min()
+                            ? transmittance(guide_->medium, length) * (1 / result.pass_probability)
+                            : Rgb(0.0f);
+        return result;
+    }
+    flight.distance = t;
+    float density = 0;
+    for (int i = 0; i < techniques(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        posterior_[k] *= rate_[k] * std::exp(-rate_[k] * t);
+        density += posterior_[k];
+    }
+    normalize(density);
+    flight.weight = density >= std::numeric_limits<float>::min()
+                        ? guide_->medium.scattering * transmittance(guide_->medium, t) * (1 / density)
+                        : Rgb(0.0f);
+    return result;
+}
+
+float SlabWalk::pass(float length) {
+    float probability = 0;
+    for (int i = 0; i < techniques(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        posterior_[k] *= std::exp(-rate_[k] * length);
+        probability += posterior_[k];
+    }
+    normalize(probability);
+    return probability;
+}
+
+float SlabWalk::relative_density(int technique) const {
+    float sum = 0;
+    for (int c = 0; c < guide_->channels(); ++c) {
+        sum += posterior_[static_cast<std::size_t>(technique * guide_->channels() + c)];
+    }
+    const float share = guide_->share[static_cast<std::size_t>(technique)];
+    return share > 0 ? sum / share : 0.0f;
+}
+
+float SlabWalk::survival(float throughput) {
+    // Under a strategy that is right, density times what is to be expected is the same everywhere: so its density over
+    // that of the mixture is what the walk may yet bring, over what it might have brought when it entered.
+    float expected = 0;
+    for (int s = 1; s <= guide_->strategies; ++s) {
+        expected = std::max(expected, relative_density(s));
+    }
+    expected = std::min(expected / survived_, throughput / least_throughput);
+    if (expected >= least_expectation) {
+        return 1;
+    }
+    const float classical = relative_density(0);
+    const float survival = std::min(1.0f, std::max(expected, classical > 0 ? throughput / classical : 1.0f));
+    survived_ *= survival;
+    return survival;
+}
+
+}  // namespace wend

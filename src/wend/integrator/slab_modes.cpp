@@ -1,0 +1,57 @@
+#include <wend/integrator/slab_modes.h>
+#include <wend/theory/discrete_mode.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr int levels = 8;
+// Where little is scattered, a walk made for more of it has the smaller variance: docs/theory/subsurface.md.
+constexpr double least_albedo = 0.65;
+// Between the directions of most and least light.
+constexpr float most_contrast = 40;
+
+SlabMode mode_of(double albedo, const PhaseFunction& phase) {
+    std::vector<double> moments;
+    for (int l = 0; l <= 256; ++l) {
+        const double moment = phase.moment(l);
+        if (std::abs(moment) < 1e-14) {
+            break;
+        }
+        moments.push_back(moment);
+    }
+    const DiscreteMode mode = discrete_mode(albedo, moments);
+    return {mode.k, mode.albedo, mode.source};
+}
+
+}  // namespace
+
+std::vector<SlabMode> slab_modes(double albedo, const PhaseFunction& phase) {
+    double absorbed = 1 - std::clamp(albedo, least_albedo, 1.0);
+    while (mode_of(1 - absorbed, phase).contrast() > most_contrast) {
+        absorbed *= 0.75;
+    }
+    std::vector<SlabMode> modes(1);
+    for (int i = 1; i <= levels; ++i) {
+        modes.push_back(mode_of(1 - absorbed * i * i / (levels * levels), phase));
+    }
+    return modes;
+}
+
+SlabGuide slab_guide(const HomogeneousMedium& medium) {
+    SlabGuide guide;
+    guide.medium = medium;
+    const Rgb extinction = medium.extinction();
+    const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
+    const int channels = is_grey(medium.absorption) && is_grey(medium.scattering) ? 1 : 3;
+    for (int c = 0; c < channels; ++c) {
+        const double albedo =
+            extinction[c] > 0 ? static_cast<double>(medium.scattering[c]) / static_cast<double>(extinction[c]) : 0.0;
+        guide.modes.push_back(slab_modes(albedo, medium.phase));
+    }
+    return guide;
+}
+
+}  // namespace wend

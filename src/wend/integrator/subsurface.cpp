@@ -1,0 +1,150 @@
+#include <wend/core/error.h>
+#include <wend/decision/channels.h>
+#include <wend/integrator/slab_modes.h>
+#include <wend/integrator/subsurface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+struct Entry {
+    std::string_view name;
+    std::vector<SlabStrategy> strategies;
+};
+
+const std::vector<Entry>& entries() {
+    using enum SlabStrategy;
+    static const std::vector<Entry> table = {{"classical", {}},
+                                             {"dwivedi", {entry}},
+                                             {"closest", {closest}},
+                                             {"incident", {incident}},
+                                             {"auto", {entry, closest, incident}}};
+    return table;
+}
+
+// Of the contract, not built.
+constexpr std::array planned = {"planar", "learned"};
+
+constexpr float classical_share = 0.25f;
+
+// Points of a boundary, and rays for the light that each gets.
+constexpr int points_of_boundary = 1024;
+constexpr int rays_to_lights = 16;
+
+// Mean free paths in a mean chord from which on a medium is dense: below, most walks end after a few collisions, and
+// there is little to guide.
+constexpr float least_depth = 4;
+// Nor where nearly all that collides is absorbed; or where the phase function is too peaked for a direction to matter.
+constexpr float least_scattering = 0.2f;
+constexpr float most_peaked = 0.96f;
+
+bool may_be_dense(const HomogeneousMedium& medium) {
+    const Rgb extinction = medium.extinction();
+    return is_black(medium.emission) && max_value(medium.scattering) > least_scattering * max_value(extinction) &&
+           std::abs(medium.phase.mean_cosine()) < most_peaked;
+}
+
+bool looks_around(SlabStrategy strategy) {
+    return strategy != SlabStrategy::entry;
+}
+
+/// The rate of decay, per scene unit, of the channel that reaches deepest.
+float least_decay(const SlabGuide& guide) {
+    float least = infinity;
+    for (int c = 0; c < guide.channels(); ++c) {
+        least = std::min(least, guide.mode(c, guide.level(1)).k() * guide.medium.extinction()[c]);
+    }
+    return least;
+}
+
+}  // namespace
+
+std::string subsurface_names() {
+    std::string names;
+    for (const Entry& e : entries()) {
+        names += (names.empty() ? "" : ", ") + std::string(e.name);
+    }
+    return names;
+}
+
+SubsurfacePreset parse_subsurface(std::string_view text) {
+    for (const Entry& e : entries()) {
+        if (e.name == text) {
+            return {e.strategies};
+        }
+    }
+    const bool is_planned = std::find(planned.begin(), planned.end(), text) != planned.end();
+    throw InputError((is_planned ? "the subsurface sampling '" + std::string(text) + "' is not built yet"
+                                 : "unknown subsurface sampling '" + std::string(text) + "'") +
+                     ": expected one of " + subsurface_names());
+}
+
+std::string to_string(const SubsurfacePreset& preset) {
+    const auto found = std::find_if(entries().begin(), entries().end(),
+                                    [&](const Entry& e) { return e.strategies == preset.strategies; });
+    return std::string(found->name);
+}
+
+SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
+    : strategies_(preset.strategies) {
+    if (preset.is_classical()) {
+        return;
+    }
+    media_.resize(scene.media().size());
+    for (std::size_t id = 0; id < media_.size(); ++id) {
+        const auto* medium = std::get_if<HomogeneousMedium>(&scene.media()[id]);
+        if (!medium || !may_be_dense(*medium)) {
+            continue;
+        }
+        Pcg32 random(id);
+        const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
+        const float depth =
+            mean_chord(scene, static_cast<MediumId>(id), points, random) * max_value(medium->extinction());
+        if (points.empty() || !(depth >= least_depth)) {
+            continue;
+        }
+        SlabGuide guide = slab_guide(*medium);
+        guide.strategies = static_cast<int>(strategies_.size());
+        guide.share.fill((1 - classical_share) / static_cast<float>(guide.strategies));
+        guide.share[0] = classical_share;
+        std::optional<BoundaryField> field;
+        if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
+            const auto irradiance = boundary_irradiance(scene, points, rays_to_lights, random);
+            field.emplace(points, irradiance, least_decay(guide), threads);
+        }
+        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(field)});
+    }
+}
+
+void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels,
+                             SlabWalk& walk) const {
+    const Dense* dense = medium == vacuum || media_.empty() ? nullptr : media_[static_cast<std::size_t>(medium)].get();
+    if (!dense) {
+        walk.leave();
+        return;
+    }
+    if (walk.guide() != &dense->guide) {
+        walk.enter(dense->guide, channels);
+        for (int i = 0; i < dense->guide.strategies; ++i) {
+            walk.aim(i, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
+        }
+        aim(medium, hit.position, walk);
+        walk.head(direction);
+    }
+}
+
+void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk) const {
+    const std::optional<BoundaryField>& field = media_[static_cast<std::size_t>(medium)]->field;
+    for (std::size_t i = 0; i < strategies_.size(); ++i) {
+        if (looks_around(strategies_[i])) {
+            const SlabAim aim =
+                strategies_[i] == SlabStrategy::closest ? field->closest(position) : field->incident(position);
+            walk.aim(static_cast<int>(i), aim.normal, aim.steepness);
+        }
+    }
+}
+
+}  // namespace wend

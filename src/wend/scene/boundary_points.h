@@ -1,0 +1,20 @@
+// Points spread over the boundary of a medium: a picture of its shape for guides.
+#pragma once
+
+#include <wend/scene/scene.h>
+
+#include <vector>
+
+namespace wend {
+
+struct BoundaryPoint {
+    Vec3 position;
+    Vec3 normal;  ///< unit length, out of the medium
+};
+
+/// Up to `count` points on the surfaces that have the medium on exactly one side, placed objects included, spread
+/// evenly by area; none if there is no such surface. On stretched spheres and disks the spread is not quite even.
+std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, MediumId medium, int count,
+                                           std::uint64_t seed);
+
+}  // namespace wend

@@ -1,0 +1,198 @@
+// Guided stays in a dense medium: directions and distances follow their densities, and weights their integrand.
+#include <tests/support/chi_square_sphere.h>
+#include <wend/decision/slab_walk.h>
+#include <wend/medium/transmittance.h>
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+#include <wend/theory/discrete_mode.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+SlabMode mode_of(double albedo, float g) {
+    std::vector<double> moments;
+    for (int l = 0; l < 200; ++l) {
+        moments.push_back(HenyeyGreenstein{g}.moment(l));
+    }
+    const DiscreteMode mode = discrete_mode(albedo, moments);
+    return {mode.k, mode.albedo, mode.source};
+}
+
+/// Three channels that differ in extinction and albedo, two strategies.
+SlabGuide chromatic_guide(float g) {
+    SlabGuide guide;
+    guide.medium = {{0.1f, 0.4f, 1.0f}, {4.0f, 3.0f, 2.5f}, Rgb(0.0f), PhaseFunction(HenyeyGreenstein{g})};
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = guide.medium.scattering[c] / (guide.medium.extinction()[c]);
+        guide.modes.push_back({SlabMode(), mode_of(0.5 * (1 + albedo), g), mode_of(albedo, g)});
+    }
+    guide.strategies = 2;
+    guide.share = {0.25f, 0.5f, 0.25f};
+    return guide;
+}
+
+const Vec3 first_normal = normalize(Vec3(0.3f, -0.5f, 0.8f));
+const Vec3 second_normal = normalize(Vec3(-1, 0.2f, 0.1f));
+const Vec3 arrival = normalize(Vec3(0.2f, 0.9f, -0.3f));
+
+SlabWalk begin(const SlabGuide& guide) {
+    SlabWalk walk;
+    walk.enter(guide, {0.5f, 0.3f, 0.2f});
+    walk.aim(0, first_normal);
+    walk.aim(1, second_normal, 0.5f);
+    walk.head(arrival);
+    return walk;
+}
+
+class SlabStay : public testing::TestWithParam<float> {};
+
+TEST_P(SlabStay, ModesDrawDirectionsInProportionToTheirLight) {
+    const float g = GetParam();
+    const PhaseFunction phase(HenyeyGreenstein{g});
+    const SlabMode mode = mode_of(0.9, g);
+    int number = 0;
+    for (const Vec3& before : {arrival, first_normal, -first_normal}) {
+        const auto sample = [&](Pcg32& random) {
+            return std::optional<Vec3>(mode.sample(phase, before, first_normal, random));
+        };
+        const auto density = [&](const Vec3& w) {
+            return static_cast<double>(phase.evaluate(dot(before, w)) * mode.radiance(dot(w, first_normal)) /
+                                       mode.source(dot(before, first_normal)));
+        };
+        const std::string name = "slab_mode_" + std::to_string(number++) + "_" + std::to_string(g);
+        EXPECT_TRUE(test::follows_density(test::test_direction_sampler(sample, density), name, 9));
+        const auto wrong = [&](const Vec3& w) { return static_cast<double>(phase.evaluate(dot(before, w))); };
+        EXPECT_LT(test::test_direction_sampler(sample, wrong).result.p_value, 1e-6);
+    }
+}
+
+TEST_P(SlabStay, DirectionsOfTheMixtureFollowTheirDensity) {
+    const SlabGuide guide = chromatic_guide(GetParam());
+    SlabWalk walk = begin(guide);
+    ASSERT_TRUE(walk.fly(infinity, 0.6f).flight.scatters);
+    Pcg32 random(1);
+    const SlabWalk::Directions directions(walk, arrival, random);
+    const auto sample = [&](Pcg32& numbers) -> std::optional<Vec3> {
+        const float u = numbers.uniform();
+        const auto s = directions.sample(u, numbers.uniform2());
+        EXPECT_FLOAT_EQ(s->density, directions.density(s->direction));
+        return s->direction;
+    };
+    EXPECT_TRUE(test::follows_density(
+        test::test_direction_sampler(sample, [&](const Vec3& w) { return static_cast<double>(directions.density(w)); }),
+        "slab_walk_" + std::to_string(GetParam()), 3));
+}
+
+/// Sums over a walk of some collisions and what then passes `length`: unbiased estimates of the same for each channel,
+/// whatever draws the walk.
+struct Estimates {
+    std::array<Moments, 3> collided, passed;
+    Moments relative;  // of the last technique: its mean is 1
+};
+
+Estimates estimate(const SlabGuide& guide, float bias = 1) {
+    Estimates e;
+    Pcg32 random(7);
+    for (int i = 0; i < 400000; ++i) {
+        SlabWalk walk = begin(guide);
+        Vec3 before = arrival;
+        Rgb weight(1.0f);
+        float shape = 1;
+        const SlabFlight first = walk.fly(0.8f, random.uniform());
+        weight *= first.flight.weight;
+        if (first.flight.scatters) {
+            walk.aim(1, first_normal, 1);
+            const SlabWalk::Directions directions(walk, before, random);
+            const float u = random.uniform();
+            const auto s = directions.sample(u, random.uniform2());
+            weight *= s->weight() * bias;
+            shape = 1 + dot(s->direction, second_normal);
+            walk.turn(before, s->direction);
+            const SlabFlight second = walk.fly(0.5f, random.uniform());
+            weight *= second.flight.weight;
+            e.relative.add(walk.relative_density(2));
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = weight[static_cast<int>(c)] * shape;
+                e.collided[c].add(second.flight.scatters ? value : 0);
+                e.passed[c].add(second.flight.scatters ? 0 : value);
+            }
+        } else {
+            e.relative.add(walk.relative_density(2));
+            for (std::size_t c = 0; c < 3; ++c) {
+                e.collided[c].add(0);
+                e.passed[c].add(0);
+            }
+        }
+    }
+    return e;
+}
+
+TEST_P(SlabStay, WeightsAreIntegrandOverDensity) {
+    const float g = GetParam();
+    const SlabGuide guide = chromatic_guide(g);
+    const Estimates e = estimate(guide);
+    const Estimates biased = estimate(guide, 1.03f);
+    const Rgb extinction = guide.medium.extinction();
+    int noticed = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto channel = static_cast<int>(c);
+        const double sigma = extinction[channel];
+        const double albedo = guide.medium.scattering[channel] / sigma;
+        // The mean of 1 + w · n over the phase function is 1 + g (before · n).
+        const double shape = 1 + g * dot(arrival, second_normal);
+        const double once = albedo * -std::expm1(-sigma * 0.8) * shape;
+        const double collided = once * albedo * -std::expm1(-sigma * 0.5);
+        const double passed = once * std::exp(-sigma * 0.5);
+        EXPECT_TRUE(agrees(e.collided[c], collided, 4, 1e-5)) << e.collided[c].mean() << " expected " << collided;
+        EXPECT_TRUE(agrees(e.passed[c], passed, 4, 1e-5)) << e.passed[c].mean() << " expected " << passed;
+        noticed += !agrees(biased.collided[c], collided, 4, 1e-5) + !agrees(biased.passed[c], passed, 4, 1e-5);
+    }
+    EXPECT_GE(noticed, 4) << "a bias of 3 % must be seen";
+    EXPECT_TRUE(agrees(e.relative, 1, 4, 1e-5)) << e.relative.mean();
+}
+
+INSTANTIATE_TEST_SUITE_P(MeanCosines, SlabStay, testing::Values(0.0f, 0.8f, -0.5f));
+
+TEST(SlabWalk, NoWeightExceedsTheClassicalOneOverItsShare) {
+    const SlabGuide guide = chromatic_guide(0.5f);
+    Pcg32 random(3);
+    for (int i = 0; i < 2000; ++i) {
+        SlabWalk walk = begin(guide);
+        Vec3 before = arrival;
+        for (int step = 0; step < 50; ++step) {
+            walk.fly(infinity, random.uniform());
+            const SlabWalk::Directions directions(walk, before, random);
+            const float u = random.uniform();
+            const Vec3 w = directions.sample(u, random.uniform2())->direction;
+            walk.turn(before, w);
+            before = w;
+            for (int technique = 0; technique < 3; ++technique) {
+                ASSERT_LE(walk.relative_density(technique) * guide.share[static_cast<std::size_t>(technique)], 1.0001f);
+            }
+        }
+    }
+}
+
+TEST(SlabWalk, SurvivesWhileTheStrategiesExpectLight) {
+    const SlabGuide guide = chromatic_guide(0);
+    SlabWalk walk = begin(guide);
+    EXPECT_EQ(walk.survival(0.01f), 1);
+    // Straight away from both normals is where nothing is expected, and classical walks do not go so far either.
+    walk.head(normalize(-first_normal - second_normal));
+    walk.pass(12);
+    const float survival = walk.survival(1e-3f);
+    EXPECT_LT(survival, 0.3f);
+    EXPECT_GT(survival, 0);
+    // Once it has survived that, it is expected to bring as much again.
+    EXPECT_EQ(walk.survival(1e-3f), 1);
+    EXPECT_EQ(begin(guide).survival(1), 1);
+    // Wherever a strategy is at home, a walk has more throughput left.
+    EXPECT_FLOAT_EQ(begin(guide).survival(1e-5f), 1e-2f);
+}
+
+}  // namespace
+}  // namespace wend

@@ -1,0 +1,223 @@
+// Guided walks inside dense media against known values and classical walks.
+#include <tests/support/paths.h>
+#include <tests/support/scenes.h>
+
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace wend {
+namespace {
+
+using test::Measured;
+
+constexpr const char* guided[] = {"dwivedi", "closest", "incident", "auto"};
+
+struct Block {
+    const char* name;
+    float albedo, thickness, g, ior;
+    double value;  ///< radiance returned under a white sky of radiance 1, normal view, specular reflection included
+};
+
+void PrintTo(const Block& block, std::ostream* out) {
+    *out << block.name;
+}
+
+/// A mesh of a slab, lit from above only.
+SceneDescription slab(const Block& k) {
+    SceneDescription s;
+    const MediumId medium =
+        test::add_homogeneous(s, Rgb((1 - k.albedo) * k.thickness), Rgb(k.albedo * k.thickness), k.g);
+    const int boundary = k.ior == 1 ? test::add_interface(s) : test::add_dielectric(s, k.ior);
+    // So wide that no light gets to the sides.
+    const float width = std::max(2.0f, 48 / k.thickness);
+    test::add_box(s, Box3(Vec3(-width, -width, 0), Vec3(width, width, 1)), boundary, medium);
+    test::add_parallelogram(s, Vec3(-1e5f, -1e5f, 1.5f), Vec3(2e5f, 0, 0), Vec3(0, 2e5f, 0),
+                            test::add_diffuse(s, Rgb(0.0f)));
+    test::add_environment(s, Rgb(1.0f));
+    return s;
+}
+
+Measured reflected(const Block& k, const char* strategy, int walks) {
+    const Scene scene(slab(k));
+    return test::measure_radiance(scene, {{0.3f, 0.1f, -2}, {0, 0, 1}}, walks, 100000, 1, parse_subsurface(strategy));
+}
+
+class GuidedSlab : public testing::TestWithParam<Block> {};
+
+TEST_P(GuidedSlab, MatchesKnownReflectance) {
+    const Block& k = GetParam();
+    for (const char* strategy : guided) {
+        SCOPED_TRACE(strategy);
+        const Measured m = reflected(k, strategy, k.thickness < 5 ? 600000 : 150000);
+        EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
+            << m.mean << " +- " << m.standard_error << " expected " << k.value;
+        EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << "too few walks to see a bias of 1 %";
+        EXPECT_FALSE(agrees(1.02 * m.mean, m.standard_error, k.value, 4, 1e-5)) << "a bias of 2 % must be seen";
+    }
+}
+
+// By H functions and adding-doubling, as in transport_test.cpp.
+INSTANTIATE_TEST_SUITE_P(Media, GuidedSlab,
+                         testing::Values(Block{"HalfSpace_4", 0.4f, 60, 0, 1, 0.08335728},
+                                         Block{"HalfSpace_95", 0.95f, 80, 0, 1, 0.53554099},
+                                         Block{"HalfSpace_95g_75", 0.95f, 150, 0.75f, 1, 0.276766},
+                                         Block{"HalfSpace_95gMinus3", 0.95f, 80, -0.3f, 1, 0.584095},
+                                         Block{"HalfSpace_9n1_5", 0.9f, 60, 0, 1.5f, 0.2599186},
+                                         Block{"Slabb4_95g_75", 0.95f, 4, 0.75f, 1, 0.203461}),
+                         [](const auto& block) { return std::string(block.param.name); });
+
+TEST(GuidedSlab, MatchesTheReferenceTable) {
+    std::ifstream file(test::shared_dir() / "references" / "slab_reference.csv");
+    if (!file) {
+        GTEST_SKIP() << "the reference values are not beside the checkout";
+    }
+    std::string line;
+    std::getline(file, line);
+    int rows = 0;
+    while (std::getline(file, line)) {
+        std::istringstream in(line);
+        std::string cell[6];
+        for (std::string& c : cell) {
+            std::getline(in, c, ',');
+        }
+        if (cell[2] != "normal-beam" || std::stof(cell[1]) < 4) {
+            continue;
+        }
+        const Block k{"csv", std::stof(cell[0]), std::stof(cell[1]), 0, 1, std::stod(cell[4])};
+        const Measured m = reflected(k, "auto", 150000);
+        EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
+            << line << ": " << m.mean << " +- " << m.standard_error;
+        EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << line;
+        ++rows;
+    }
+    EXPECT_GT(rows, 0);
+}
+
+TEST(GuidedSlab, HasLessVarianceThanClassicalSampling) {
+    const Block k{"", 0.95f, 80, 0, 1, 0.53554099};
+    constexpr int walks = 30000;
+    const double classical = reflected(k, "classical", walks).standard_error;
+    const double dwivedi = reflected(k, "dwivedi", walks).standard_error;
+    EXPECT_LT(dwivedi * dwivedi, classical * classical / 4);
+}
+
+struct Object {
+    const char* name;
+    float g, ior, roughness;
+    Rgb absorption, scattering;
+    bool is_sphere;
+};
+
+void PrintTo(const Object& object, std::ostream* out) {
+    *out << object.name;
+}
+
+/// A dense object under a coloured sky, a point light and a lamp, on a grey floor.
+SceneDescription lit(const Object& o) {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, o.absorption, o.scattering, o.g);
+    const int boundary = o.ior == 1 ? test::add_interface(s) : test::add_dielectric(s, o.ior, o.roughness);
+    if (o.is_sphere) {
+        test::add_sphere(s, {0, 0, 0}, 1, boundary, medium);
+    } else {
+        test::add_box(s, Box3(Vec3(-0.8f, -1, -0.4f), Vec3(0.8f, 1, 0.4f)), boundary, medium);
+    }
+    test::add_parallelogram(s, {-5, -1.2f, -5}, {0, 0, 10}, {10, 0, 0}, test::add_diffuse(s, Rgb(0.5f)));
+    const Vec3 p(-1, 3, 2);
+    s.lights.push_back(make_triangle_light(p, p + Vec3(2, 0, 0), p + Vec3(0, 0, 2), true, Rgb(10.0f), true));
+    Surface lamp{TriangleMesh{{p, p + Vec3(2, 0, 0), p + Vec3(0, 0, 2)}, {}, {}, {0, 1, 2}},
+                 s.surfaces.back().material};
+    lamp.first_light = 0;
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(lamp));
+    s.lights.push_back(PointLight{{2, 2, -3}, {3, 6, 4}});
+    test::add_environment(s, {0.8f, 1.0f, 1.2f});
+    return s;
+}
+
+class GuidedObject : public testing::TestWithParam<Object> {};
+
+TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
+    const Scene scene(lit(GetParam()));
+    const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
+    constexpr int walks = 100000;
+    const Measured classical = test::measure_radiance(scene, ray, walks);
+    for (const char* strategy : guided) {
+        SCOPED_TRACE(strategy);
+        const Measured m = test::measure_radiance(scene, ray, walks, 100000, 2, parse_subsurface(strategy));
+        const double error = std::hypot(m.standard_error, classical.standard_error);
+        EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
+            << m.mean << " and " << classical.mean << " +- " << error;
+        EXPECT_LT(4 * error, 0.03 * classical.mean);
+        EXPECT_FALSE(agrees(1.06 * m.mean - classical.mean, error, 0, 4)) << "a bias of 6 % must be seen";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boundaries, GuidedObject,
+                         testing::Values(Object{"MatchedChromatic", 0, 1, 0, {0.2f, 0.8f, 2}, {12, 10, 8}, true},
+                                         Object{"MatchedForward", 0.8f, 1, 0, {0.2f, 0.4f, 1}, {20, 15, 12}, false},
+                                         Object{"SmoothBackward", -0.5f, 1.4f, 0, {0.3f, 0.6f, 1}, {9, 9, 9}, true},
+                                         Object{
+                                             "RoughForward", 0.8f, 1.4f, 0.3f, {0.2f, 0.5f, 1}, {20, 15, 12}, false}),
+                         [](const auto& object) { return std::string(object.param.name); });
+
+TEST(GuidedObject, MayBeOpenOrInsideOut) {
+    for (const bool open : {true, false}) {
+        SceneDescription s;
+        const MediumId medium = test::add_homogeneous(s, Rgb(0.2f), Rgb(10.0f));
+        const int boundary = test::add_interface(s);
+        // Without its far sides; or with the medium on the wrong side of two.
+        test::add_parallelogram(s, {-1, -1, -1}, {0, 2, 0}, {2, 0, 0}, boundary, medium);
+        test::add_parallelogram(s, {-1, -1, -1}, {0, 0, 2}, {0, 2, 0}, boundary, medium);
+        test::add_parallelogram(s, {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, boundary, medium);
+        if (!open) {
+            test::add_parallelogram(s, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, boundary, medium);
+            test::add_parallelogram(s, {1, -1, -1}, {0, 0, 2}, {0, 2, 0}, boundary, medium);
+        }
+        test::add_environment(s, Rgb(1.0f));
+        const Scene scene(std::move(s));
+        const Ray ray{{0.2f, 0.1f, -4}, {0, 0, 1}};
+        const Measured m = test::measure_radiance(scene, ray, 20000, 1000, 1, parse_subsurface("auto"));
+        EXPECT_GT(m.mean, 0.1);
+        EXPECT_TRUE(std::isfinite(m.mean));
+    }
+}
+
+TEST(Subsurface, AThinFogIsLeftAlone) {
+    SceneDescription s;
+    const MediumId fog = test::add_homogeneous(s, Rgb(0.1f), Rgb(0.6f));
+    test::add_box(s, Box3(Vec3(-1), Vec3(1)), test::add_interface(s), fog);
+    test::add_environment(s, Rgb(1.0f));
+    const Scene scene(std::move(s));
+    const Ray ray{{0.2f, 0.1f, -4}, {0, 0, 1}};
+    const auto strategies = parse_subsurface("auto");
+    EXPECT_EQ(test::measure_radiance(scene, ray, 1000).mean,
+              test::measure_radiance(scene, ray, 1000, 100000, 1, strategies).mean);
+}
+
+TEST(Subsurface, NamesAreParsedAndOthersExplained) {
+    EXPECT_TRUE(parse_subsurface("classical").is_classical());
+    for (const char* name : guided) {
+        EXPECT_FALSE(parse_subsurface(name).is_classical());
+        EXPECT_EQ(to_string(parse_subsurface(name)), name);
+    }
+    const auto message = [](const char* name) -> std::string {
+        try {
+            parse_subsurface(name);
+        } catch (const std::exception& e) {
+            return e.what();
+        }
+        return {};
+    };
+    EXPECT_NE(message("planar").find("not built"), std::string::npos);
+    EXPECT_NE(message("planar").find("incident"), std::string::npos);
+    EXPECT_NE(message("dwivedy").find("unknown"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wend
