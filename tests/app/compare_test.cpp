@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -61,6 +63,26 @@ TEST_F(Compare, TakesThePairBesideTheScene) {
     const auto result = compare({"--sampling", "classical"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err.find("two halves"), std::string::npos) << result.err;
+}
+
+TEST_F(Compare, NamesAHalfThatIsAlone) {
+    const auto none = compare({"--sampling", "classical"});
+    ASSERT_EQ(none.status, 0) << none.err;
+    EXPECT_NE(none.err.find("no room.ref-a.exr beside the scene"), std::string::npos) << none.err;
+    EXPECT_EQ(none.err.find("without"), std::string::npos) << none.err;
+
+    for (const auto& [there, absent] :
+         {std::pair("room.ref-a.exr", "room.ref-b.exr"), std::pair("room.ref-b.exr", "room.ref-a.exr")}) {
+        const std::string what = std::string(there) + " without " + absent;
+        ASSERT_EQ(run_wend({"render", scene_, "-o", folder_.file(there), "--spp", "1"}).status, 0);
+        const auto result = compare({"--sampling", "classical"});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_NE(result.err.find(what + " beside the scene: rendering"), std::string::npos) << result.err;
+        const auto asked = compare({"--sampling", "classical", "--reference", folder_.file("room")});
+        EXPECT_EQ(asked.status, 2);
+        EXPECT_NE(asked.err.find(what), std::string::npos) << asked.err;
+        std::filesystem::remove(folder_.path() / there);
+    }
 }
 
 TEST_F(Compare, HalfFloatsAreForExrFiles) {

@@ -59,8 +59,8 @@ Reference make_reference(const Session& session, const CompareOptions& options, 
     const std::filesystem::path name =
         options.folder.empty() ? std::filesystem::path() : std::filesystem::path(options.folder) / scene.stem();
     options.common.note(
-        streams, fmt::format("no {} beside the scene: rendering a reference, two halves of {:g} s each{}",
-                             reference_files(scene.stem()).a.string(), reference_effort * options.seconds,
+        streams, fmt::format("{} beside the scene: rendering a reference, two halves of {:g} s each{}",
+                             what_is_missing(scene.parent_path() / scene.stem()), reference_effort * options.seconds,
                              name.empty() ? " (--out keeps it)" : ", for --reference " + name.string() + " next time"));
     return render_reference(session, options.seconds, name, options.common, streams);
 }

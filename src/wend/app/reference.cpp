@@ -19,6 +19,16 @@ std::optional<Reference> read_reference_pair(const std::filesystem::path& name) 
     return std::nullopt;
 }
 
+std::string what_is_missing(const std::filesystem::path& name) {
+    const auto [a, b] = reference_files(name);
+    const std::string a_name = a.filename().string();
+    const std::string b_name = b.filename().string();
+    if (std::filesystem::exists(a)) {
+        return a_name + " without " + b_name;
+    }
+    return std::filesystem::exists(b) ? b_name + " without " + a_name : "no " + a_name;
+}
+
 Reference read_reference(const std::filesystem::path& name) {
     if (std::optional<Reference> pair = read_reference_pair(name)) {
         return *std::move(pair);
@@ -27,9 +37,7 @@ Reference read_reference(const std::filesystem::path& name) {
         const Image image = read_image(name);
         return {image, image};
     }
-    const auto [a, b] = reference_files(name);
-    throw InputError(name.string() + ": no such reference: neither the pair " + a.filename().string() + ", " +
-                     b.filename().string() + " nor a picture of this name");
+    throw InputError(name.string() + ": no such reference: " + what_is_missing(name) + ", and no picture of this name");
 }
 
 }  // namespace wend
