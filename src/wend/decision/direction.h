@@ -90,7 +90,7 @@ public:
         Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share)
             : f_(f), adjoint_(adjoint), classical_share_(classical_share) {
             if (adjoint) {
-                product_.emplace(InPlace([&] { return adjoint->incident(position).product(f.lobes()); }));
+                product_.emplace(InPlace{*adjoint, position, f});
             }
         }
 
@@ -135,12 +135,12 @@ public:
             return classical_share_ * classical + (1 - classical_share_) * guided;
         }
 
-        /// Becomes what a function returns where it is needed: a product is large, and is not copied on its way.
-        template <class Make>
+        /// Becomes the product where it is needed: that is large, and is not copied on its way.
         struct InPlace {
-            Make make;
-            explicit InPlace(Make m) : make(std::move(m)) {}
-            operator Product() const { return make(); }
+            const LocalAdjoint& adjoint;
+            const Vec3& position;
+            const F& f;
+            operator Product() const { return adjoint.incident(position).product(f.lobes()); }
         };
 
         const F& f_;

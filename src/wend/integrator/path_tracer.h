@@ -54,6 +54,9 @@ struct GuidedDecisions {
     GuidedDirection<Field> direction;
     Survival survival;
 };
+// C++20 deduces this by itself, but clang only from version 17 on.
+template <class Field, class Distance, class Survival>
+GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<Field, Distance, Survival>;
 
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
 template <class Decisions>
