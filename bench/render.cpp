@@ -51,7 +51,8 @@ void rays(benchmark::State& state, const char* name) {
 void walks(benchmark::State& state, const char* name) {
     const Loaded& loaded = scene_named(name);
     const ClassicalDecisions decisions;
-    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, loaded.max_depth);
+    const SubsurfaceGuides unguided;
+    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, loaded.max_depth);
     std::uint32_t i = 0;
     std::uint64_t segments = 0;
     for (auto _ : state) {
