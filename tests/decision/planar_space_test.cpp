@@ -26,7 +26,10 @@ TEST(PlanarSpace, DirectionsFollowBoostTimesPhaseFunction) {
         Vec3 before;
     } cases[] = {{0.0, Vec3(1, 0, 0)}, {0.7, normalize(Vec3(1, 2, -1))}, {-0.5, inward}, {0.5, -inward}};
     int number = 0;
-    for (const auto& [g, before] : cases) {
+    for (const auto& arrival : cases) {
+        // Lambdas capture these, as clang 14 does not let them capture a structured binding.
+        const double g = arrival.g;
+        const Vec3 before = arrival.before;
         const ModalDirection decision(adjoint, g);
         const HenyeyGreenstein phase{static_cast<float>(g)};
         const double depth = 0.3;
