@@ -1,3 +1,4 @@
+#include <tests/guide/mixtures.h>
 #include <tests/guide/sphere_integral.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/guide/product.h>
@@ -12,24 +13,8 @@ namespace wend::guide {
 namespace {
 
 using test::integrate_sphere;
-
-VmfMixture three_lobes() {
-    const std::array<WeightedVmf, 3> lobes = {{{2.0f, {normalize(Vec3(1, 2, 3)), 20}},
-                                               {1.0f, {normalize(Vec3(-3, 1, 0)), 4}},
-                                               {0.5f, {normalize(Vec3(0, -1, -1)), 0.3f}}}};
-    return VmfMixture(lobes);
-}
-
-/// As many lobes as there can be, pseudo-random.
-VmfMixture many_lobes(std::uint64_t seed, float largest_kappa) {
-    Pcg32 random(seed);
-    std::vector<WeightedVmf> lobes;
-    for (int i = 0; i < max_lobes; ++i) {
-        const Vec3 mean = Vmf{}.sample(random.uniform2());
-        lobes.push_back({random.uniform(), {mean, largest_kappa * random.uniform()}});
-    }
-    return VmfMixture(lobes);
-}
+using test::many_lobes;
+using test::three_lobes;
 
 TEST(VmfMixture, StartsUniform) {
     EXPECT_FLOAT_EQ(VmfMixture().density({0, 1, 0}), inv_4pi);
@@ -37,7 +22,7 @@ TEST(VmfMixture, StartsUniform) {
 }
 
 TEST(VmfMixture, IntegratesToOne) {
-    EXPECT_NEAR(integrate_sphere([m = three_lobes()](const Vec3& w) { return m.density(w); }), 1, 1e-4);
+    EXPECT_NEAR(integrate_sphere([m = three_lobes(0.3f)](const Vec3& w) { return m.density(w); }), 1, 1e-4);
     EXPECT_NEAR(integrate_sphere([m = many_lobes(1, 80)](const Vec3& w) { return m.density(w); }), 1, 2e-4);
 }
 
@@ -63,12 +48,12 @@ TEST(VmfMixture, SamplesFollowTheDensity) {
                                     [&](const Vec3& w) { return mixture.density(w); }, options),
             "mixture", 3);
     };
-    EXPECT_TRUE(follows(three_lobes(), 1));
+    EXPECT_TRUE(follows(three_lobes(0.3f), 1));
     EXPECT_TRUE(follows(many_lobes(4, 40), 2));
 }
 
 TEST(VmfMixture, AMixtureThatIsSlightlyOffIsRejected) {
-    const VmfMixture mixture = three_lobes();
+    const VmfMixture mixture = three_lobes(0.3f);
     const MixtureProduct wrong =
         mixture.product(AxialLobes(std::array{AxialLobe{1, 0.1f}}).around(normalize(Vec3(1, 0, 1))));
     const auto test = test::chi_square_sphere([&](Vec2 u) { return mixture.sample(u); },

@@ -1,3 +1,4 @@
+#include <tests/guide/mixtures.h>
 #include <tests/guide/sphere_integral.h>
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
@@ -15,26 +16,10 @@ namespace wend::guide {
 namespace {
 
 using test::integrate_sphere;
+using test::many_lobes;
+using test::three_lobes;
 
 const Vec3 axis = normalize(Vec3(1, -1, 0.5f));
-
-VmfMixture three_lobes() {
-    const std::array<WeightedVmf, 3> lobes = {{{2.0f, {normalize(Vec3(1, 2, 3)), 20}},
-                                               {1.0f, {normalize(Vec3(-3, 1, 0)), 4}},
-                                               {0.5f, {normalize(Vec3(0, -1, -1)), 0}}}};
-    return VmfMixture(lobes);
-}
-
-/// As many lobes as there can be, pseudo-random.
-VmfMixture many_lobes(std::uint64_t seed, float largest_kappa) {
-    Pcg32 random(seed);
-    std::vector<WeightedVmf> lobes;
-    for (int i = 0; i < max_lobes; ++i) {
-        const Vec3 mean = Vmf{}.sample(random.uniform2());
-        lobes.push_back({random.uniform(), {mean, largest_kappa * random.uniform()}});
-    }
-    return VmfMixture(lobes);
-}
 
 VmfMixture one_lobe(const Vmf& vmf) {
     return VmfMixture(std::array{WeightedVmf{1, vmf}});
@@ -68,7 +53,7 @@ const std::vector<AxialLobes> all_lobes = {AxialLobes(),
 
 TEST(MixtureProduct, IsThePointwiseProductOverItsIntegral) {
     for (const AxialLobes& lobes : all_lobes) {
-        for (const VmfMixture& mixture : {VmfMixture(), three_lobes(), many_lobes(5, 30)}) {
+        for (const VmfMixture& mixture : {VmfMixture(), three_lobes(0), many_lobes(5, 30)}) {
             const MixtureProduct product = mixture.product(lobes);
             const double integral =
                 integrate_sphere([&](const Vec3& w) { return mixture.density(w) * lobes.density(w); }, 600);
@@ -97,7 +82,7 @@ test::SphereTest sample_test(const MixtureProduct& product, const test::Directio
 TEST(MixtureProduct, SamplesFollowTheDensity) {
     int round = 0;
     for (const AxialLobes& lobes : all_lobes) {
-        for (const VmfMixture& mixture : {three_lobes(), many_lobes(4, 40)}) {
+        for (const VmfMixture& mixture : {three_lobes(0), many_lobes(4, 40)}) {
             const MixtureProduct product = mixture.product(lobes);
             EXPECT_TRUE(test::follows_density(sample_test(product, [&](const Vec3& w) { return product.density(w); }),
                                               "mixture_product_" + std::to_string(round++), 20));
@@ -113,13 +98,13 @@ TEST(MixtureProduct, ASlightlyOtherPhaseFunctionIsRejected) {
 }
 
 TEST(MixtureProduct, ASampleOfOneFactorIsRejected) {
-    const VmfMixture mixture = three_lobes();
+    const VmfMixture mixture = three_lobes(0);
     const MixtureProduct product = mixture.product(two_lobed());
     EXPECT_LT(sample_test(product, [&](const Vec3& w) { return mixture.density(w); }).result.p_value, test::failing);
 }
 
 TEST(MixtureProduct, WithTheUniformLobeIsTheMixture) {
-    const VmfMixture mixture = three_lobes();
+    const VmfMixture mixture = three_lobes(0);
     const MixtureProduct product = mixture.product(AxialLobes());
     EXPECT_NEAR(product.integral(), inv_4pi, 1e-6 * inv_4pi);
     Pcg32 random(1);

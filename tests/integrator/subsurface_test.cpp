@@ -1,14 +1,12 @@
 // Guided walks inside dense media against known values and classical walks.
-#include <tests/support/paths.h>
 #include <tests/support/scenes.h>
+#include <tests/support/slab_references.h>
 
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 namespace wend {
 namespace {
@@ -72,27 +70,20 @@ INSTANTIATE_TEST_SUITE_P(Media, GuidedSlab,
                          [](const auto& block) { return std::string(block.param.name); });
 
 TEST(GuidedSlab, MatchesTheReferenceTable) {
-    std::ifstream file(test::shared_dir() / "references" / "slab_reference.csv");
-    if (!file) {
+    const std::vector<test::SlabReference> references = test::slab_references();
+    if (references.empty()) {
         GTEST_SKIP() << "the reference values are not beside the checkout";
     }
-    std::string line;
-    std::getline(file, line);
     int rows = 0;
-    while (std::getline(file, line)) {
-        std::istringstream in(line);
-        std::string cell[6];
-        for (std::string& c : cell) {
-            std::getline(in, c, ',');
-        }
-        if (cell[2] != "normal-beam" || std::stof(cell[1]) < 4) {
+    for (const test::SlabReference& row : references) {
+        if (!row.is_normal_beam() || row.thickness < 4) {
             continue;
         }
-        const Block k{"csv", std::stof(cell[0]), std::stof(cell[1]), 0, 1, std::stod(cell[4])};
+        const Block k{"csv", static_cast<float>(row.albedo), static_cast<float>(row.thickness), 0, 1, row.reflectance};
         const Measured m = reflected(k, "auto", 150000);
         EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
-            << line << ": " << m.mean << " +- " << m.standard_error;
-        EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << line;
+            << row.text << ": " << m.mean << " +- " << m.standard_error;
+        EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << row.text;
         ++rows;
     }
     EXPECT_GT(rows, 0);

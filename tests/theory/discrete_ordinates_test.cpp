@@ -1,5 +1,5 @@
 #include <tests/sampling/verdicts.h>
-#include <tests/support/paths.h>
+#include <tests/support/slab_references.h>
 #include <tests/theory/planar_problems.h>
 #include <wend/core/random.h>
 #include <wend/medium/averaged_phase.h>
@@ -12,11 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -170,35 +168,19 @@ TEST(DiscreteOrdinates, AgreeWithVanDeHulstsTables) {
 }
 
 TEST(DiscreteOrdinates, AgreeWithTheSlabReferences) {
-    const auto path = shared_dir() / "references" / "slab_reference.csv";
-    std::ifstream file(path);
-    if (!file) {
-        GTEST_SKIP() << path << " is absent";
+    const std::vector<SlabReference> references = slab_references();
+    if (references.empty()) {
+        GTEST_SKIP() << "the table of slab references is not here";
     }
-    std::string line;
-    std::getline(file, line);
-    int rows = 0;
-    while (std::getline(file, line)) {
-        std::vector<std::string> field;
-        std::istringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            field.push_back(cell);
-        }
-        ASSERT_GE(field.size(), 5u);
-        const double albedo = std::stod(field[0]), thickness = std::stod(field[1]);
+    EXPECT_GT(references.size(), 30u);
+    for (const SlabReference& row : references) {
         const auto see = [&](Lit lit) {
-            const PlanarAdjoint adjoint = solved(planar_problem(albedo, 0, thickness, 48, lit));
-            if (field[2] == "cosine-current") {
-                return diffuse_mean([&](double mu0) { return seen(adjoint, mu0); });
-            }
-            return seen(adjoint, field[2] == "normal-beam" ? 1 : 0.5);
+            const PlanarAdjoint adjoint = solved(planar_problem(row.albedo, 0, row.thickness, 48, lit));
+            return row.mu0 ? seen(adjoint, *row.mu0) : diffuse_mean([&](double mu0) { return seen(adjoint, mu0); });
         };
-        const double transmittance = std::stod(field[3]), reflectance = std::stod(field[4]);
-        EXPECT_NEAR(see(from_far), transmittance, 1e-9 * transmittance) << line;
-        EXPECT_NEAR(see(from_near), reflectance, 1e-9 * reflectance) << line;
-        ++rows;
+        EXPECT_NEAR(see(from_far), row.transmittance, 1e-9 * row.transmittance) << row.text;
+        EXPECT_NEAR(see(from_near), row.reflectance, 1e-9 * row.reflectance) << row.text;
     }
-    EXPECT_GT(rows, 30);
 }
 
 TEST(DiscreteOrdinates, HaveTheDiscreteEigenvalue) {
