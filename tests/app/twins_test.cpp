@@ -138,7 +138,7 @@ TEST_P(Twins, GuidedAndClassicalAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Twins,
-                         testing::Values(Twin{"haze", 64, {}},
+                         testing::Values(Twin{"haze", 96, {}},
                                          Twin{"cloud",
                                               64,
                                               {{"\"float radius\" [ 0.25 ]", "\"float radius\" [ 2.5 ]"},

@@ -163,9 +163,9 @@ Action add_render_command(CLI::App& program) {
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
     samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
     seconds->check(seconds_problem)->excludes(passes);
-    command.add_option("--sampling", options->sampling,
-                       "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() +
-                           " (default: full)");
+    command.add_option(
+        "--sampling", options->sampling,
+        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: full)");
     command
         .add_option("--subsurface", options->subsurface, "walks inside dense homogeneous media: " + subsurface_names())
         ->capture_default_str();
