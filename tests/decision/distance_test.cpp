@@ -92,6 +92,15 @@ double p_value_of_distances(const Medium& medium, double scale) {
     return chi_square_test(observed, expected).p_value;
 }
 
+TEST(Flight, LosesNoLightThatCameFromNoDistance) {
+    Flight flight;
+    pick_up(flight, Rgb(0.0f), 0);
+    pick_up(flight, Rgb(2.0f), 0);
+    pick_up(flight, Rgb(2.0f), 4);
+    EXPECT_EQ(flight.emitted, Rgb(4.0f));
+    EXPECT_EQ(flight.glow, 0.5f);
+}
+
 TEST(ClassicalDistance, CollisionsInGreyMediaFollowTheExtinction) {
     for (const Medium& medium :
          {homogeneous(Rgb(0.2f), Rgb(0.5f)), homogeneous(Rgb(0), Rgb(3)),

@@ -19,10 +19,12 @@ struct Flight {
     float boost = 1;  ///< density over what classical sampling would have had
 };
 
-/// Adds to a flight what the medium emits at a distance, > 0.
+/// Adds to a flight what the medium emits at a distance.
 inline void pick_up(Flight& flight, const Rgb& emitted, float distance) {
     flight.emitted += emitted;
-    flight.glow += mean_value(emitted) / distance;
+    if (distance > 0) {
+        flight.glow += mean_value(emitted) / distance;
+    }
 }
 
 /// Adds to a flight all that a homogeneous medium emits along its segment: the expected value, which has no variance.

@@ -8,6 +8,7 @@
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace wend {
 
@@ -36,18 +37,20 @@ public:
 
     /// Whether a flight is guided: not once a walk has lost its trust, nor while nothing is known.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
-        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
-        return guidable && start.boost >= least_boost && start.length > 0 && volume_->scattered_light(start.ray.origin);
+        return guide_of(medium, start) != nullptr;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (!looks_ahead(medium, start)) {
+        const Light here = guide_of(medium, start);
+        if (!here) {
             return classical_.sample(medium, start, u, random);
         }
+        // What the guide is not trusted with is added to the classical flights.
+        const float share = 1 - (1 - classical_share_) * here->trust;
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-            return fly(*homogeneous, start, u);
+            return fly(*homogeneous, start, share, u);
         }
-        return fly(std::get<GridMedium>(medium), start, random);
+        return fly(std::get<GridMedium>(medium), start, share, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -60,13 +63,22 @@ private:
     /// (docs/theory/distance.md).
     static constexpr int guided_in_grids = 2;
 
-    Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
+    using Light = decltype(std::declval<const Field&>().scattered_light(Vec3()));
+
+    /// The light where a guided flight begins; null for others.
+    Light guide_of(const Medium& medium, const FlightStart& start) const {
+        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
+        return guidable && start.boost >= least_boost && start.length > 0 ? volume_->scattered_light(start.ray.origin)
+                                                                          : nullptr;
+    }
+
+    Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float share, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
         volume_->walk(start.ray, 0, start.length, [&](const auto& light, float, float t_out) {
             return pieces.add(t_out, light.in_scattered(start.ray.direction, medium.phase));
         });
         pieces.finish(start.length, ahead(start), levels());
-        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share_at(start.ray.origin) : 1.0f, u);
+        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share : 1.0f, u);
         Flight flight;
         flight.scatters = outcome.scatters;
         flight.distance = outcome.distance;
@@ -78,18 +90,13 @@ private:
         return flight;
     }
 
-    Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
-        GuidedTracking tracking(medium, start, share_at(start.ray.origin));
+    Flight fly(const GridMedium& medium, const FlightStart& start, float share, Pcg32& random) const {
+        GuidedTracking tracking(medium, start, share);
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;
         });
         return tracking.fly(ahead(start), levels(), random);
-    }
-
-    /// The share of classical flights: what the guide is not trusted with is added to it.
-    float share_at(const Vec3& origin) const {
-        return 1 - (1 - classical_share_) * volume_->scattered_light(origin)->trust;
     }
 
     bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }

@@ -68,7 +68,7 @@ private:
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
             const Flight flight = fly(medium, length, hit);
-            if (flight.glow > 0) {
+            if (!is_black(flight.emitted)) {
                 glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
             }
             weigh(flight.weight);
@@ -113,8 +113,7 @@ private:
                 told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
         }
-        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}};
-        start.depth = now_.depth;
+        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}, now_.depth};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(hit);
         }
