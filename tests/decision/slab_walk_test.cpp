@@ -102,7 +102,7 @@ Estimates estimate(const SlabGuide& guide, float bias = 1) {
         Vec3 before = arrival;
         Rgb weight(1.0f);
         float shape = 1;
-        const SlabFlight first = walk.fly(0.8f, random.uniform());
+        const SlabFlight first = walk.fly(0.8f, random.uniform(), random);
         weight *= first.flight.weight;
         if (first.flight.scatters) {
             walk.aim(1, first_normal, 1);
@@ -112,7 +112,7 @@ Estimates estimate(const SlabGuide& guide, float bias = 1) {
             weight *= s->weight() * bias;
             shape = 1 + dot(s->direction, second_normal);
             walk.turn(before, s->direction);
-            const SlabFlight second = walk.fly(0.5f, random.uniform());
+            const SlabFlight second = walk.fly(0.5f, random.uniform(), random);
             weight *= second.flight.weight;
             e.relative.add(walk.relative_density(2));
             for (std::size_t c = 0; c < 3; ++c) {
@@ -164,7 +164,7 @@ TEST(SlabWalk, NoWeightExceedsTheClassicalOneOverItsShare) {
         SlabWalk walk = begin(guide);
         Vec3 before = arrival;
         for (int step = 0; step < 50; ++step) {
-            walk.fly(infinity, random.uniform());
+            walk.fly(infinity, random.uniform(), random);
             const SlabWalk::Directions directions(walk, before, random);
             const float u = random.uniform();
             const Vec3 w = directions.sample(u, random.uniform2())->direction;

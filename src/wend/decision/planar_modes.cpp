@@ -80,9 +80,8 @@ double ModalFlight::boost(const Site& from, double mu, const PlanarFlight& outco
 namespace {
 
 // Resolution of the tables: isotropic scattering forgets the cosine before, and can afford more rows in depth.
-constexpr int isotropic_depth_rows = 257;
-constexpr int anisotropic_depth_rows = 65;
-constexpr int anisotropic_cosine_rows = 129;
+constexpr ModalDirection::Resolution isotropic_rows{257, 1};
+constexpr ModalDirection::Resolution anisotropic_rows{65, 129};
 constexpr int cells = 64;
 constexpr int resolution = 192;
 /// Of the largest radiance at a depth: no direction is given up on.
@@ -105,17 +104,20 @@ std::vector<double> radiance_breaks(const PlanarSlab& slab) {
 
 }  // namespace
 
-ModalDirection::ModalDirection(double thickness, int depth_rows, std::vector<double> breaks, double g)
+ModalDirection::ModalDirection(double thickness, const Resolution& rows, std::vector<double> breaks, double g)
     : g_(g),
       thickness_(thickness),
-      depth_rows_(depth_rows),
-      cosine_rows_(g == 0 ? 1 : anisotropic_cosine_rows),
+      depth_rows_(rows.depths),
+      cosine_rows_(rows.cosines),
       table_(std::move(breaks), cells, depth_rows_ * cosine_rows_) {
 }
 
 ModalDirection::ModalDirection(const PlanarAdjoint& adjoint, double g)
-    : ModalDirection(adjoint.slab().thickness, g == 0 ? isotropic_depth_rows : anisotropic_depth_rows,
-                     radiance_breaks(adjoint.slab()), g) {
+    : ModalDirection(adjoint, g, g == 0 ? isotropic_rows : anisotropic_rows) {
+}
+
+ModalDirection::ModalDirection(const PlanarAdjoint& adjoint, double g, const Resolution& rows)
+    : ModalDirection(adjoint.slab().thickness, rows, radiance_breaks(adjoint.slab()), g) {
     // The last row of a half-space stands for all that lies deeper, where the longest mode alone is left.
     double deepest = 0;
     for (int k = 0; k < adjoint.modes(); ++k) {
@@ -129,7 +131,8 @@ ModalDirection::ModalDirection(const PlanarAdjoint& adjoint, double g)
 }
 
 ModalDirection::ModalDirection(const std::function<double(double)>& radiance, double g)
-    : ModalDirection(std::numeric_limits<double>::infinity(), 2, {-1, 0, 1}, g) {
+    : ModalDirection(std::numeric_limits<double>::infinity(), {2, g == 0 ? 1 : anisotropic_rows.cosines}, {-1, 0, 1},
+                     g) {
     fill([&](double /*depth*/) { return radiance; });
 }
 

@@ -39,8 +39,14 @@ private:
 /// tables of quantile functions over depth and, unless scattering is isotropic, over the cosine before.
 class ModalDirection {
 public:
+    /// Rows of the tables: by depth, and by the cosine before; one of these where scattering is isotropic.
+    struct Resolution {
+        int depths, cosines;
+    };
+
     /// For the radiance of an adjoint.
     ModalDirection(const PlanarAdjoint& adjoint, double g);
+    ModalDirection(const PlanarAdjoint& adjoint, double g, const Resolution& rows);
 
     /// For a radiance by cosine that is the same at every depth.
     ModalDirection(const std::function<double(double)>& radiance, double g);
@@ -49,7 +55,7 @@ public:
     double boost(double depth, double before, double after) const;
 
 private:
-    ModalDirection(double thickness, int depth_rows, std::vector<double> breaks, double g);
+    ModalDirection(double thickness, const Resolution& rows, std::vector<double> breaks, double g);
     template <class Radiance>
     void fill(const Radiance& radiance);
     QuantileTable::Blend blend(double depth, double before) const;

@@ -1,6 +1,7 @@
 // What walks in one dense medium know about it beforehand.
 #pragma once
 
+#include <wend/decision/layer_guide.h>
 #include <wend/decision/slab_mode.h>
 #include <wend/medium/medium.h>
 
@@ -14,15 +15,20 @@ namespace wend {
 /// Ways to guide a walk in a dense homogeneous medium. Each aims at an outward normal of its own, chosen by the
 /// integrator, and is mixed with classical sampling.
 struct SlabGuide {
-    static constexpr int most_strategies = 3;
+    static constexpr int most_strategies = 5;
+
+    /// Probability of classical sampling, then of each strategy; their sum is 1, and the first is above 0.
+    using Shares = std::array<float, 1 + most_strategies>;
 
     HomogeneousMedium medium;
     /// Modes that decay ever faster, the first not at all and the last as the medium's own; for one channel where all
     /// channels are alike, or for three.
     std::vector<std::vector<SlabMode>> modes;
     int strategies = 0;
-    /// Probability of classical sampling, then of each strategy; their sum is 1, and the first is above 0.
-    std::array<float, 1 + most_strategies> share{1};
+    /// By channel like the modes, for one strategy that follows them in place of a mode; empty if there is none.
+    std::vector<LayerGuide> layers;
+    int layered = -1;  ///< that strategy
+    Shares share{1};  ///< where no others are given
 
     int channels() const { return static_cast<int>(modes.size()); }
     /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.

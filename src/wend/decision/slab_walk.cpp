@@ -10,7 +10,7 @@ namespace wend {
 namespace {
 
 /// Below this share of what it was expected to bring a walk is up for roulette.
-constexpr float least_expectation = 0.3f;
+constexpr float least_expectation = 0.1f;
 /// No walk of so little throughput is still where a strategy that is right would have it.
 constexpr float least_throughput = 1e-3f;
 
@@ -20,21 +20,33 @@ float extinction_of(const SlabGuide& guide, int channel) {
 
 }  // namespace
 
-void SlabWalk::enter(const SlabGuide& guide, const Rgb& channels) {
+void SlabWalk::enter(const SlabGuide& guide, const Rgb& channels, const SlabGuide::Shares& shares) {
     guide_ = &guide;
+    is_inside_ = true;
     survived_ = 1;
+    slots_ = 0;
+    layered_ = -1;
+    share_[0] = shares[0];
+    for (int s = 0; s < guide.strategies; ++s) {
+        const float share = shares[static_cast<std::size_t>(1 + s)];
+        if (share > 0) {
+            layered_ = s == guide.layered ? slots_ : layered_;
+            strategy_[static_cast<std::size_t>(slots_++)] = s;
+            share_[static_cast<std::size_t>(slots_)] = share;
+        }
+    }
     const int count = guide.channels();
-    for (int s = 0; s <= guide.strategies; ++s) {
+    for (int s = 0; s <= slots_; ++s) {
         for (int c = 0; c < count; ++c) {
             posterior_[static_cast<std::size_t>(s * count + c)] =
-                guide.share[static_cast<std::size_t>(s)] * (count == 1 ? 1.0f : channels[c]);
+                share_[static_cast<std::size_t>(s)] * (count == 1 ? 1.0f : channels[c]);
         }
     }
 }
 
-void SlabWalk::aim(int strategy, const Vec3& normal, float steepness) {
-    normal_[static_cast<std::size_t>(strategy)] = normal;
-    level_[static_cast<std::size_t>(strategy)] = guide_->level(steepness);
+void SlabWalk::aim(int slot, const Vec3& normal, float steepness) {
+    normal_[static_cast<std::size_t>(slot)] = normal;
+    level_[static_cast<std::size_t>(slot)] = guide_->level(steepness);
 }
 
 void SlabWalk::head(const Vec3& w) {
@@ -42,16 +54,29 @@ void SlabWalk::head(const Vec3& w) {
     for (int c = 0; c < guide_->channels(); ++c) {
         rate_[static_cast<std::size_t>(c)] = extinction_of(*guide_, c);
     }
-    for_guided([&](std::size_t i, int s, int c) {
+    for_modes([&](std::size_t i, int s, int c) {
         rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
     });
+    heading_ = w;
+    for_layers([&](std::size_t, int c) { expected_[static_cast<std::size_t>(c)] = layers(c).radiance(place_, w, 0); });
+}
+
+float SlabWalk::layered_flight(int channel, float length, bool collides) const {
+    const double rate = extinction_of(*guide_, channel);
+    const double beyond = collides ? rate * layers(channel).source(place_, heading_, length)
+                                   : layers(channel).radiance(place_, heading_, length);
+    const double expected = expected_[static_cast<std::size_t>(channel)];
+    return static_cast<float>(std::exp(-rate * static_cast<double>(length)) * beyond / expected);
 }
 
 SlabWalk::Directions::Directions(const SlabWalk& walk, const Vec3& before, Pcg32& random)
     : walk_(walk), before_(before), random_(random) {
     relative_ = walk.posterior_;
-    walk.for_guided([&](std::size_t i, int s, int c) {
+    walk.for_modes([&](std::size_t i, int s, int c) {
         relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
+    });
+    walk.for_layers([&](std::size_t, int c) {
+        layered_[static_cast<std::size_t>(c)] = LayerGuide::Directions(walk.layers(c), walk.place_, before);
     });
 }
 
@@ -60,10 +85,14 @@ float SlabWalk::Directions::density(const Vec3& w) const {
     for (int c = 0; c < walk_.guide_->channels(); ++c) {
         boost += relative_[static_cast<std::size_t>(c)];
     }
-    walk_.for_guided([&](std::size_t i, int s, int c) {
+    walk_.for_modes([&](std::size_t i, int s, int c) {
         boost += relative_[i] * walk_.mode(s, c).radiance(dot(w, walk_.normal_[static_cast<std::size_t>(s)]));
     });
-    return boost * walk_.guide_->medium.phase.evaluate(dot(before_, w));
+    float density = boost * walk_.guide_->medium.phase.evaluate(dot(before_, w));
+    walk_.for_layers([&](std::size_t i, int c) {
+        density += relative_[i] * static_cast<float>(layered_[static_cast<std::size_t>(c)].density(w));
+    });
+    return density;
 }
 
 std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2& u2) const {
@@ -74,9 +103,12 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
     if (technique < channels) {
         w = phase.sample(before_, u2);
     } else {
-        const std::size_t strategy = technique / channels - 1;
-        w = walk_.mode(static_cast<int>(strategy), static_cast<int>(technique % channels))
-                .sample(phase, before_, walk_.normal_[strategy], random_);
+        const std::size_t slot = technique / channels - 1;
+        const std::size_t channel = technique % channels;
+        w = walk_.is_layered(static_cast<int>(slot))
+                ? layered_[channel].sample(random_)
+                : walk_.mode(static_cast<int>(slot), static_cast<int>(channel))
+                      .sample(phase, before_, walk_.normal_[slot], random_);
     }
     DirectionSample s;
     s.direction = w;
@@ -91,10 +123,15 @@ void SlabWalk::turn(const Vec3& before, const Vec3& w) {
     for (int c = 0; c < guide_->channels(); ++c) {
         total += posterior_[static_cast<std::size_t>(c)];
     }
-    for_guided([&](std::size_t i, int s, int c) {
+    for_modes([&](std::size_t i, int s, int c) {
         const Vec3& normal = normal_[static_cast<std::size_t>(s)];
         const SlabMode& m = mode(s, c);
         posterior_[i] *= m.radiance(dot(w, normal)) / m.source(dot(before, normal));
+        total += posterior_[i];
+    });
+    const float phase = guide_->medium.phase.evaluate(dot(before, w));
+    for_layers([&](std::size_t i, int c) {
+        posterior_[i] *= static_cast<float>(LayerGuide::Directions(layers(c), place_, before).density(w)) / phase;
         total += posterior_[i];
     });
     normalize(total);
@@ -114,11 +151,19 @@ void SlabWalk::normalize(float total) {
     }
 }
 
-SlabFlight SlabWalk::fly(float length, float u) {
+SlabFlight SlabWalk::fly(float length, float u, Pcg32& random) {
     const std::size_t technique = choose(u);
+    const int channels = guide_->channels();
+    const int slot = static_cast<int>(technique) / channels - 1;
     SlabFlight result;
     Flight& flight = result.flight;
-    const float t = rate_[technique] > 0 ? to_exponential(u, rate_[technique]) : infinity;
+    float t = infinity;
+    if (slot >= 0 && is_layered(slot)) {
+        t = static_cast<float>(
+            layers(static_cast<int>(technique) % channels).sample_distance(place_, heading_, random));
+    } else if (rate_[technique] > 0) {
+        t = to_exponential(u, rate_[technique]);
+    }
     flight.scatters = t < length;
     if (!flight.scatters) {
         flight.distance = length;
@@ -129,13 +174,7 @@ SlabFlight SlabWalk::fly(float length, float u) {
         return result;
     }
     flight.distance = t;
-    float density = 0;
-    for (int i = 0; i < techniques(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        posterior_[k] *= rate_[k] * std::exp(-rate_[k] * t);
-        density += posterior_[k];
-    }
-    normalize(density);
+    const float density = weigh_flight(t, true);
     flight.weight = density >= std::numeric_limits<float>::min()
                         ? guide_->medium.scattering * transmittance(guide_->medium, t) * (1 / density)
                         : Rgb(0.0f);
@@ -143,30 +182,47 @@ SlabFlight SlabWalk::fly(float length, float u) {
 }
 
 float SlabWalk::pass(float length) {
-    float probability = 0;
-    for (int i = 0; i < techniques(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        posterior_[k] *= std::exp(-rate_[k] * length);
-        probability += posterior_[k];
-    }
-    normalize(probability);
-    return probability;
+    return weigh_flight(length, false);
 }
 
-float SlabWalk::relative_density(int technique) const {
+float SlabWalk::weigh_flight(float length, bool collides) {
+    const auto weigh = [&](std::size_t i) {
+        posterior_[i] *= std::exp(-rate_[i] * length) * (collides ? rate_[i] : 1.0f);
+    };
+    for (int c = 0; c < guide_->channels(); ++c) {
+        weigh(static_cast<std::size_t>(c));
+    }
+    for_modes([&](std::size_t i, int, int) { weigh(i); });
+    for_layers([&](std::size_t i, int c) { posterior_[i] *= layered_flight(c, length, collides); });
+    float total = 0;
+    for (int i = 0; i < techniques(); ++i) {
+        total += posterior_[static_cast<std::size_t>(i)];
+    }
+    normalize(total);
+    return total;
+}
+
+float SlabWalk::relative_density(int group) const {
     float sum = 0;
     for (int c = 0; c < guide_->channels(); ++c) {
-        sum += posterior_[static_cast<std::size_t>(technique * guide_->channels() + c)];
+        sum += posterior_[static_cast<std::size_t>(group * guide_->channels() + c)];
     }
-    const float share = guide_->share[static_cast<std::size_t>(technique)];
-    return share > 0 ? sum / share : 0.0f;
+    return sum / share_[static_cast<std::size_t>(group)];
+}
+
+SlabGuide::Shares SlabWalk::relative_densities() const {
+    SlabGuide::Shares result{relative_density(0)};
+    for (int s = 0; s < slots_; ++s) {
+        result[static_cast<std::size_t>(1 + strategy(s))] = relative_density(1 + s);
+    }
+    return result;
 }
 
 float SlabWalk::survival(float throughput) {
     // Under a strategy that is right, density times what is to be expected is the same everywhere: so its density over
     // that of the mixture is what the walk may yet bring, over what it might have brought when it entered.
     float expected = 0;
-    for (int s = 1; s <= guide_->strategies; ++s) {
+    for (int s = 1; s <= slots_; ++s) {
         expected = std::max(expected, relative_density(s));
     }
     expected = std::min(expected / survived_, throughput / least_throughput);

@@ -25,15 +25,25 @@ struct SlabFlight {
 /// that splits copies it.
 class SlabWalk {
 public:
-    bool is_inside() const { return guide_ != nullptr; }
-    const SlabGuide* guide() const { return guide_; }
+    bool is_inside() const { return is_inside_; }
+    /// Of the stay; null outside.
+    const SlabGuide* guide() const { return is_inside_ ? guide_ : nullptr; }
 
     /// Begins a stay; `channels` are the probabilities of the walk's colour channels. The guide is referred to.
-    void enter(const SlabGuide& guide, const Rgb& channels);
-    void leave() { guide_ = nullptr; }
+    /// Strategies without a share cost nothing: slots hold the others, in their order.
+    void enter(const SlabGuide& guide, const Rgb& channels, const SlabGuide::Shares& shares);
+    void enter(const SlabGuide& guide, const Rgb& channels) { enter(guide, channels, guide.share); }
+    void leave() { is_inside_ = false; }
 
-    /// The outward normal of a strategy, from now on, and the decay along it relative to the medium's own, in [0, 1].
-    void aim(int strategy, const Vec3& normal, float steepness = 1);
+    int slots() const { return slots_; }
+    /// The strategy in a slot.
+    int strategy(int slot) const { return strategy_[static_cast<std::size_t>(slot)]; }
+    /// The outward normal of a slot's strategy, from now on, and the decay along it relative to the medium's own, in
+    /// [0, 1].
+    void aim(int slot, const Vec3& normal, float steepness = 1);
+    /// Whether a slot's strategy follows layers, and where the walk is in them from now on.
+    bool is_layered(int slot) const { return slot == layered_; }
+    void aim(const LayerPlace& place) { place_ = place; }
 
     /// Goes on in direction w, which no technique has drawn: at the entry, or where the boundary reflects.
     void head(const Vec3& w);
@@ -51,6 +61,7 @@ public:
         const SlabWalk& walk_;
         Vec3 before_;
         Pcg32& random_;
+        std::array<LayerGuide::Directions, 3> layered_;  // by channel
         std::array<float, 3 * (1 + SlabGuide::most_strategies)> relative_;  // posterior over S(before)
     };
 
@@ -60,7 +71,7 @@ public:
     bool has_turned() const { return has_turned_; }
 
     /// The next flight; u in [0,1).
-    SlabFlight fly(float length, float u);
+    SlabFlight fly(float length, float u, Pcg32& random);
     /// The probability of flying through a segment; the walk goes on behind it.
     float pass(float length);
 
@@ -69,34 +80,63 @@ public:
     /// sooner than classical ones.
     float survival(float throughput);
 
-    /// By technique: probability under it over that under the mixture, of all decisions of the stay.
-    float relative_density(int technique) const;
+    /// Of classical sampling and each strategy: its probability of all decisions of the stay, or of the last one, over
+    /// that of the mixture; 0 without a share.
+    SlabGuide::Shares relative_densities() const;
+    /// The probability with which this stay was to be a classical one.
+    float classical_share() const { return share_[0]; }
 
 private:
     static constexpr int most = 3 * (1 + SlabGuide::most_strategies);
     using Values = std::array<float, most>;
 
-    int techniques() const { return guide_->channels() * (1 + guide_->strategies); }
-    const SlabMode& mode(int strategy, int channel) const {
-        return guide_->mode(channel, level_[static_cast<std::size_t>(strategy)]);
+    int techniques() const { return guide_->channels() * (1 + slots_); }
+    const SlabMode& mode(int slot, int channel) const {
+        return guide_->mode(channel, level_[static_cast<std::size_t>(slot)]);
     }
-    /// Calls f(index, strategy, channel) for all guided techniques.
+    float relative_density(int group) const;
+    /// Calls f(index, slot, channel) for all techniques that follow a mode.
     template <class F>
-    void for_guided(F&& f) const {
+    void for_modes(F&& f) const {
         std::size_t i = static_cast<std::size_t>(guide_->channels());
-        for (int s = 0; s < guide_->strategies; ++s) {
+        for (int s = 0; s < slots_; ++s) {
             for (int c = 0; c < guide_->channels(); ++c, ++i) {
-                f(i, s, c);
+                if (s != layered_) {
+                    f(i, s, c);
+                }
             }
         }
     }
+    /// Calls f(index, channel) for all techniques that follow layers.
+    template <class F>
+    void for_layers(F&& f) const {
+        if (layered_ >= 0) {
+            for (int c = 0; c < guide_->channels(); ++c) {
+                f(static_cast<std::size_t>((1 + layered_) * guide_->channels() + c), c);
+            }
+        }
+    }
+    const LayerGuide& layers(int channel) const { return guide_->layers[static_cast<std::size_t>(channel)]; }
+    /// The probability of a flight of this length through the medium under a technique that follows layers, or its
+    /// density if it `collides` there.
+    float layered_flight(int channel, float length, bool collides) const;
     /// Draws a technique; u becomes a fresh uniform number.
     std::size_t choose(float& u) const;
     void normalize(float total);
+    /// Counts a flight in; returns its probability under the mixture, or density if it `collides` there.
+    float weigh_flight(float length, bool collides);
 
     const SlabGuide* guide_ = nullptr;
-    Values posterior_;  // strategy by strategy, the classical one first; channels within
-    Values rate_;       // of the exponential flight under each technique
+    bool is_inside_ = false;
+    int slots_ = 0;
+    std::array<int, SlabGuide::most_strategies> strategy_;
+    SlabGuide::Shares share_;  // of classical sampling, then slot by slot
+    Values posterior_;         // slot by slot, classical sampling first; channels within
+    Values rate_;                    // of the exponential flight under each technique that has one
+    int layered_ = -1;               // slot of the strategy that follows layers; none if negative
+    LayerPlace place_;
+    Vec3 heading_;                   // of the flight from that place
+    std::array<double, 3> expected_; // by channel, there
     std::array<Vec3, SlabGuide::most_strategies> normal_;
     std::array<int, SlabGuide::most_strategies> level_;
     float survived_ = 1;  // product of the probabilities of survival

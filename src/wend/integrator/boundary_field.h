@@ -1,6 +1,7 @@
 // Where the boundary of a dense medium is, and from where it is lit, seen from inside.
 #pragma once
 
+#include <wend/decision/layer_guide.h>
 #include <wend/scene/boundary_points.h>
 #include <wend/scene/scene.h>
 
@@ -15,15 +16,25 @@ struct SlabAim {
     float steepness = 1;  ///< decay over that of a wide plane, in [0, 1]
 };
 
+/// A point of the boundary with what a walk inside wants to know of it.
+struct LitPoint {
+    BoundaryPoint point;
+    float irradiance = 0;         ///< of light from outside
+    float thickness = 0;          ///< of the object, straight inwards
+    float irradiance_behind = 0;  ///< where that way leaves the object
+};
+
 /// Tables over a grid around an object, made once from points of its boundary. They only guide: an object may be open
 /// or badly oriented.
 class BoundaryField {
 public:
-    /// `irradiance` is what each point gets from outside; `decay`, per scene unit, how fast light falls off inside.
-    BoundaryField(std::span<const BoundaryPoint> points, std::span<const float> irradiance, float decay, int threads);
+    /// `decay`, per scene unit: how fast light falls off inside.
+    BoundaryField(std::vector<LitPoint> points, float decay, int threads);
 
     /// The outward normal of the nearest piece of boundary.
     SlabAim closest(const Vec3& position) const;
+    /// The layer between that piece and the boundary behind it.
+    LayerPlace layer(const Vec3& position) const;
     /// The direction in which the light grows that diffuses inwards from all boundary points, each as a source of
     /// exp(-decay r) / r: with many lights around they share one direction, and where they cancel it has little
     /// steepness (after meng2016, who draws one of the normals).
@@ -37,19 +48,20 @@ private:
         SlabAim incident;
     };
     std::size_t cell_at(const Vec3& position) const;
+    const LitPoint& closest_point(const Vec3& position) const;
     /// To the flat piece of surface that a point stands for.
     float distance_to(const BoundaryPoint& point, const Vec3& position) const;
 
     Box3 box_;
     float spacing_;  ///< of the points
-    std::vector<BoundaryPoint> points_;
+    std::vector<LitPoint> points_;
     std::vector<Cell> cells_;
 };
 
-/// The irradiance of boundary points by lights outside, directly, as a scalar; never quite 0, for the light that comes
-/// otherwise.
-std::vector<float> boundary_irradiance(const Scene& scene, std::span<const BoundaryPoint> points, int samples,
-                                       Pcg32& random);
+/// Points with the irradiance by lights outside, directly, as a scalar; never quite 0, for the light that comes
+/// otherwise. Ways that leave an open object count as its diameter.
+std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
+                                 int samples, Pcg32& random);
 
 /// The mean length of chords through the object, 4 volume / area, by rays inwards from its boundary. Those that leave
 /// an open object count as its diameter.

@@ -67,8 +67,10 @@ public:
         : scene_(scene), decisions_(decisions), subsurface_(subsurface), max_depth_(max_depth) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
-    /// none. Where a log is given, it is started anew and the walk written into it.
-    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log) const;
+    /// none. Where a log is given, it is started anew and the walk written into it; to `stays`, if given, those in
+    /// dense media are added.
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log,
+                     std::vector<Stay>* stays = nullptr) const;
 
 private:
     class Walk;

@@ -15,12 +15,13 @@ namespace wend {
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, guide::PathLog* log)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, guide::PathLog* log, std::vector<Stay>* stays)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
           log_(log),
+          stays_(stays),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
@@ -32,6 +33,7 @@ public:
         do {
             while (step()) {
             }
+            end_stay();
         } while (take_up_pending());
         result_.sample.radiance = radiance_;
         return result_;
@@ -49,6 +51,9 @@ private:
         int interfaces = 0;
         float travelled = 0;  ///< since the last vertex
         SlabWalk slab;        ///< the stay in a dense medium, if it is guided
+        Stay stay;            ///< what it brings; of the last one where the walk is outside
+        float preference = 1;  ///< of the last vertex: StayPlan::preference, or 1
+        float stay_preference = 1;  ///< of vertices of the stay
 
         // The last vertex, as multiple importance sampling wants it.
         LightReceiver receiver{};
@@ -82,15 +87,15 @@ private:
             }
         }
         if (!hit) {
-            if (const Rgb arriving = environment(); !is_black(arriving)) {
-                gather(arriving);
+            if (const Arriving arriving = environment(); !is_black(arriving.radiance)) {
+                gather(arriving.radiance, slope_of(arriving));
             }
             return false;
         }
         now_.travelled += hit->distance;
         if (hit->light >= 0) {
-            if (const Rgb arriving = emission(*hit); !is_black(arriving)) {
-                gather(arriving);
+            if (const Arriving arriving = emission(*hit); !is_black(arriving.radiance)) {
+                gather(arriving.radiance, slope_of(arriving));
             }
         }
         if (scene_.is_interface(*hit)) {
@@ -108,7 +113,7 @@ private:
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
-            const SlabFlight flight = now_.slab.fly(length, sampler_.uniform());
+            const SlabFlight flight = now_.slab.fly(length, sampler_.uniform(), sampler_.random());
             now_.pass_probability *=
                 told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
@@ -126,22 +131,46 @@ private:
 
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
     void enter_medium(const Hit& hit) {
-        if (hit.surface->bounds_medium()) {
-            tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
-                                      now_.slab);
+        if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
+            return;
+        }
+        const SlabGuide* before = now_.slab.guide();
+        update_stay();
+        tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
+                                  now_.slab);
+        if (now_.slab.is_inside() && now_.slab.guide() != before) {
+            now_.stay_preference = tracer_.subsurface_.preference(now_.medium, hit.position);
+            if (stays_) {
+                end_stay();
+                now_.stay = {now_.medium, hit.position, 0, {}, {}};
+            }
+        }
+    }
+
+    void update_stay() {
+        if (stays_ && now_.slab.is_inside()) {
+            now_.stay.relative = now_.slab.relative_densities();
+        }
+    }
+
+    /// Reports the last stay in a dense medium, if there was one.
+    void end_stay() {
+        update_stay();
+        if (stays_ && now_.stay.medium != vacuum) {
+            stays_->push_back(now_.stay);
         }
     }
 
     FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
         FlightEnd end;
         if (!hit) {
-            end.emitted = mean_value(environment());
+            end.emitted = mean_value(environment().radiance);
             return end;
         }
         end.kind = scene_.is_interface(*hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
         end.position = hit->position;
         end.normal = faced(*hit);
-        end.emitted = hit->light >= 0 ? mean_value(emission(*hit)) : 0.0f;
+        end.emitted = hit->light >= 0 ? mean_value(emission(*hit).radiance) : 0.0f;
         return end;
     }
 
@@ -198,7 +227,7 @@ private:
         if (!f.is_specular()) {
             const Connection found = connect(f, directions, position, normal, in_volume);
             const Rgb brought = found.scattering * found.light;
-            gather(brought);
+            gather(brought, found.slope);
             if (log_) {
                 log_->connect(found.to_light, mean_value(found.light), brought);
             }
@@ -242,6 +271,8 @@ private:
             now_.logged = log_->branch();
         }
         pending_.push_back(now_);
+        // What was brought so far is this branch's.
+        pending_.back().stay.medium = vacuum;
     }
 
     void go_on_from(const Branch& branch) {
@@ -273,7 +304,8 @@ private:
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
-        now_.density = s->density * own_preference(in_volume);
+        now_.preference = preference(in_volume);
+        now_.density = s->density * now_.preference;
         now_.receiver = {position, normal};
         now_.pass_probability = Rgb(1.0f);
         now_.channels = channel_probabilities(now_.throughput);
@@ -295,18 +327,16 @@ private:
             now_.medium = scene_.medium_beyond(*hit_, s->direction, now_.medium);
             now_.ray = spawn_ray(position, normal, s->direction);
             enter_medium(*hit_);
-            if (now_.slab.is_inside()) {
-                now_.slab.head(s->direction);
-            }
         }
         now_.travelled = 0;
         return true;
     }
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
-    /// lights. A guided stay brings nearly the same wherever it ends, to which connections would only add noise: they
-    /// are left what it hardly finds itself. 4 and 100 are worse (docs/theory/subsurface.md).
-    float own_preference(bool in_volume) const { return in_volume && now_.slab.is_inside() ? 16.0f : 1.0f; }
+    /// lights.
+    float preference(bool in_volume) const {
+        return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f;
+    }
 
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
@@ -320,6 +350,7 @@ private:
         Vec3 to_light{0, 0, 0};
         Rgb light;
         Rgb scattering;
+        std::optional<StaySlope> slope;  ///< during a stay
     };
     template <class F, class Directions>
     Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
@@ -363,10 +394,19 @@ private:
         if (!light->point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
             const float other =
-                own_preference(in_volume) * directions.density(light->direction) * dot(channels, passage.probability);
+                preference(in_volume) * directions.density(light->direction) * dot(channels, passage.probability);
             weight = light_density / (light_density + other);
         }
-        return {light->direction, light->radiance * passage.transmittance * (weight / light_density), value};
+        Connection found{light->direction, light->radiance * passage.transmittance * (weight / light_density), value,
+                         std::nullopt};
+        if (stays_ && in_volume && now_.slab.is_inside()) {
+            found.slope = StaySlope{now_.slab.relative_densities(), weight - 1};
+            const SlabGuide::Shares beyond = slab.relative_densities();
+            for (std::size_t i = 0; i < beyond.size(); ++i) {
+                found.slope->shares[i] = weight * found.slope->shares[i] + (1 - weight) * beyond[i];
+            }
+        }
+        return found;
     }
 
     /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the
@@ -375,7 +415,7 @@ private:
         Rgb transmittance{1.0f};
         Rgb probability{1.0f};
     };
-    Passage pass(Ray ray, float distance, MediumId medium, SlabWalk slab) {
+    Passage pass(Ray ray, float distance, MediumId medium, SlabWalk& slab) {
         Passage passage;
         float rest = distance == infinity ? farthest : distance * (1 - 1e-4f);
         if (scene_.is_occluded(ray, rest)) {
@@ -424,24 +464,48 @@ private:
         return own > 0 ? own / (own + other) : 0.0f;
     }
 
-    /// Light of the surface that was hit, with its weight of multiple importance sampling.
-    Rgb emission(const Hit& hit) const {
+    /// Light with its weight of multiple importance sampling.
+    struct Arriving {
+        Rgb radiance;
+        float by_connections = 0;  ///< the same, the part left to connections
+
+        void add(const Rgb& emitted, float weight) {
+            radiance += emitted * weight;
+            by_connections += mean_value(emitted) * weight * (1 - weight);
+        }
+    };
+
+    /// Of the surface that was hit.
+    Arriving emission(const Hit& hit) const {
+        Arriving arriving;
         const Rgb emitted =
             emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -now_.ray.direction);
-        return is_black(emitted) ? emitted : emitted * emission_weight(hit.light, hit.position, hit.normal);
+        if (!is_black(emitted)) {
+            arriving.add(emitted, emission_weight(hit.light, hit.position, hit.normal));
+        }
+        return arriving;
     }
 
-    /// Light from beyond the scene, likewise.
-    Rgb environment() const {
-        Rgb sum;
+    /// From beyond the scene.
+    Arriving environment() const {
+        Arriving arriving;
         for (const int light : scene_.infinite_lights()) {
-            const Rgb arriving =
+            const Rgb emitted =
                 environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
-            if (!is_black(arriving)) {
-                sum += arriving * emission_weight(light, {}, {});
+            if (!is_black(emitted)) {
+                arriving.add(emitted, emission_weight(light, {}, {}));
             }
         }
-        return sum;
+        return arriving;
+    }
+
+    /// Only what was weighted with the preference of a stay changes with it.
+    std::optional<StaySlope> slope_of(const Arriving& arriving) {
+        if (!stays_ || now_.preference == 1) {
+            return std::nullopt;
+        }
+        update_stay();
+        return StaySlope{now_.stay.relative, arriving.by_connections / mean_value(arriving.radiance)};
     }
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
@@ -457,16 +521,23 @@ private:
             log_->weigh(weight);
         }
     }
-    void gather(const Rgb& radiance) {
-        radiance_ += now_.throughput * radiance;
+    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {}) {
+        bring(now_.throughput * radiance, slope);
         if (log_) {
             log_->gather(radiance);
         }
     }
     void glow(const Rgb& radiance, float distance) {
-        radiance_ += now_.throughput * radiance;
+        bring(now_.throughput * radiance, {});
         if (log_) {
             log_->glow(radiance, distance);
+        }
+    }
+    void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
+        radiance_ += light;
+        if (stays_ && now_.stay.medium != vacuum) {
+            update_stay();
+            now_.stay.bring(mean_value(light), slope.value_or(StaySlope{now_.stay.relative, 0}));
         }
     }
     void meet() {
@@ -494,6 +565,7 @@ private:
     const Decisions& d_;
     Sampler& sampler_;
     guide::PathLog* log_;
+    std::vector<Stay>* stays_;
 
     Branch now_;
     std::vector<Branch> pending_;
@@ -505,8 +577,9 @@ private:
 };
 
 template <class Decisions>
-WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log) const {
-    return Walk(*this, expected, sampler, log).run(ray);
+WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log,
+                                        std::vector<Stay>* stays) const {
+    return Walk(*this, expected, sampler, log, stays).run(ray);
 }
 
 }  // namespace wend

@@ -42,6 +42,7 @@ struct Tile {
     PixelRect pixels;
     WalkCounts counts;
     guide::PathRecords records;
+    StayMoments stays;
 };
 
 std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -49,7 +50,7 @@ std::vector<Tile> tiles_of(const PixelRect& crop) {
     std::vector<Tile> tiles;
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
-            tiles.push_back({{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}});
+            tiles.push_back({{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}});
         }
     }
     return tiles;
@@ -60,6 +61,7 @@ struct PassPlan {
     int first;  ///< sample of each pixel
     int count;
     bool record;
+    bool record_stays;
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
 };
@@ -71,6 +73,7 @@ public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
          const SubsurfaceGuides& subsurface, const PassPlan& plan)
         : tracer_(scene, decisions, subsurface, settings.max_depth),
+          subsurface_(subsurface),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
@@ -78,17 +81,18 @@ public:
 
     void run(Tile& tile) const {
         guide::PathLog log;
+        std::vector<Stay> stays;
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
                 for (int i = 0; i < plan_.count; ++i) {
-                    sample({x, y}, plan_.first + i, tile, log);
+                    sample({x, y}, plan_.first + i, tile, log, stays);
                 }
             }
         }
     }
 
 private:
-    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log) const {
+    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log, std::vector<Stay>& stays) const {
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
@@ -96,7 +100,11 @@ private:
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
-        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, plan_.record ? &log : nullptr);
+        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, plan_.record ? &log : nullptr,
+                                          plan_.record_stays ? &stays : nullptr);
+        for (const Stay& stay : std::exchange(stays, {})) {
+            subsurface_.count(stay, tile.stays);
+        }
         ++tile.counts.paths;
         tile.counts.segments += result.sample.segments;
         if (!is_finite(result.sample.radiance)) {
@@ -120,6 +128,7 @@ private:
     }
 
     PathTracer<Decisions> tracer_;
+    const SubsurfaceGuides& subsurface_;
     const Camera& camera_;
     Film& film_;
     const RenderSettings& settings_;
@@ -185,14 +194,16 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         settings.fields ? *settings.fields
                         : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
 
-    const SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
+    SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
             break;
         }
         const Preset& preset = settings.preset;
-        PassPlan plan{statistics.samples, count, !preset.is_classical() && statistics.samples < training_samples, {}};
+        const bool learning = statistics.samples < training_samples;
+        PassPlan plan{
+            statistics.samples, count, !preset.is_classical() && learning, !subsurface.is_empty() && learning, {}};
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene, film, settings, decisions, subsurface, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
@@ -232,10 +243,17 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 settings.on_records(records);
             }
             fields = learn(fields, records, settings.threads);
-            if (statistics.samples >= warm_up_samples) {
-                film.begin_stage();
-            }
             statistics.training_seconds += seconds_since(training_start);
+        }
+        if (plan.record_stays) {
+            StayMoments moments;
+            for (Tile& tile : tiles) {
+                moments += std::exchange(tile.stays, {});
+            }
+            subsurface.learn(moments);
+        }
+        if ((plan.record || plan.record_stays) && statistics.samples >= warm_up_samples) {
+            film.begin_stage();
         }
         const double elapsed = seconds_since(start);
         if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,

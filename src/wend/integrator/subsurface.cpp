@@ -21,12 +21,13 @@ const std::vector<Entry>& entries() {
                                              {"dwivedi", {entry}},
                                              {"closest", {closest}},
                                              {"incident", {incident}},
-                                             {"auto", {entry, closest, incident}}};
+                                             {"planar", {planar}},
+                                             {"auto", {entry, closest, incident, planar}}};
     return table;
 }
 
 // Of the contract, not built.
-constexpr std::array planned = {"planar", "learned"};
+constexpr std::array planned = {"learned"};
 
 constexpr float classical_share = 0.25f;
 
@@ -49,6 +50,33 @@ bool may_be_dense(const HomogeneousMedium& medium) {
 
 bool looks_around(SlabStrategy strategy) {
     return strategy != SlabStrategy::entry;
+}
+
+/// At one point: a guide may be wrong elsewhere.
+float alpha_of(const Roughness& roughness, const Textures& textures) {
+    const TexturePoint p{{0.5f, 0.5f}, {0, 0, 0}};
+    const float r = 0.5f * (textures.evaluate_grey(roughness.u, p) + textures.evaluate_grey(roughness.v, p));
+    return roughness.remap ? std::sqrt(std::clamp(r, 0.0f, 1.0f)) : std::clamp(r, 0.0f, 1.0f);
+}
+
+/// What light meets that leaves a medium: the boundary of the first surface around it.
+PlanarBoundary boundary_of(const SceneDescription& scene, MediumId medium) {
+    PlanarBoundary boundary;
+    const auto found = std::find_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+        return (surface.interior == medium) != (surface.exterior == medium);
+    });
+    if (found == scene.surfaces.end()) {
+        return boundary;
+    }
+    const auto* dielectric = std::get_if<DielectricMaterial>(&scene.materials[static_cast<std::size_t>(found->material)]);
+    if (dielectric && dielectric->ior > 1.01f) {
+        boundary.ior = dielectric->ior;
+        const float alpha = alpha_of(dielectric->roughness, scene.textures);
+        if (alpha > 0) {
+            boundary.rough = std::make_shared<RoughBoundary>(boundary.ior, std::max(alpha, 0.05f));
+        }
+    }
+    return boundary;
 }
 
 /// The rate of decay, per scene unit, of the channel that reaches deepest.
@@ -108,14 +136,30 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         }
         SlabGuide guide = slab_guide(*medium);
         guide.strategies = static_cast<int>(strategies_.size());
-        guide.share.fill((1 - classical_share) / static_cast<float>(guide.strategies));
+        std::fill_n(guide.share.begin() + 1, guide.strategies, (1 - classical_share) / static_cast<float>(guide.strategies));
         guide.share[0] = classical_share;
         std::optional<BoundaryField> field;
         if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
-            const auto irradiance = boundary_irradiance(scene, points, rays_to_lights, random);
-            field.emplace(points, irradiance, least_decay(guide), threads);
+            field.emplace(lit_points(scene, static_cast<MediumId>(id), points, rays_to_lights, random),
+                          least_decay(guide), threads);
         }
-        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(field)});
+        const auto layered = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::planar);
+        // A channel that nothing hits has no layers.
+        if (layered != strategies_.end() && min_value(medium->extinction()) > 0) {
+            guide.layered = static_cast<int>(layered - strategies_.begin());
+            const PlanarBoundary boundary = boundary_of(scene.description(), static_cast<MediumId>(id));
+            for (int c = 0; c < guide.channels(); ++c) {
+                const double extinction = medium->extinction()[c];
+                guide.layers.emplace_back(static_cast<double>(medium->scattering[c]) / extinction, extinction,
+                                          medium->phase.mean_cosine(), boundary);
+            }
+        }
+        Box3 box;
+        for (const BoundaryPoint& point : points) {
+            box.extendBy(point.position);
+        }
+        StayPlans plans(box, guide.share);
+        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(plans), std::move(field)});
     }
 }
 
@@ -127,22 +171,42 @@ void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direct
         return;
     }
     if (walk.guide() != &dense->guide) {
-        walk.enter(dense->guide, channels);
-        for (int i = 0; i < dense->guide.strategies; ++i) {
-            walk.aim(i, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
+        walk.enter(dense->guide, channels, dense->plans.plan(dense->plans.cell_at(hit.position)).shares);
+        for (int slot = 0; slot < walk.slots(); ++slot) {
+            walk.aim(slot, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
         }
-        aim(medium, hit.position, walk);
-        walk.head(direction);
     }
+    aim(medium, hit.position, walk);
+    walk.head(direction);
 }
 
 void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk) const {
     const std::optional<BoundaryField>& field = media_[static_cast<std::size_t>(medium)]->field;
-    for (std::size_t i = 0; i < strategies_.size(); ++i) {
-        if (looks_around(strategies_[i])) {
+    for (int slot = 0; slot < walk.slots(); ++slot) {
+        const SlabStrategy strategy = strategies_[static_cast<std::size_t>(walk.strategy(slot))];
+        if (walk.is_layered(slot)) {
+            walk.aim(field->layer(position));
+        } else if (looks_around(strategy)) {
             const SlabAim aim =
-                strategies_[i] == SlabStrategy::closest ? field->closest(position) : field->incident(position);
-            walk.aim(static_cast<int>(i), aim.normal, aim.steepness);
+                strategy == SlabStrategy::incident ? field->incident(position) : field->closest(position);
+            walk.aim(slot, aim.normal, aim.steepness);
+        }
+    }
+}
+
+float SubsurfaceGuides::preference(MediumId medium, const Vec3& entry) const {
+    const StayPlans& plans = media_[static_cast<std::size_t>(medium)]->plans;
+    return plans.plan(plans.cell_at(entry)).preference;
+}
+
+void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {
+    moments.add(media_[static_cast<std::size_t>(stay.medium)]->plans.cell_at(stay.entry), stay);
+}
+
+void SubsurfaceGuides::learn(const StayMoments& moments) {
+    for (std::size_t id = 0; id < media_.size(); ++id) {
+        if (media_[id]) {
+            media_[id]->plans.learn(moments.of(static_cast<int>(id)));
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include <wend/decision/slab_walk.h>
 #include <wend/integrator/boundary_field.h>
+#include <wend/integrator/stay_plans.h>
 #include <wend/scene/scene.h>
 
 #include <memory>
@@ -18,6 +19,7 @@ enum class SlabStrategy {
     entry,     ///< that where it entered (krivanek2014)
     closest,   ///< that of the boundary closest to each collision (meng2016)
     incident,  ///< towards the light that diffuses in from outside (after meng2016)
+    planar,    ///< that of the closest boundary, and the whole solution of the layer between it and the one behind
 };
 
 /// A value of --subsurface.
@@ -46,22 +48,33 @@ public:
     /// The scene must outlive it.
     SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads);
 
+    bool is_empty() const { return media_.empty(); }
+
     /// Begins the walk's stay in a medium behind the surface that was hit, in the given direction, if the medium is
     /// guided, and ends it if not. A stay in the same medium goes on. `channels` are the probabilities of the walk's
     /// colour channels.
     void enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels, SlabWalk& walk) const;
 
+    /// How stays that begin here are weighed against connections to lights: StayPlan::preference.
+    float preference(MediumId medium, const Vec3& entry) const;
+
     /// Aims the strategies that look around at every collision.
     void aim(MediumId medium, const Vec3& position, SlabWalk& walk) const;
+
+    /// What stays brought, counted apart by each thread.
+    void count(const Stay& stay, StayMoments& moments) const;
+    /// Learns shares for the stays to come.
+    void learn(const StayMoments& moments);
 
 private:
     struct Dense {
         SlabGuide guide;
+        StayPlans plans;
         std::optional<BoundaryField> field;  ///< where a strategy asks it
     };
 
     std::vector<SlabStrategy> strategies_;
-    std::vector<std::unique_ptr<const Dense>> media_;  // by medium; null: not guided
+    std::vector<std::unique_ptr<Dense>> media_;  // by medium; null: not guided
 };
 
 }  // namespace wend

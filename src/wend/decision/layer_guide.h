@@ -1,0 +1,78 @@
+// The exact adjoint of layers, for walks in dense media of any shape.
+#pragma once
+
+#include <wend/decision/planar_modes.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace wend {
+
+/// Where a walk is if the medium around it is taken for a layer between two planes, both lit evenly. Lengths in scene
+/// units.
+struct LayerPlace {
+    Vec3 inward{0, 0, 1};  ///< from the closer boundary to the other
+    float depth = 0;       ///< from the closer boundary
+    float thickness = 0;   ///< may be infinite
+    float near = 1;        ///< radiance that arrives at the closer boundary from outside
+    float far = 0;         ///< at the other
+};
+
+/// Solutions for one channel of a medium, by thickness: discrete ordinates with the medium's phase function and
+/// boundary (stamnes1988, docs/theory/planar.md). The radiance is that of two layers, each lit from one side. All
+/// that is asked is a probability whatever the true shape is: a flight that would be outside of its layer goes on
+/// classically.
+class LayerGuide {
+public:
+    /// `boundary` is what light meets that leaves; its illumination is not looked at. Henyey and Greenstein's phase
+    /// function is used in place of any other.
+    LayerGuide(double albedo, double extinction, double mean_cosine, const PlanarBoundary& boundary);
+
+    /// What a walk may expect that went a distance t along w.
+    double radiance(const LayerPlace& place, const Vec3& w, double t) const;
+    /// The same if it collides there.
+    double source(const LayerPlace& place, const Vec3& w, double t) const;
+
+    /// A distance along w, with the density of transmittance times source() over radiance(place, w, 0), transmittance
+    /// and source in scene units.
+    double sample_distance(const LayerPlace& place, const Vec3& w, Pcg32& random) const;
+
+    /// Directions after a collision at a place, in proportion to phase function times radiance.
+    class Directions {
+    public:
+        Directions() = default;
+        Directions(const LayerGuide& guide, const LayerPlace& place, const Vec3& before);
+        Vec3 sample(Pcg32& random) const;
+        /// Per steradian.
+        double density(const Vec3& w) const;
+
+    private:
+        const LayerGuide* guide_ = nullptr;
+        LayerPlace place_;
+        Vec3 before_{0, 0, 1};
+        std::array<double, 2> share_{};
+    };
+
+private:
+    /// A layer lit from its near side.
+    struct Layer {
+        PlanarAdjoint adjoint;
+        ModalDirection direction;
+    };
+    /// One of the two, seen by a walk: mirrored where the light is at the other side.
+    struct View {
+        const Layer* layer;
+        double light;
+        double depth;
+        double side;  ///< 1, or -1 if mirrored
+    };
+    std::array<View, 2> views(const LayerPlace& place) const;
+    const Layer& layer_for(double thickness) const;
+
+    double extinction_;
+    double g_;
+    std::vector<std::shared_ptr<const Layer>> layers_;  // thickness 1, 2, 4, ...; the last is infinite
+};
+
+}  // namespace wend

@@ -1,0 +1,96 @@
+// Which ways to sample a stay in a dense medium pay, by the place where it begins: learned from what stays brought.
+#pragma once
+
+#include <wend/core/vector.h>
+#include <wend/decision/slab_guide.h>
+
+#include <map>
+#include <vector>
+
+namespace wend {
+
+/// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much more
+/// for a larger logarithm of StayPlan::preference.
+struct StaySlope {
+    SlabGuide::Shares shares{};
+    float preference = 0;
+};
+
+/// What a walk found during a stay in a dense medium and after it, up to the next.
+struct Stay {
+    int medium = -1;  ///< none if negative
+    Vec3 entry{0, 0, 0};
+    float brought = 0;
+    /// Density of each technique over that of the mixture, at the end of the stay or now.
+    SlabGuide::Shares relative{};
+    /// Sum of what was brought, times its slope.
+    StaySlope slope;
+
+    void bring(float light, const StaySlope& relative_slope) {
+        brought += light;
+        for (std::size_t i = 0; i < slope.shares.size(); ++i) {
+            slope.shares[i] += light * relative_slope.shares[i];
+        }
+        slope.preference += light * relative_slope.preference;
+    }
+};
+
+/// How stays are sampled.
+struct StayPlan {
+    SlabGuide::Shares shares{1};
+    /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
+    /// lights. A guided stay brings nearly the same wherever it ends, to which connections would only add noise; in a
+    /// thin or badly guided medium they do the work.
+    float preference = 1;
+};
+
+/// Sums over stays that began in the same cell of the same medium, for the second moment of what one brings, F. With
+/// the share of technique i, of density p_i in the mixture p, that changes by E[F² p_i / p + 2 F dF]: F itself falls by
+/// F p_i / p, but for what is weighted against connections to lights. E[p_i / p] is 1, so the covariance with F² does
+/// for the first term, which is the less noisy the less F varies.
+class StayMoments {
+public:
+    /// Stays that are not finite say nothing.
+    void add(int cell, const Stay& stay);
+    StayMoments& operator+=(const StayMoments& other);
+
+    struct Sums {
+        using PerTechnique = std::array<double, 1 + SlabGuide::most_strategies>;
+        std::array<double, 5> powers{};  ///< of F, from the zeroth on
+        PerTechnique slopes{};           ///< -(F² p_i / p + 2 F dF)
+        PerTechnique densities{};        ///< p_i / p
+        double preference_slope = 0;     ///< of F² with the logarithm of the preference
+        PerTechnique slope_squares{};
+        double preference_slope_squares = 0;
+
+        Sums& operator+=(const Sums& other);
+    };
+    /// By cell, of one medium.
+    const std::map<int, Sums>& of(int medium) const;
+
+private:
+    std::map<int, std::map<int, Sums>> media_;
+};
+
+/// Plans in a grid of cells.
+class StayPlans {
+public:
+    StayPlans(const Box3& box, const SlabGuide::Shares& start);
+
+    int cell_at(const Vec3& entry) const;
+    const StayPlan& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
+
+    /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second moment
+    /// relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow all
+    /// others. A guide that has become useless is dropped; classical sampling keeps a share
+    /// that bounds all weights.
+    void learn(const std::map<int, StayMoments::Sums>& moments);
+
+private:
+    static constexpr int side = 6;
+
+    Box3 box_;
+    std::vector<StayPlan> plans_;
+};
+
+}  // namespace wend
