@@ -1,7 +1,7 @@
 // What walks in one dense medium know about it beforehand.
 #pragma once
 
-#include <wend/decision/slab_mode.h>
+#include <wend/adjoint/slab_mode.h>
 #include <wend/medium/medium.h>
 
 #include <algorithm>
@@ -34,5 +34,11 @@ struct SlabGuide {
         return modes[static_cast<std::size_t>(channel)][static_cast<std::size_t>(level)];
     }
 };
+
+/// A guide that mixes `strategies` of equal shares with `classical_share`, in (0, 1], of classical sampling; `modes`
+/// are those of the medium (theory/slab_modes.h has them). Throws InputError for numbers out of range, and for modes
+/// that are not as SlabGuide has them.
+SlabGuide slab_guide(const HomogeneousMedium& medium, std::vector<std::vector<SlabMode>> modes, int strategies,
+                     float classical_share = 0.25f);
 
 }  // namespace wend

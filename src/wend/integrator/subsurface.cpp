@@ -1,7 +1,7 @@
 #include <wend/core/error.h>
 #include <wend/decision/channels.h>
-#include <wend/integrator/slab_modes.h>
 #include <wend/integrator/subsurface.h>
+#include <wend/theory/slab_modes.h>
 
 #include <algorithm>
 #include <array>
@@ -106,10 +106,8 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         if (points.empty() || !(depth >= least_depth)) {
             continue;
         }
-        SlabGuide guide = slab_guide(*medium);
-        guide.strategies = static_cast<int>(strategies_.size());
-        guide.share.fill((1 - classical_share) / static_cast<float>(guide.strategies));
-        guide.share[0] = classical_share;
+        SlabGuide guide =
+            slab_guide(*medium, slab_modes(*medium), static_cast<int>(strategies_.size()), classical_share);
         std::optional<BoundaryField> field;
         if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
             const auto irradiance = boundary_irradiance(scene, points, rays_to_lights, random);
