@@ -24,7 +24,7 @@ TEST(SlabGuide, SharesAddUpToOne) {
 
 TEST(SlabGuide, RefusesWhatMakesNoGuide) {
     const auto modes = slab_modes(wax);
-    EXPECT_THROW(slab_guide(wax, modes, 4), InputError);
+    EXPECT_THROW(slab_guide(wax, modes, SlabGuide::most_strategies + 1), InputError);
     EXPECT_THROW(slab_guide(wax, modes, -1), InputError);
     EXPECT_THROW(slab_guide(wax, modes, 1, 0), InputError);
     EXPECT_THROW(slab_guide(wax, modes, 1, 1.5f), InputError);

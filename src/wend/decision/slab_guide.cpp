@@ -16,7 +16,7 @@ SlabGuide slab_guide(const HomogeneousMedium& medium, std::vector<std::vector<Sl
     for (const auto& of_channel : modes) {
         require(!of_channel.empty() && of_channel.size() == modes[0].size(), "every channel must have as many modes");
     }
-    require(strategies >= 0 && strategies <= SlabGuide::most_strategies, "there can be 0 to 3 strategies");
+    require(strategies >= 0 && strategies <= SlabGuide::most_strategies, "there are too many strategies, or below 0");
     require(classical_share > 0 && classical_share <= 1, "the classical share must be in (0, 1]");
 
     SlabGuide guide;
