@@ -42,7 +42,7 @@ Moments render_means(const Scene& scene, const char* sampling, const char* subsu
         RenderSettings settings;
         settings.preset = parse_preset(sampling);
         settings.subsurface = parse_subsurface(subsurface);
-        settings.samples = 40;
+        settings.samples = 24;
         settings.seed = first_seed + i;
         settings.max_depth = 100000;
         render(scene, film, settings);
