@@ -2,30 +2,17 @@
 #include <wend/decision/planar_space.h>
 #include <wend/medium/averaged_phase.h>
 #include <wend/medium/phase.h>
-#include <wend/theory/discrete_ordinates.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace wend {
 namespace {
 
-/// Thicknesses of layers that are not a half-space.
-constexpr int sizes = 5;
-/// Few are enough: what is left to chance comes from the shape, which no layer has.
-constexpr int transients = 4;
 /// Rows of the tables of directions.
 constexpr ModalDirection::Resolution isotropic_rows{65, 1};
 constexpr ModalDirection::Resolution anisotropic_rows{17, 33};
-/// A layer of less absorption is hard to sample (docs/theory/planar.md).
-constexpr double least_decay = 0.3;
-
-double guide_albedo(double albedo, double g, double thickness) {
-    const double rate = std::isinf(thickness) ? 1e-3 : least_decay / (thickness + 1.42 / (1 - g));
-    return std::min(albedo, std::max(1 - rate * rate / (3 * (1 - g)), 0.9));
-}
-
 /// Inside, or at the boundary that was passed.
 double clamped(double depth, double thickness) {
     return std::clamp(depth, 0.0, thickness);
@@ -33,37 +20,24 @@ double clamped(double depth, double thickness) {
 
 }  // namespace
 
-LayerGuide::LayerGuide(double albedo, double extinction, double mean_cosine, const PlanarBoundary& boundary)
+LayerGuide::LayerGuide(double extinction, double mean_cosine, std::vector<PlanarAdjoint> layers)
     : extinction_(extinction), g_(std::clamp(mean_cosine, -0.95, 0.95)) {
-    PlanarProblem problem;
-    problem.moments = henyey_greenstein_moments(g_, g_ == 0 ? 1 : 2 * (transients + 1));
-    problem.transients = transients;
-    problem.slab.near = problem.slab.far = boundary;
-    problem.slab.near.illumination = [](double /*cosine*/) { return 1.0; };
-    problem.slab.far.illumination = nullptr;
-    for (int i = 0; i <= sizes; ++i) {
-        problem.slab.thickness = i < sizes ? std::exp2(i) : std::numeric_limits<double>::infinity();
-        problem.albedo = guide_albedo(albedo, g_, problem.slab.thickness);
-        PlanarAdjoint adjoint(solve_planar(problem), problem.slab);
-        adjoint.keep_positive();
+    for (PlanarAdjoint& adjoint : layers) {
         ModalDirection direction(adjoint, g_, g_ == 0 ? isotropic_rows : anisotropic_rows);
         layers_.push_back(std::make_shared<const Layer>(Layer{std::move(adjoint), std::move(direction)}));
     }
 }
 
-const LayerGuide::Layer& LayerGuide::layer_for(double thickness) const {
-    const double size = std::clamp(std::round(std::log2(std::max(thickness, 1.0))), 0.0, static_cast<double>(sizes));
-    return *layers_[static_cast<std::size_t>(size)];
-}
-
 std::array<LayerGuide::View, 2> LayerGuide::views(const LayerPlace& place) const {
     const double thickness = static_cast<double>(place.thickness) * extinction_;
     const double depth = static_cast<double>(place.depth) * extinction_;
-    const Layer& layer = layer_for(thickness);
+    const auto last = static_cast<double>(layers_.size() - 1);
+    const double size = std::clamp(std::round(std::log2(std::max(thickness, 1.0))), 0.0, last);
+    const Layer& layer = *layers_[static_cast<std::size_t>(size)];
     const double deepest = layer.adjoint.slab().thickness;
+    const double far = std::isinf(deepest) ? 0.0 : static_cast<double>(place.far);
     return {View{&layer, place.near, clamped(depth, deepest), 1},
-            View{&layer, std::isinf(thickness) ? 0.0 : static_cast<double>(place.far),
-                 clamped(thickness - depth, deepest), -1}};
+            View{&layer, far, clamped(thickness - depth, deepest), -1}};
 }
 
 double LayerGuide::radiance(const LayerPlace& place, const Vec3& w, double t) const {

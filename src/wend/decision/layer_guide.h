@@ -19,15 +19,15 @@ struct LayerPlace {
     float far = 0;         ///< at the other
 };
 
-/// Solutions for one channel of a medium, by thickness: discrete ordinates with the medium's phase function and
-/// boundary (stamnes1988, docs/theory/planar.md). The radiance is that of two layers, each lit from one side. All
-/// that is asked is a probability whatever the true shape is: a flight that would be outside of its layer goes on
-/// classically.
+/// Solutions for one channel of a medium, by thickness. The radiance is that of two layers, each lit from one side; of a
+/// half-space, from the closer boundary alone. All that is asked is a probability whatever the true shape is: a flight
+/// that would be outside of its layer goes on classically.
 class LayerGuide {
 public:
-    /// `boundary` is what light meets that leaves; its illumination is not looked at. Henyey and Greenstein's phase
-    /// function is used in place of any other.
-    LayerGuide(double albedo, double extinction, double mean_cosine, const PlanarBoundary& boundary);
+    LayerGuide() = default;
+    /// `layers`: those of theory/lit_layers.h or the like, 1, 2, 4, ... mean free paths thick and last a half-space, for
+    /// the same mean cosine, in [-0.95, 0.95]. Henyey and Greenstein's phase function is used in place of any other.
+    LayerGuide(double extinction, double mean_cosine, std::vector<PlanarAdjoint> layers);
 
     /// What a walk may expect that went a distance t along w.
     double radiance(const LayerPlace& place, const Vec3& w, double t) const;
@@ -68,10 +68,9 @@ private:
         double side;  ///< 1, or -1 if mirrored
     };
     std::array<View, 2> views(const LayerPlace& place) const;
-    const Layer& layer_for(double thickness) const;
 
-    double extinction_;
-    double g_;
+    double extinction_ = 1;
+    double g_ = 0;
     std::vector<std::shared_ptr<const Layer>> layers_;  // thickness 1, 2, 4, ...; the last is infinite
 };
 

@@ -1,8 +1,8 @@
 // What walks in one dense medium know about it beforehand.
 #pragma once
 
+#include <wend/adjoint/slab_mode.h>
 #include <wend/decision/layer_guide.h>
-#include <wend/decision/slab_mode.h>
 #include <wend/medium/medium.h>
 
 #include <algorithm>
@@ -40,5 +40,11 @@ struct SlabGuide {
         return modes[static_cast<std::size_t>(channel)][static_cast<std::size_t>(level)];
     }
 };
+
+/// A guide that mixes `strategies` of equal shares with `classical_share`, in (0, 1], of classical sampling; `modes`
+/// are those of the medium (theory/slab_modes.h has them). Throws InputError for numbers out of range, and for modes
+/// that are not as SlabGuide has them.
+SlabGuide slab_guide(const HomogeneousMedium& medium, std::vector<std::vector<SlabMode>> modes, int strategies,
+                     float classical_share = 0.25f);
 
 }  // namespace wend

@@ -54,6 +54,7 @@ private:
         Stay stay;            ///< what it brings; of the last one where the walk is outside
         float preference = 1;  ///< of the last vertex: StayPlan::preference, or 1
         float stay_preference = 1;  ///< of vertices of the stay
+        float connected = 1;        ///< the probability that the last vertex was connected
 
         // The last vertex, as multiple importance sampling wants it.
         LightReceiver receiver{};
@@ -305,6 +306,7 @@ private:
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
         now_.preference = preference(in_volume);
+        now_.connected = connection_probability(in_volume);
         now_.density = s->density * now_.preference;
         now_.receiver = {position, normal};
         now_.pass_probability = Rgb(1.0f);
@@ -338,6 +340,9 @@ private:
         return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f;
     }
 
+    /// Connections that count for little are few.
+    float connection_probability(bool in_volume) const { return 1 / (1 + (preference(in_volume) - 1) / 16); }
+
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
         return now_.slab.is_inside() ? now_.slab.survival(max_value(now_.throughput) * now_.index_scale)
@@ -357,6 +362,10 @@ private:
                        bool in_volume) {
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
+        const float connected = connection_probability(in_volume);
+        if (connected < 1 && !(sampler_.uniform() < connected)) {
+            return {};
+        }
         const LightReceiver receiver{position, normal};
         const ChosenLight chosen =
             std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
@@ -389,7 +398,7 @@ private:
         if (is_black(passage.transmittance)) {
             return {};
         }
-        const float light_density = chosen.probability * light->density;
+        const float light_density = connected * chosen.probability * light->density;
         float weight = 1;
         if (!light->point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
@@ -458,7 +467,7 @@ private:
         }
         const float chosen =
             std::visit([&](const auto& s) { return s.probability(now_.receiver, light); }, scene_.light_sampler());
-        const float other = chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)],
+        const float other = now_.connected * chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)],
                                                    now_.receiver.position, now_.ray.direction, hit, normal);
         const float own = now_.density * dot(now_.channels, now_.pass_probability);
         return own > 0 ? own / (own + other) : 0.0f;

@@ -143,7 +143,6 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments) {
         shares[0] = std::max(shares[0], least_classical);
         normalize(shares);
     }
-    if (getenv("WDBG")) { for (int k=0;k<6;++k) fprintf(stderr,"%.2f ",overall.share[k]); fprintf(stderr, " : %.2f ", overall.preference);for(int cell : {0, 14, 86}) { fprintf(stderr,"r %.1f: ",plans_[cell].preference); for (int k=0;k<6;++k) fprintf(stderr,"%.2f ",plans_[cell].shares[k]); fprintf(stderr,"| ");} fprintf(stderr,"\n"); }
 }
 
 }  // namespace wend

@@ -1,7 +1,9 @@
 #include <wend/core/error.h>
+#include <wend/core/parallel.h>
 #include <wend/decision/channels.h>
-#include <wend/integrator/slab_modes.h>
 #include <wend/integrator/subsurface.h>
+#include <wend/theory/lit_layers.h>
+#include <wend/theory/slab_modes.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +24,7 @@ const std::vector<Entry>& entries() {
                                              {"closest", {closest}},
                                              {"incident", {incident}},
                                              {"planar", {planar}},
-                                             {"auto", {entry, closest, incident, planar}}};
+                                             {"auto", {entry, closest, incident}}};
     return table;
 }
 
@@ -52,31 +54,18 @@ bool looks_around(SlabStrategy strategy) {
     return strategy != SlabStrategy::entry;
 }
 
-/// At one point: a guide may be wrong elsewhere.
-float alpha_of(const Roughness& roughness, const Textures& textures) {
-    const TexturePoint p{{0.5f, 0.5f}, {0, 0, 0}};
-    const float r = 0.5f * (textures.evaluate_grey(roughness.u, p) + textures.evaluate_grey(roughness.v, p));
-    return roughness.remap ? std::sqrt(std::clamp(r, 0.0f, 1.0f)) : std::clamp(r, 0.0f, 1.0f);
-}
-
-/// What light meets that leaves a medium: the boundary of the first surface around it.
-PlanarBoundary boundary_of(const SceneDescription& scene, MediumId medium) {
-    PlanarBoundary boundary;
+/// Relative index of refraction of the first surface around a medium. That it may be rough is left out: a guide may be
+/// wrong.
+double ior_of_boundary(const SceneDescription& scene, MediumId medium) {
     const auto found = std::find_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
         return (surface.interior == medium) != (surface.exterior == medium);
     });
     if (found == scene.surfaces.end()) {
-        return boundary;
+        return 1;
     }
-    const auto* dielectric = std::get_if<DielectricMaterial>(&scene.materials[static_cast<std::size_t>(found->material)]);
-    if (dielectric && dielectric->ior > 1.01f) {
-        boundary.ior = dielectric->ior;
-        const float alpha = alpha_of(dielectric->roughness, scene.textures);
-        if (alpha > 0) {
-            boundary.rough = std::make_shared<RoughBoundary>(boundary.ior, std::max(alpha, 0.05f));
-        }
-    }
-    return boundary;
+    const auto* dielectric =
+        std::get_if<DielectricMaterial>(&scene.materials[static_cast<std::size_t>(found->material)]);
+    return dielectric ? std::clamp(static_cast<double>(dielectric->ior), 1.0, 3.0) : 1.0;
 }
 
 /// The rate of decay, per scene unit, of the channel that reaches deepest.
@@ -134,10 +123,8 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         if (points.empty() || !(depth >= least_depth)) {
             continue;
         }
-        SlabGuide guide = slab_guide(*medium);
-        guide.strategies = static_cast<int>(strategies_.size());
-        std::fill_n(guide.share.begin() + 1, guide.strategies, (1 - classical_share) / static_cast<float>(guide.strategies));
-        guide.share[0] = classical_share;
+        SlabGuide guide =
+            slab_guide(*medium, slab_modes(*medium), static_cast<int>(strategies_.size()), classical_share);
         std::optional<BoundaryField> field;
         if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
             field.emplace(lit_points(scene, static_cast<MediumId>(id), points, rays_to_lights, random),
@@ -147,12 +134,14 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         // A channel that nothing hits has no layers.
         if (layered != strategies_.end() && min_value(medium->extinction()) > 0) {
             guide.layered = static_cast<int>(layered - strategies_.begin());
-            const PlanarBoundary boundary = boundary_of(scene.description(), static_cast<MediumId>(id));
-            for (int c = 0; c < guide.channels(); ++c) {
-                const double extinction = medium->extinction()[c];
-                guide.layers.emplace_back(static_cast<double>(medium->scattering[c]) / extinction, extinction,
-                                          medium->phase.mean_cosine(), boundary);
-            }
+            guide.layers.resize(static_cast<std::size_t>(guide.channels()));
+            const double ior = ior_of_boundary(scene.description(), static_cast<MediumId>(id));
+            parallel_for(guide.layers.size(), threads, [&](std::size_t c) {
+                const double extinction = medium->extinction()[static_cast<int>(c)];
+                const double albedo = static_cast<double>(medium->scattering[static_cast<int>(c)]) / extinction;
+                const double g = medium->phase.mean_cosine();
+                guide.layers[c] = LayerGuide(extinction, g, lit_layers(albedo, g, ior));
+            });
         }
         Box3 box;
         for (const BoundaryPoint& point : points) {

@@ -1,3 +1,4 @@
+#include <wend/io/load/boundaries.h>
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/load_scene.h>
@@ -7,6 +8,8 @@
 #include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace wend {
 namespace {
@@ -44,6 +47,7 @@ public:
         for (const pbrt::ObjectInstance& instance : description_.instances) {
             scene_.instances.push_back({static_cast<int>(instance.object), instance.world_from_instance});
         }
+        warn_of_boundaries(context_, scene_, places_, medium_names());
     }
 
 private:
@@ -77,6 +81,15 @@ private:
         std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
+        places_.push_back(entity.place);
+    }
+
+    /// Those of materials have none.
+    std::vector<std::string> medium_names() const {
+        std::vector<std::string> names(scene_.media.size());
+        std::transform(description_.media.begin(), description_.media.end(), names.begin(),
+                       [](const pbrt::MediumEntity& medium) { return medium.name; });
+        return names;
     }
 
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {
@@ -92,6 +105,7 @@ private:
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
     std::vector<AreaLight> area_lights_;
+    std::vector<Place> places_;  ///< of the scene's surfaces
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
-#include <wend/integrator/slab_modes.h>
+#include <wend/core/error.h>
 #include <wend/theory/discrete_mode.h>
+#include <wend/theory/slab_modes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,18 +41,23 @@ std::vector<SlabMode> slab_modes(double albedo, const PhaseFunction& phase) {
     return modes;
 }
 
-SlabGuide slab_guide(const HomogeneousMedium& medium) {
-    SlabGuide guide;
-    guide.medium = medium;
+std::vector<std::vector<SlabMode>> slab_modes(const HomogeneousMedium& medium) {
     const Rgb extinction = medium.extinction();
+    if (!is_finite(extinction) || !(min_value(medium.absorption) >= 0) || !(min_value(medium.scattering) >= 0)) {
+        throw InputError("the modes of a medium: its coefficients must be finite and not negative");
+    }
+    if (!(std::abs(medium.phase.mean_cosine()) < 1)) {
+        throw InputError("the modes of a medium: the mean cosine of its phase function must be within (-1, 1)");
+    }
     const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
     const int channels = is_grey(medium.absorption) && is_grey(medium.scattering) ? 1 : 3;
+    std::vector<std::vector<SlabMode>> modes;
     for (int c = 0; c < channels; ++c) {
         const double albedo =
             extinction[c] > 0 ? static_cast<double>(medium.scattering[c]) / static_cast<double>(extinction[c]) : 0.0;
-        guide.modes.push_back(slab_modes(albedo, medium.phase));
+        modes.push_back(slab_modes(albedo, medium.phase));
     }
-    return guide;
+    return modes;
 }
 
 }  // namespace wend

@@ -1,7 +1,8 @@
-// The modes that guide walks in a dense medium, from theory.
+// The modes that guide walks in a dense medium.
 #pragma once
 
-#include <wend/decision/slab_guide.h>
+#include <wend/adjoint/slab_mode.h>
+#include <wend/medium/medium.h>
 
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace wend {
 /// modes would have a walk go straight for the boundary, and sample all else too rarely.
 std::vector<SlabMode> slab_modes(double albedo, const PhaseFunction& phase);
 
-/// The guide of a medium, channel by channel unless they are all alike, with classical sampling alone.
-SlabGuide slab_guide(const HomogeneousMedium& medium);
+/// The same for a medium, channel by channel, or for one channel where all are alike. Throws InputError for
+/// coefficients that are negative or not finite, and mean cosines outside (-1, 1).
+std::vector<std::vector<SlabMode>> slab_modes(const HomogeneousMedium& medium);
 
 }  // namespace wend

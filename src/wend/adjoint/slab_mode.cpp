@@ -1,4 +1,4 @@
-#include <wend/decision/slab_mode.h>
+#include <wend/adjoint/slab_mode.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <wend/io/load/context.h>
+#include <wend/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace wend {
+
+/// Warns of shapes that do not hold the homogeneous medium that is inside them: one warning a shape and kind, for the
+/// first few. `places` are those of the scene's surfaces; `names` of its media, empty for one that belongs to a
+/// material.
+void warn_of_boundaries(LoadContext& context, const SceneDescription& scene, const std::vector<Place>& places,
+                        const std::vector<std::string>& names);
+
+}  // namespace wend

@@ -1,0 +1,88 @@
+// Shares learned from what stays brought, on problems whose best shares are known.
+#include <wend/core/random.h>
+#include <wend/integrator/stay_plans.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+const Box3 box(Vec3(0.0f), Vec3(1.0f));
+
+/// f(x) = 3 x² on [0, 1], by technique 0 (density 1), 1 (3 x², which is perfect), and 2 (2 (1 - x), which is bad).
+double density(std::size_t technique, double x) {
+    return technique == 0 ? 1 : technique == 1 ? 3 * x * x : 2 * (1 - x);
+}
+double draw(std::size_t technique, double u) {
+    return technique == 0 ? u : technique == 1 ? std::cbrt(u) : 1 - std::sqrt(1 - u);
+}
+
+Stay stay(const SlabGuide::Shares& shares, Pcg32& random) {
+    const double u = random.uniform_double();
+    const std::size_t technique = u < shares[0] ? 0 : u < shares[0] + shares[1] ? 1 : 2;
+    const double x = draw(technique, random.uniform_double());
+    double mixture = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        mixture += static_cast<double>(shares[i]) * density(i, x);
+    }
+    Stay result{0, Vec3(0.1f), 0, {}, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        result.relative[i] = static_cast<float>(density(i, x) / mixture);
+    }
+    result.bring(static_cast<float>(3 * x * x / mixture), {result.relative, 0});
+    return result;
+}
+
+TEST(StayPlans, GiveTheSharesToWhatIsRight) {
+    StayPlans plans(box, {0.25f, 0.375f, 0.375f});
+    Pcg32 random(1);
+    const int cell = plans.cell_at(Vec3(0.1f));
+    for (int round = 0; round < 8; ++round) {
+        StayMoments moments;
+        for (int i = 0; i < 20000; ++i) {
+            moments.add(cell, stay(plans.plan(cell).shares, random));
+        }
+        plans.learn(moments.of(0));
+    }
+    const SlabGuide::Shares& learned = plans.plan(cell).shares;
+    EXPECT_GT(learned[1], 0.85f);
+    EXPECT_EQ(learned[2], 0) << "what is useless is dropped";
+    EXPECT_GE(learned[0], 0.029f) << "classical sampling bounds the weights";
+    EXPECT_NEAR(learned[0] + learned[1] + learned[2], 1, 1e-5);
+    // A cell where no stay began follows the others.
+    EXPECT_GT(plans.plan(plans.cell_at(Vec3(0.9f))).shares[1], 0.85f);
+}
+
+TEST(StayPlans, LearnNothingFromNothingOrFromWhatIsNotANumber) {
+    const SlabGuide::Shares start{0.25f, 0.75f};
+    StayPlans plans(box, start);
+    StayMoments moments;
+    plans.learn(moments.of(0));
+    Stay bad{0, Vec3(0.5f), 0, {}, {}};
+    bad.relative = {1, 1};
+    bad.bring(std::numeric_limits<float>::quiet_NaN(), {bad.relative, 0});
+    moments.add(plans.cell_at(bad.entry), bad);
+    plans.learn(moments.of(0));
+    EXPECT_EQ(plans.plan(0).shares, start);
+}
+
+TEST(StayPlans, MomentsAddUp) {
+    Pcg32 random(2);
+    StayMoments all, first, second;
+    for (int i = 0; i < 100; ++i) {
+        const Stay one = stay({0.5f, 0.5f}, random);
+        all.add(i % 7, one);
+        (i < 50 ? first : second).add(i % 7, one);
+    }
+    first += second;
+    for (const auto& [cell, sums] : all.of(0)) {
+        EXPECT_NEAR(first.of(0).at(cell).powers[4], sums.powers[4], 1e-9 * sums.powers[4]);
+        EXPECT_NEAR(first.of(0).at(cell).slopes[1], sums.slopes[1], 1e-9 * sums.powers[2]);
+    }
+    EXPECT_TRUE(all.of(1).empty());
+}
+
+}  // namespace
+}  // namespace wend
