@@ -29,8 +29,6 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
-// Training ends after this many samples per pixel: from then on the field would change little.
-constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them.
 constexpr int warm_up_samples = 7;
@@ -192,7 +190,8 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             break;
         }
         const Preset& preset = settings.preset;
-        PassPlan plan{statistics.samples, count, !preset.is_classical() && statistics.samples < training_samples, {}};
+        PassPlan plan{
+            statistics.samples, count, !preset.is_classical() && statistics.samples < settings.training_samples, {}};
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene, film, settings, decisions, subsurface, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
@@ -232,10 +231,12 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 settings.on_records(records);
             }
             fields = learn(fields, records, settings.threads);
-            if (statistics.samples >= warm_up_samples) {
-                film.begin_stage();
-            }
             statistics.training_seconds += seconds_since(training_start);
+        }
+        // The next pass will sample in another way: the field has changed, or survival begins to follow it.
+        const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;
+        if (statistics.samples >= warm_up_samples && (plan.record || warms_up)) {
+            film.begin_stage();
         }
         const double elapsed = seconds_since(start);
         if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,
