@@ -184,6 +184,30 @@ TEST(Render, CountsItsWork) {
     EXPECT_EQ(statistics.passes, (std::vector<int>{1, 2, 2}));
 }
 
+TEST(Render, FollowsAGivenFieldWithoutTeachingItWhereToldSo) {
+    const Scene scene(foggy_room());
+    RenderStatistics taught;
+    render_image(scene, "full", 15, 1, 0, &taught);
+    RenderSettings settings;
+    settings.preset = parse_preset("full");
+    settings.samples = 15;
+    settings.seed = 2;
+    settings.fields = taught.fields;
+    const auto fluence_after = [&](int training_samples) {
+        settings.training_samples = training_samples;
+        int told = 0;
+        settings.on_records = [&](std::span<const guide::PathRecords>) { ++told; };
+        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        const RenderStatistics statistics = render(scene, film, settings);
+        EXPECT_EQ(told > 0, training_samples > 0);
+        return statistics.fields->volume.find(Vec3(0, 0, 0))->fluence();
+    };
+    const float given = taught.fields->volume.find(Vec3(0, 0, 0))->fluence();
+    EXPECT_GT(given, 0.0f);
+    EXPECT_EQ(fluence_after(0), given);
+    EXPECT_NE(fluence_after(15), given);
+}
+
 TEST(Render, StopsBetweenPassesWhenAsked) {
     const Scene scene(foggy_room());
     Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});

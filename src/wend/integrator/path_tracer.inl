@@ -340,7 +340,7 @@ private:
         return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f;
     }
 
-    /// Connections that count for little are few.
+    /// Of connections to lights that directions find as well: where they count for little they are few.
     float connection_probability(bool in_volume) const { return 1 / (1 + (preference(in_volume) - 1) / 16); }
 
     float survival_probability() {
@@ -362,10 +362,6 @@ private:
                        bool in_volume) {
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
-        const float connected = connection_probability(in_volume);
-        if (connected < 1 && !(sampler_.uniform() < connected)) {
-            return {};
-        }
         const LightReceiver receiver{position, normal};
         const ChosenLight chosen =
             std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
@@ -378,6 +374,10 @@ private:
         }
         const Rgb value = f.evaluate(light->direction);
         if (is_black(value)) {
+            return {};
+        }
+        const float connected = light->point_like ? 1.0f : connection_probability(in_volume);
+        if (connected < 1 && !(sampler_.uniform() < connected)) {
             return {};
         }
         Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);

@@ -29,8 +29,6 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
-// Training ends after this many samples per pixel: from then on the field would change little.
-constexpr int training_samples = 63;
 constexpr int largest_pass = 32;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them.
 constexpr int warm_up_samples = 7;
@@ -201,7 +199,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             break;
         }
         const Preset& preset = settings.preset;
-        const bool learning = statistics.samples < training_samples;
+        const bool learning = statistics.samples < settings.training_samples;
         PassPlan plan{
             statistics.samples, count, !preset.is_classical() && learning, !subsurface.is_empty() && learning, {}};
         const auto run_with = [&](const auto& decisions) {
@@ -252,7 +250,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             }
             subsurface.learn(moments);
         }
-        if ((plan.record || plan.record_stays) && statistics.samples >= warm_up_samples) {
+        // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
+        const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;
+        if (statistics.samples >= warm_up_samples && (plan.record || plan.record_stays || warms_up)) {
             film.begin_stage();
         }
         const double elapsed = seconds_since(start);

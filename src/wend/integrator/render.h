@@ -29,6 +29,8 @@ struct RenderSettings {
     SubsurfacePreset subsurface;
     /// What an earlier render of the scene learned; null: nothing yet.
     std::shared_ptr<const GuidingFields> fields;
+    /// Samples per pixel that the fields learn from: from then on they would change little. 0: they stay as given.
+    int training_samples = 63;
     /// Is shown what the walks of each pass told the field, in the order of the picture's tiles; may be empty.
     std::function<void(std::span<const guide::PathRecords>)> on_records;
     SamplerKind sampler = SamplerKind::sobol;
