@@ -75,13 +75,12 @@ TEST_P(GuideOfLayers, FlightsThatPassAndFlightsThatCollideAreAllThereAre) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Media, GuideOfLayers,
-    testing::Values(Problem{"HalfSpace", 0, 1, {inward, 0.7f, 100, 1, 1}},
-                    Problem{"ThinLitFromBehind", 0, 1, {inward, 0.3f, 1, 0.1f, 2}},
-                    Problem{"Forward", 0.8, 1.4, {inward, 0.5f, 3, 1, 0.5f}},
-                    Problem{"Backward", -0.5, 1.5, {inward, 0.1f, 2, 1, 0}}),
-    [](const auto& problem) { return std::string(problem.param.name); });
+INSTANTIATE_TEST_SUITE_P(Media, GuideOfLayers,
+                         testing::Values(Problem{"HalfSpace", 0, 1, {inward, 0.7f, 100, 1, 1}},
+                                         Problem{"ThinLitFromBehind", 0, 1, {inward, 0.3f, 1, 0.1f, 2}},
+                                         Problem{"Forward", 0.8, 1.4, {inward, 0.5f, 3, 1, 0.5f}},
+                                         Problem{"Backward", -0.5, 1.5, {inward, 0.1f, 2, 1, 0}}),
+                         [](const auto& problem) { return std::string(problem.param.name); });
 
 }  // namespace
 }  // namespace wend

@@ -46,8 +46,8 @@ double LayerGuide::radiance(const LayerPlace& place, const Vec3& w, double t) co
         if (view.light > 0) {
             const PlanarAdjoint& adjoint = view.layer->adjoint;
             const double mu = view.side * static_cast<double>(dot(w, place.inward));
-            sum += view.light *
-                   adjoint.radiance(clamped(view.depth + t * extinction_ * mu, adjoint.slab().thickness), mu);
+            sum +=
+                view.light * adjoint.radiance(clamped(view.depth + t * extinction_ * mu, adjoint.slab().thickness), mu);
         }
     }
     return sum;

@@ -19,14 +19,15 @@ struct LayerPlace {
     float far = 0;         ///< at the other
 };
 
-/// Solutions for one channel of a medium, by thickness. The radiance is that of two layers, each lit from one side; of a
-/// half-space, from the closer boundary alone. All that is asked is a probability whatever the true shape is: a flight
-/// that would be outside of its layer goes on classically.
+/// Solutions for one channel of a medium, by thickness. The radiance is that of two layers, each lit from one side; of
+/// a half-space, from the closer boundary alone. All that is asked is a probability whatever the true shape is: a
+/// flight that would be outside of its layer goes on classically.
 class LayerGuide {
 public:
     LayerGuide() = default;
-    /// `layers`: those of theory/lit_layers.h or the like, 1, 2, 4, ... mean free paths thick and last a half-space, for
-    /// the same mean cosine, in [-0.95, 0.95]. Henyey and Greenstein's phase function is used in place of any other.
+    /// `layers`: those of theory/lit_layers.h or the like, 1, 2, 4, ... mean free paths thick and last a half-space,
+    /// for the same mean cosine, in [-0.95, 0.95]. Henyey and Greenstein's phase function is used in place of any
+    /// other.
     LayerGuide(double extinction, double mean_cosine, std::vector<PlanarAdjoint> layers);
 
     /// What a walk may expect that went a distance t along w.

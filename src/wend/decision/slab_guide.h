@@ -28,7 +28,7 @@ struct SlabGuide {
     /// By channel like the modes, for one strategy that follows them in place of a mode; empty if there is none.
     std::vector<LayerGuide> layers;
     int layered = -1;  ///< that strategy
-    Shares share{1};  ///< where no others are given
+    Shares share{1};   ///< where no others are given
 
     int channels() const { return static_cast<int>(modes.size()); }
     /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.

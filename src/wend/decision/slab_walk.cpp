@@ -105,10 +105,9 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
     } else {
         const std::size_t slot = technique / channels - 1;
         const std::size_t channel = technique % channels;
-        w = walk_.is_layered(static_cast<int>(slot))
-                ? layered_[channel].sample(random_)
-                : walk_.mode(static_cast<int>(slot), static_cast<int>(channel))
-                      .sample(phase, before_, walk_.normal_[slot], random_);
+        w = walk_.is_layered(static_cast<int>(slot)) ? layered_[channel].sample(random_)
+                                                     : walk_.mode(static_cast<int>(slot), static_cast<int>(channel))
+                                                           .sample(phase, before_, walk_.normal_[slot], random_);
     }
     DirectionSample s;
     s.direction = w;

@@ -61,7 +61,7 @@ public:
         const SlabWalk& walk_;
         Vec3 before_;
         Pcg32& random_;
-        std::array<LayerGuide::Directions, 3> layered_;  // by channel
+        std::array<LayerGuide::Directions, 3> layered_;                     // by channel
         std::array<float, 3 * (1 + SlabGuide::most_strategies)> relative_;  // posterior over S(before)
     };
 
@@ -132,11 +132,11 @@ private:
     std::array<int, SlabGuide::most_strategies> strategy_;
     SlabGuide::Shares share_;  // of classical sampling, then slot by slot
     Values posterior_;         // slot by slot, classical sampling first; channels within
-    Values rate_;                    // of the exponential flight under each technique that has one
-    int layered_ = -1;               // slot of the strategy that follows layers; none if negative
+    Values rate_;              // of the exponential flight under each technique that has one
+    int layered_ = -1;         // slot of the strategy that follows layers; none if negative
     LayerPlace place_;
-    Vec3 heading_;                   // of the flight from that place
-    std::array<double, 3> expected_; // by channel, there
+    Vec3 heading_;                    // of the flight from that place
+    std::array<double, 3> expected_;  // by channel, there
     std::array<Vec3, SlabGuide::most_strategies> normal_;
     std::array<int, SlabGuide::most_strategies> level_;
     float survived_ = 1;  // product of the probabilities of survival

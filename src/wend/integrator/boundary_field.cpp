@@ -51,7 +51,9 @@ BoundaryField::BoundaryField(std::vector<LitPoint> points, float decay, int thre
         double light = 0;
         Imath::V3d slope(0, 0, 0);
         // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
-        const auto way_to = [&](std::size_t p) { return points_[p].point.position + points_[p].point.normal * spacing_ - centre; };
+        const auto way_to = [&](std::size_t p) {
+            return points_[p].point.position + points_[p].point.normal * spacing_ - centre;
+        };
         float nearest = infinity;
         for (std::size_t p = 0; p < points_.size(); ++p) {
             nearest = std::min(nearest, length(way_to(p)));
@@ -164,8 +166,7 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     const float diameter = diameter_of(points);
     float total = 0;
     for (const BoundaryPoint& point : points) {
-        const float thickness =
-            chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
+        const float thickness = chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
         result.push_back({point, direct_irradiance(scene, point, samples, random), thickness, 0});
         total += result.back().irradiance;
     }

@@ -49,10 +49,10 @@ private:
         float index_scale = 1;
         int depth = 0;
         int interfaces = 0;
-        float travelled = 0;  ///< since the last vertex
-        SlabWalk slab;        ///< the stay in a dense medium, if it is guided
-        Stay stay;            ///< what it brings; of the last one where the walk is outside
-        float preference = 1;  ///< of the last vertex: StayPlan::preference, or 1
+        float travelled = 0;        ///< since the last vertex
+        SlabWalk slab;              ///< the stay in a dense medium, if it is guided
+        Stay stay;                  ///< what it brings; of the last one where the walk is outside
+        float preference = 1;       ///< of the last vertex: StayPlan::preference, or 1
         float stay_preference = 1;  ///< of vertices of the stay
         float connected = 1;        ///< the probability that the last vertex was connected
 
@@ -336,9 +336,7 @@ private:
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
-    float preference(bool in_volume) const {
-        return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f;
-    }
+    float preference(bool in_volume) const { return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f; }
 
     /// Of connections to lights that directions find as well: where they count for little they are few.
     float connection_probability(bool in_volume) const { return 1 / (1 + (preference(in_volume) - 1) / 16); }
@@ -467,8 +465,9 @@ private:
         }
         const float chosen =
             std::visit([&](const auto& s) { return s.probability(now_.receiver, light); }, scene_.light_sampler());
-        const float other = now_.connected * chosen * light_density(scene_.lights()[static_cast<std::size_t>(light)],
-                                                   now_.receiver.position, now_.ray.direction, hit, normal);
+        const float other = now_.connected * chosen *
+                            light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
+                                          now_.ray.direction, hit, normal);
         const float own = now_.density * dot(now_.channels, now_.pass_probability);
         return own > 0 ? own / (own + other) : 0.0f;
     }

@@ -44,8 +44,8 @@ Steps steps(const StayMoments::Sums& sums, const Steps& expected) {
     };
     Steps result;
     for (std::size_t i = 0; i < result.share.size(); ++i) {
-        result.share[i] = step(sums.slopes[i] - sums.powers[2] / n * sums.densities[i], sums.slope_squares[i],
-                               expected.share[i]);
+        result.share[i] =
+            step(sums.slopes[i] - sums.powers[2] / n * sums.densities[i], sums.slope_squares[i], expected.share[i]);
     }
     result.preference = step(-sums.preference_slope, sums.preference_slope_squares, expected.preference);
     return result;
@@ -77,7 +77,8 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
 
 void StayMoments::add(int cell, const Stay& stay) {
     const double f = stay.brought;
-    Sums one{{1, f, f * f, f * f * f, f * f * f * f}, {}, {}, 2 * f * static_cast<double>(stay.slope.preference), {}, 0};
+    Sums one{
+        {1, f, f * f, f * f * f, f * f * f * f}, {}, {}, 2 * f * static_cast<double>(stay.slope.preference), {}, 0};
     one.preference_slope_squares = sqr(one.preference_slope);
     bool finite = std::isfinite(one.powers[4]) && std::isfinite(one.preference_slope);
     for (std::size_t i = 0; i < one.densities.size(); ++i) {

@@ -9,8 +9,8 @@
 
 namespace wend {
 
-/// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much more
-/// for a larger logarithm of StayPlan::preference.
+/// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much
+/// more for a larger logarithm of StayPlan::preference.
 struct StaySlope {
     SlabGuide::Shares shares{};
     float preference = 0;
@@ -80,10 +80,10 @@ public:
     int cell_at(const Vec3& entry) const;
     const StayPlan& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
 
-    /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second moment
-    /// relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow all
-    /// others. A guide that has become useless is dropped; classical sampling keeps a share
-    /// that bounds all weights.
+    /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second
+    /// moment relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow
+    /// all others. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
+    /// weights.
     void learn(const std::map<int, StayMoments::Sums>& moments);
 
 private:

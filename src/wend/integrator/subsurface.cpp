@@ -19,12 +19,9 @@ struct Entry {
 
 const std::vector<Entry>& entries() {
     using enum SlabStrategy;
-    static const std::vector<Entry> table = {{"classical", {}},
-                                             {"dwivedi", {entry}},
-                                             {"closest", {closest}},
-                                             {"incident", {incident}},
-                                             {"planar", {planar}},
-                                             {"auto", {entry, closest, incident}}};
+    static const std::vector<Entry> table = {{"classical", {}},      {"dwivedi", {entry}},
+                                             {"closest", {closest}}, {"incident", {incident}},
+                                             {"planar", {planar}},   {"auto", {entry, closest, incident}}};
     return table;
 }
 
