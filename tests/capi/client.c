@@ -61,6 +61,8 @@ static void fill_records(wend_record* records, size_t count, uint64_t seed) {
         r->density = (float)(1 / (4 * PI));
         r->radiance = dot(r->direction, towards_lamp(r->position, &distance)) > 0.9 ? 10 : 0.1f;
         r->distance = (float)distance;
+        r->colour[0] = 1;
+        r->colour[1] = r->colour[2] = r->radiance > 1 ? 0.5f : 1.0f;
         /* As if the guide had never drawn what is bright, beside a scattering function that is uniform. */
         r->classical_density = r->density;
         r->guided_density = r->radiance > 1 ? 0 : r->density;
@@ -147,7 +149,7 @@ static void check_questions(const wend_field* field) {
     wend_distribution incident, surface, volume;
     wend_error error;
     double distance;
-    float fluence = 0, share = 0, integral = 0, density = 0;
+    float fluence = 0, share = 0, integral = 0, density = 0, colour[3] = {0, 0, 0}, mean;
 
     check(wend_field_fluence(field, position, &fluence, &error) == WEND_OK, "fluence", &error);
     check(fabs(fluence / true_fluence - 1) < 0.1, "the fluence is right", NULL);
@@ -159,12 +161,22 @@ static void check_questions(const wend_field* field) {
     check(wend_distribution_density(&incident, towards_lamp(position, &distance), &density, &error) == WEND_OK &&
               density > 0.5,
           "it points to the lamp", &error);
+    check(wend_field_radiance(field, position, towards_lamp(position, &distance), colour, &error) == WEND_OK,
+          "radiance", &error);
+    mean = (colour[0] + colour[1] + colour[2]) / 3;
+    check(fabs(mean / (density * fluence) - 1) < 1e-3, "its mean is the density times the fluence", NULL);
+    check(fabs(colour[0] / colour[1] - 2) < 0.1 && fabs(colour[1] / colour[2] - 1) < 0.01, "the lamp is red", NULL);
 
     check(wend_lobes_cosine(&cosine, &error) == WEND_OK, "cosine", &error);
     check(wend_lobes_phase(fog, 2, &phase, &error) == WEND_OK, "phase function", &error);
     check(wend_distribution_product(&incident, &cosine, up, &surface, &integral, &error) == WEND_OK && integral > 0,
           "product with a cosine", &error);
     check_distribution(&surface, "the product with a cosine is normalized");
+    check(wend_field_in_scattered(field, position, &surface, colour, &error) == WEND_OK, "in-scattered", &error);
+    mean = (colour[0] + colour[1] + colour[2]) / 3;
+    check(fabs(mean / (integral * fluence) - 1) < 1e-3, "its mean is the integral times the fluence", NULL);
+    check(wend_field_in_scattered(field, position, &incident, colour, &error) == WEND_BAD_ARGUMENT,
+          "what is no product is refused", NULL);
     volume = incident;
     check(wend_distribution_product(&volume, &phase, aside, &volume, &integral, &error) == WEND_OK && integral > 0,
           "product in place", &error);

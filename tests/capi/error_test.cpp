@@ -30,7 +30,7 @@ FieldPointer empty_field() {
 }
 
 FieldPointer trained_field() {
-    const std::vector<wend_record> records(100, {inside, up, 1, 0.5f, inf, 0, 0, 0});
+    const std::vector<wend_record> records(100, {inside, up, 1, 0.5f, inf, 0, 0, 0, {1, 1, 1}});
     wend_field* field = nullptr;
     EXPECT_EQ(wend_field_fit(empty_field().get(), records.data(), records.size(), nullptr, 1, &field, nullptr, nullptr),
               WEND_OK);
@@ -93,6 +93,8 @@ TEST(CErrors, NothingLearnedIsSaid) {
     float fluence = -1;
     EXPECT_REFUSED(WEND_NOTHING_LEARNED, "nothing", wend_field_incident(field.get(), inside, &incident, e));
     EXPECT_REFUSED(WEND_NOTHING_LEARNED, "nothing", wend_field_fluence(field.get(), inside, &fluence, e));
+    float colour[3];
+    EXPECT_REFUSED(WEND_NOTHING_LEARNED, "nothing", wend_field_radiance(field.get(), inside, up, colour, e));
     EXPECT_EQ(fluence, -1);
     wend_field_summary summary;
     ASSERT_EQ(wend_field_summarize(field.get(), &summary, nullptr), WEND_OK);
@@ -102,7 +104,7 @@ TEST(CErrors, NothingLearnedIsSaid) {
 TEST(CErrors, FitsNeedArgumentsInRange) {
     const FieldPointer field = empty_field();
     wend_field* next = nullptr;
-    const wend_record record = {inside, up, 1, 1, 1, 0, 0, 0};
+    const wend_record record = {inside, up, 1, 1, 1, 0, 0, 0, {1, 1, 1}};
     const auto fit = [&](auto change, wend_error* e) {
         wend_fit_settings settings = wend_fit_settings_default();
         change(settings);
@@ -126,17 +128,18 @@ TEST(CErrors, FitsNeedArgumentsInRange) {
 }
 
 TEST(CErrors, BadRecordsAreIgnoredAndCounted) {
-    std::vector<wend_record> records(5, {inside, up, 1, 1, 1, 0, 0, 0});
+    std::vector<wend_record> records(6, {inside, up, 1, 1, 1, 0, 0, 0, {1, 1, 1}});
     records[0].radiance = nan;
     records[1].direction = {0, 0, 2};
     records[2].density = 0;
     records[3].position.x = inf;
+    records[4].colour[1] = -1;
     wend_field* next = nullptr;
     wend_fit_report report;
-    ASSERT_EQ(wend_field_fit(empty_field().get(), records.data(), 5, nullptr, 1, &next, &report, nullptr), WEND_OK);
+    ASSERT_EQ(wend_field_fit(empty_field().get(), records.data(), 6, nullptr, 1, &next, &report, nullptr), WEND_OK);
     const FieldPointer owner(next);
-    EXPECT_EQ(report.records, 5u);
-    EXPECT_EQ(report.ignored, 4u);
+    EXPECT_EQ(report.records, 6u);
+    EXPECT_EQ(report.ignored, 5u);
 }
 
 TEST(CErrors, NoRecordsAreFine) {
@@ -158,6 +161,7 @@ TEST(CErrors, QuestionsNeedFinitePlacesAndUnitDirections) {
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "position", wend_field_incident(field.get(), {nan, 0, 0}, &incident, e));
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "position", wend_field_fluence(field.get(), {0, inf, 0}, &x, e));
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_field_fluence(field.get(), inside, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_field_radiance(field.get(), inside, up, nullptr, e));
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_field_summarize(field.get(), nullptr, e));
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "unit length", wend_distribution_density(&incident, {0, 0, 0}, &x, e));
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "unit length", wend_distribution_density(&incident, {0, nan, 0}, &x, e));

@@ -58,6 +58,12 @@ void visit(const wend_distribution* distribution, const Body& body) {
     body(*incident);
 }
 
+void put(const Rgb& colour, float* channels) {
+    for (int c = 0; c < 3; ++c) {
+        channels[c] = colour[c];
+    }
+}
+
 const guide::Region* find(const wend_field* field, const wend_vec3& position) {
     require(field, "the field is null");
     return field->value.find(to_position(position, "the position"));
@@ -74,6 +80,20 @@ wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, floa
             return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
         }
         *fluence = region->fluence();
+        return WEND_OK;
+    });
+}
+
+wend_status wend_field_radiance(const wend_field* field, wend_vec3 position, wend_vec3 direction, float radiance[3],
+                                wend_error* error) noexcept {
+    return guarded(error, [&] {
+        require(radiance, "the place for the radiance is null");
+        const Vec3 w = to_direction(direction, "the direction");
+        const guide::Region* region = find(field, position);
+        if (!region) {
+            return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
+        }
+        put(region->radiance({position.x, position.y, position.z}, w), radiance);
         return WEND_OK;
     });
 }
@@ -100,6 +120,22 @@ wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wen
             return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
         }
         store<Incident>(*incident, region->incident({position.x, position.y, position.z}));
+        return WEND_OK;
+    });
+}
+
+wend_status wend_field_in_scattered(const wend_field* field, wend_vec3 position, const wend_distribution* product,
+                                    float in_scattered[3], wend_error* error) noexcept {
+    return guarded(error, [&] {
+        require(in_scattered, "the place for the radiance is null");
+        require_object(product, "the product is null");
+        const auto* mixture = stored<Product>(*product);
+        require(mixture, "the distribution is no product: wend_distribution_product() makes one");
+        const guide::Region* region = find(field, position);
+        if (!region) {
+            return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
+        }
+        put(region->in_scattered(*mixture), in_scattered);
         return WEND_OK;
     });
 }

@@ -21,7 +21,8 @@ guide::Record to_record(const wend_record& r) {
             r.distance,
             r.classical_density,
             r.guided_density,
-            r.scattered};
+            r.scattered,
+            {r.colour[0], r.colour[1], r.colour[2]}};
 }
 
 }  // namespace

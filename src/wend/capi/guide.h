@@ -78,6 +78,7 @@ typedef struct wend_record {
     float classical_density;
     float guided_density;
     float scattered;
+    float colour[3]; /* of the radiance, in any scale, of which only ratios count; not negative, and black is grey */
 } wend_record;
 
 /* How a field is fitted. Start from wend_fit_settings_default(). */
@@ -141,6 +142,10 @@ wend_status wend_field_summarize(const wend_field* field, wend_field_summary* su
 /* The integral of the radiance over all directions, averaged over the position's cell: radiance times sr. */
 wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, float* fluence,
                                wend_error* error) WEND_NOEXCEPT;
+
+/* The radiance that arrives at a position from a unit direction, by colour channel (red, green, blue). */
+wend_status wend_field_radiance(const wend_field* field, wend_vec3 position, wend_vec3 direction, float radiance[3],
+                                wend_error* error) WEND_NOEXCEPT;
 
 /* How much of the directions around a position is best drawn by your own sampling of what scatters, the rest being
  * guided: learned from records that know both densities, 0.1 to 0.9, and one half without them. */
@@ -208,6 +213,11 @@ wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wen
  * `incident`; what is a product already has no further one. */
 wend_status wend_distribution_product(const wend_distribution* incident, const wend_lobes* lobes, wend_vec3 axis,
                                       wend_distribution* product, float* integral, wend_error* error) WEND_NOEXCEPT;
+
+/* The integral of the incident radiance at a position times the lobes of a product that was made there, by colour
+ * channel (red, green, blue): the radiance that is scattered on to a walk, but for its albedo. */
+wend_status wend_field_in_scattered(const wend_field* field, wend_vec3 position, const wend_distribution* product,
+                                    float in_scattered[3], wend_error* error) WEND_NOEXCEPT;
 
 /* The direction that belongs to a point of the unit square, [0,1)^2, and its density, which may be null. */
 wend_status wend_distribution_sample(const wend_distribution* distribution, float u, float v, wend_vec3* direction,

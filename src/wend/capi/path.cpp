@@ -47,8 +47,15 @@ wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wen
         guide::incident_radiance(vertices, incident);
         for (std::size_t i = 0; i < count; ++i) {
             const guide::Record r = guide::record_of(vertices[i], incident[i]);
-            records[i] = {from_vector(r.position), from_vector(r.direction), r.radiance, r.density, r.distance,
-                          r.classical_density,     r.guided_density,         r.scattered};
+            records[i] = {from_vector(r.position),
+                          from_vector(r.direction),
+                          r.radiance,
+                          r.density,
+                          r.distance,
+                          r.classical_density,
+                          r.guided_density,
+                          r.scattered,
+                          {r.colour.r, r.colour.g, r.colour.b}};
         }
         return WEND_OK;
     });
