@@ -39,6 +39,23 @@ public:
     /// and source in scene units.
     double sample_distance(const LayerPlace& place, const Vec3& w, Pcg32& random) const;
 
+private:
+    /// A layer lit from its near side.
+    struct Layer {
+        PlanarAdjoint adjoint;
+        ModalDirection direction;
+    };
+    /// One of the two, as a walk sees it.
+    struct View {
+        const Layer* layer = nullptr;
+        double light = 0;
+        double depth = 0;
+        Vec3 inward{0, 0, 1};  ///< from the side that is lit
+
+        double cosine(const Vec3& w) const { return static_cast<double>(dot(w, inward)); }
+    };
+
+public:
     /// Directions after a collision at a place, in proportion to phase function times radiance.
     class Directions {
     public:
@@ -49,25 +66,13 @@ public:
         double density(const Vec3& w) const;
 
     private:
-        const LayerGuide* guide_ = nullptr;
-        LayerPlace place_;
+        double g_ = 0;
         Vec3 before_{0, 0, 1};
+        std::array<View, 2> views_{};
         std::array<double, 2> share_{};
     };
 
 private:
-    /// A layer lit from its near side.
-    struct Layer {
-        PlanarAdjoint adjoint;
-        ModalDirection direction;
-    };
-    /// One of the two, seen by a walk: mirrored where the light is at the other side.
-    struct View {
-        const Layer* layer;
-        double light;
-        double depth;
-        double side;  ///< 1, or -1 if mirrored
-    };
     std::array<View, 2> views(const LayerPlace& place) const;
 
     double extinction_ = 1;

@@ -7,22 +7,6 @@
 namespace wend {
 namespace {
 
-Box3 bounds_of(std::span<const LitPoint> points) {
-    Box3 box;
-    for (const LitPoint& point : points) {
-        box.extendBy(point.point.position);
-    }
-    return box;
-}
-
-float diameter_of(std::span<const BoundaryPoint> points) {
-    Box3 box;
-    for (const BoundaryPoint& point : points) {
-        box.extendBy(point.position);
-    }
-    return length(box.size());
-}
-
 /// Index of the cell of an interval of `side` cells.
 int cell_of(float x, float low, float high, int side) {
     return high > low ? std::clamp(static_cast<int>((x - low) / (high - low) * static_cast<float>(side)), 0, side - 1)
@@ -31,8 +15,8 @@ int cell_of(float x, float low, float high, int side) {
 
 }  // namespace
 
-BoundaryField::BoundaryField(std::vector<LitPoint> points, float decay, int threads)
-    : box_(bounds_of(points)),
+BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads)
+    : box_(box),
       spacing_(length(box_.size()) / std::sqrt(static_cast<float>(points.size()))),
       points_(std::move(points)),
       cells_(side * side * side) {
@@ -163,7 +147,7 @@ float direct_irradiance(const Scene& scene, const BoundaryPoint& point, int samp
 std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
                                  int samples, Pcg32& random) {
     std::vector<LitPoint> result;
-    const float diameter = diameter_of(points);
+    const float diameter = length(bounds_of(points).size());
     float total = 0;
     for (const BoundaryPoint& point : points) {
         const float thickness = chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
@@ -185,7 +169,7 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
 }
 
 float mean_chord(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points, Pcg32& random) {
-    const float diameter = diameter_of(points);
+    const float diameter = length(bounds_of(points).size());
     float sum = 0;
     for (const BoundaryPoint& point : points) {
         const Vec3 inward = Frame::from_z(-point.normal).to_world(to_cosine_hemisphere(random.uniform2()));

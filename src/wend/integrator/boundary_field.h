@@ -28,8 +28,8 @@ struct LitPoint {
 /// or badly oriented.
 class BoundaryField {
 public:
-    /// `decay`, per scene unit: how fast light falls off inside.
-    BoundaryField(std::vector<LitPoint> points, float decay, int threads);
+    /// `box` holds all points; `decay`, per scene unit: how fast light falls off inside.
+    BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads);
 
     /// The outward normal of the nearest piece of boundary.
     SlabAim closest(const Vec3& position) const;

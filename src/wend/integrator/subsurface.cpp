@@ -122,9 +122,10 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         }
         SlabGuide guide =
             slab_guide(*medium, slab_modes(*medium), static_cast<int>(strategies_.size()), classical_share);
+        const Box3 box = bounds_of(points);
         std::optional<BoundaryField> field;
         if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
-            field.emplace(lit_points(scene, static_cast<MediumId>(id), points, rays_to_lights, random),
+            field.emplace(box, lit_points(scene, static_cast<MediumId>(id), points, rays_to_lights, random),
                           least_decay(guide), threads);
         }
         const auto layered = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::planar);
@@ -139,10 +140,6 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
                 const double g = medium->phase.mean_cosine();
                 guide.layers[c] = LayerGuide(extinction, g, lit_layers(albedo, g, ior));
             });
-        }
-        Box3 box;
-        for (const BoundaryPoint& point : points) {
-            box.extendBy(point.position);
         }
         StayPlans plans(box, guide.share);
         media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(plans), std::move(field)});

@@ -139,4 +139,12 @@ std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, Medium
     return points;
 }
 
+Box3 bounds_of(std::span<const BoundaryPoint> points) {
+    Box3 box;
+    for (const BoundaryPoint& point : points) {
+        box.extendBy(point.position);
+    }
+    return box;
+}
+
 }  // namespace wend

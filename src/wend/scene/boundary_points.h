@@ -3,6 +3,7 @@
 
 #include <wend/scene/scene.h>
 
+#include <span>
 #include <vector>
 
 namespace wend {
@@ -16,5 +17,7 @@ struct BoundaryPoint {
 /// evenly by area; none if there is no such surface. On stretched spheres and disks the spread is not quite even.
 std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, MediumId medium, int count,
                                            std::uint64_t seed);
+
+Box3 bounds_of(std::span<const BoundaryPoint> points);
 
 }  // namespace wend
