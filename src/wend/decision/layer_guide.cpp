@@ -80,6 +80,10 @@ double LayerGuide::sample_distance(const LayerPlace& place, const Vec3& w, Pcg32
         return view.light > 0 ? view.light * view.layer->adjoint.radiance(view.depth, view.cosine(w)) : 0.0;
     };
     const double near = expected(both[0]), far = expected(both[1]);
+    if (!(near + far > 0)) {
+        // Nothing is expected from here; in case the layers are wrong, go on classically.
+        return -std::log1p(-random.uniform_double()) / extinction_;
+    }
     const View& view = both[random.uniform_double() * (near + far) < near ? 0 : 1];
     const ModalFlight flight(view.layer->adjoint);
     PlanarAdjoint::Site from, to;
@@ -87,6 +91,14 @@ double LayerGuide::sample_distance(const LayerPlace& place, const Vec3& w, Pcg32
     const PlanarFlight outcome = flight.sample(from, view.cosine(w), random, to);
     const double beyond = outcome.scatters ? 0.0 : -std::log1p(-random.uniform_double());
     return (outcome.length + beyond) / extinction_;
+}
+
+double LayerGuide::flight(const LayerPlace& place, const Vec3& w, double expected, double t, bool collides) const {
+    const double classical = std::exp(-extinction_ * t) * (collides ? extinction_ : 1.0);
+    if (!(expected > 0)) {
+        return classical;
+    }
+    return classical * (collides ? source(place, w, t) : radiance(place, w, t)) / expected;
 }
 
 LayerGuide::Directions::Directions(const LayerGuide& guide, const LayerPlace& place, const Vec3& before)

@@ -30,16 +30,22 @@ public:
     /// other.
     LayerGuide(double extinction, double mean_cosine, std::vector<PlanarAdjoint> layers);
 
-    /// What a walk may expect that went a distance t along w.
-    double radiance(const LayerPlace& place, const Vec3& w, double t) const;
-    /// The same if it collides there.
-    double source(const LayerPlace& place, const Vec3& w, double t) const;
+    /// What a walk may expect that goes on along w.
+    double radiance(const LayerPlace& place, const Vec3& w) const { return radiance(place, w, 0); }
 
-    /// A distance along w, with the density of transmittance times source() over radiance(place, w, 0), transmittance
-    /// and source in scene units.
+    /// A distance along w, with a density in proportion to transmittance times in-scattered radiance; a classical one
+    /// where the radiance is none.
     double sample_distance(const LayerPlace& place, const Vec3& w, Pcg32& random) const;
+    /// The probability of a flight longer than t, or the density per scene unit of a flight that `collides` at t, given
+    /// that radiance(place, w) is `expected`.
+    double flight(const LayerPlace& place, const Vec3& w, double expected, double t, bool collides) const;
 
 private:
+    /// As radiance(place, w), at a distance t on.
+    double radiance(const LayerPlace& place, const Vec3& w, double t) const;
+    /// The same of a walk that collides there.
+    double source(const LayerPlace& place, const Vec3& w, double t) const;
+
     /// A layer lit from its near side.
     struct Layer {
         PlanarAdjoint adjoint;

@@ -58,15 +58,7 @@ void SlabWalk::head(const Vec3& w) {
         rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
     });
     heading_ = w;
-    for_layers([&](std::size_t, int c) { expected_[static_cast<std::size_t>(c)] = layers(c).radiance(place_, w, 0); });
-}
-
-float SlabWalk::layered_flight(int channel, float length, bool collides) const {
-    const double rate = extinction_of(*guide_, channel);
-    const double beyond = collides ? rate * layers(channel).source(place_, heading_, length)
-                                   : layers(channel).radiance(place_, heading_, length);
-    const double expected = expected_[static_cast<std::size_t>(channel)];
-    return static_cast<float>(std::exp(-rate * static_cast<double>(length)) * beyond / expected);
+    for_layers([&](std::size_t, int c) { expected_[static_cast<std::size_t>(c)] = layers(c).radiance(place_, w); });
 }
 
 SlabWalk::Directions::Directions(const SlabWalk& walk, const Vec3& before, Pcg32& random)
@@ -192,7 +184,10 @@ float SlabWalk::weigh_flight(float length, bool collides) {
         weigh(static_cast<std::size_t>(c));
     }
     for_modes([&](std::size_t i, int, int) { weigh(i); });
-    for_layers([&](std::size_t i, int c) { posterior_[i] *= layered_flight(c, length, collides); });
+    for_layers([&](std::size_t i, int c) {
+        posterior_[i] *= static_cast<float>(layers(c).flight(place_, heading_, expected_[static_cast<std::size_t>(c)],
+                                                             static_cast<double>(length), collides));
+    });
     float total = 0;
     for (int i = 0; i < techniques(); ++i) {
         total += posterior_[static_cast<std::size_t>(i)];

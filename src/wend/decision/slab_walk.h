@@ -117,9 +117,6 @@ private:
         }
     }
     const LayerGuide& layers(int channel) const { return guide_->layers[static_cast<std::size_t>(channel)]; }
-    /// The probability of a flight of this length through the medium under a technique that follows layers, or its
-    /// density if it `collides` there.
-    float layered_flight(int channel, float length, bool collides) const;
     /// Draws a technique; u becomes a fresh uniform number.
     std::size_t choose(float& u) const;
     void normalize(float total);
