@@ -22,8 +22,8 @@ SlabMode mode_of(double albedo, float g) {
     return {mode.k, mode.albedo, mode.source};
 }
 
-/// Three channels that differ in extinction and albedo, two strategies.
-SlabGuide chromatic_guide(float g) {
+/// Three channels that differ in extinction and albedo, two strategies; the second may head for lamps.
+SlabGuide chromatic_guide(float g, bool lit = false) {
     SlabGuide guide;
     guide.medium = {{0.1f, 0.4f, 1.0f}, {4.0f, 3.0f, 2.5f}, Rgb(0.0f), PhaseFunction(HenyeyGreenstein{g})};
     for (int c = 0; c < 3; ++c) {
@@ -32,6 +32,7 @@ SlabGuide chromatic_guide(float g) {
     }
     guide.strategies = 2;
     guide.share = {0.25f, 0.5f, 0.25f};
+    guide.lit = lit ? 1 : -1;
     return guide;
 }
 
@@ -39,16 +40,31 @@ const Vec3 first_normal = normalize(Vec3(0.3f, -0.5f, 0.8f));
 const Vec3 second_normal = normalize(Vec3(-1, 0.2f, 0.1f));
 const Vec3 arrival = normalize(Vec3(0.2f, 0.9f, -0.3f));
 
+const std::vector<BoundaryLamp> lamps = [] {
+    const Vmf narrow{normalize(Vec3(-0.8f, 0.5f, 0.2f)), 60}, wide{normalize(Vec3(-0.5f, -0.6f, 0.3f)), 5};
+    return std::vector<BoundaryLamp>{{narrow, 0.9f, 4, vmf_peak(narrow.kappa)}, {wide, 0.5f, 2, vmf_peak(wide.kappa)}};
+}();
+
 SlabWalk begin(const SlabGuide& guide) {
     SlabWalk walk;
     walk.enter(guide, {0.5f, 0.3f, 0.2f});
     walk.aim(0, first_normal);
     walk.aim(1, second_normal, 0.5f);
+    if (guide.lit >= 0) {
+        walk.aim(LampView{lamps, 0.2f, {0.3f, 0.2f, 0.1f}});
+    }
     walk.head(arrival);
     return walk;
 }
 
 class SlabStay : public testing::TestWithParam<float> {};
+
+/// With lamps to head for or without.
+class SlabMixture : public testing::TestWithParam<std::tuple<float, bool>> {
+protected:
+    float g() const { return std::get<0>(GetParam()); }
+    SlabGuide guide() const { return chromatic_guide(g(), std::get<1>(GetParam())); }
+};
 
 TEST_P(SlabStay, ModesDrawDirectionsInProportionToTheirLight) {
     const float g = GetParam();
@@ -70,9 +86,9 @@ TEST_P(SlabStay, ModesDrawDirectionsInProportionToTheirLight) {
     }
 }
 
-TEST_P(SlabStay, DirectionsOfTheMixtureFollowTheirDensity) {
-    const SlabGuide guide = chromatic_guide(GetParam());
-    SlabWalk walk = begin(guide);
+TEST_P(SlabMixture, DirectionsFollowTheirDensity) {
+    const SlabGuide mixture = guide();
+    SlabWalk walk = begin(mixture);
     Pcg32 random(1);
     ASSERT_TRUE(walk.fly(infinity, 0.6f, random).flight.scatters);
     const SlabWalk::Directions directions(walk, arrival, random);
@@ -84,7 +100,7 @@ TEST_P(SlabStay, DirectionsOfTheMixtureFollowTheirDensity) {
     };
     EXPECT_TRUE(test::follows_density(
         test::test_direction_sampler(sample, [&](const Vec3& w) { return static_cast<double>(directions.density(w)); }),
-        "slab_walk_" + std::to_string(GetParam()), 3));
+        "slab_walk_" + std::to_string(g()), 6));
 }
 
 /// Sums over a walk of some collisions and what then passes `length`: unbiased estimates of the same for each channel,
@@ -131,19 +147,18 @@ Estimates estimate(const SlabGuide& guide, float bias = 1) {
     return e;
 }
 
-TEST_P(SlabStay, WeightsAreIntegrandOverDensity) {
-    const float g = GetParam();
-    const SlabGuide guide = chromatic_guide(g);
-    const Estimates e = estimate(guide);
-    const Estimates biased = estimate(guide, 1.03f);
-    const Rgb extinction = guide.medium.extinction();
+TEST_P(SlabMixture, WeightsAreIntegrandOverDensity) {
+    const SlabGuide mixture = guide();
+    const Estimates e = estimate(mixture);
+    const Estimates biased = estimate(mixture, 1.03f);
+    const Rgb extinction = mixture.medium.extinction();
     int noticed = 0;
     for (std::size_t c = 0; c < 3; ++c) {
         const auto channel = static_cast<int>(c);
         const double sigma = extinction[channel];
-        const double albedo = guide.medium.scattering[channel] / sigma;
+        const double albedo = mixture.medium.scattering[channel] / sigma;
         // The mean of 1 + w · n over the phase function is 1 + g (before · n).
-        const double shape = 1 + g * dot(arrival, second_normal);
+        const double shape = 1 + g() * dot(arrival, second_normal);
         const double once = albedo * -std::expm1(-sigma * 0.8) * shape;
         const double collided = once * albedo * -std::expm1(-sigma * 0.5);
         const double passed = once * std::exp(-sigma * 0.5);
@@ -156,6 +171,24 @@ TEST_P(SlabStay, WeightsAreIntegrandOverDensity) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MeanCosines, SlabStay, testing::Values(0.0f, 0.8f, -0.5f));
+INSTANTIATE_TEST_SUITE_P(MeanCosines, SlabMixture,
+                         testing::Combine(testing::Values(0.0f, 0.8f, -0.5f), testing::Bool()));
+
+TEST(SlabWalk, HeadsForLampsAndFliesOutToThem) {
+    SlabGuide guide = chromatic_guide(0, true);
+    guide.share = {0.03f, 0, 0.97f};
+    SlabWalk walk;
+    walk.enter(guide, Rgb(1.0f / 3));
+    walk.aim(0, second_normal);
+    walk.aim(LampView{lamps, 0.05f, Rgb(0.01f)});
+    walk.head(arrival);
+    Pcg32 random(2);
+    ASSERT_TRUE(walk.fly(infinity, 0.5f, random).flight.scatters);
+    const Vec3& towards = lamps[0].lobe.mean;
+    EXPECT_GT(SlabWalk::Directions(walk, arrival, random).density(towards), 0.3f * lamps[0].lobe.density(towards));
+    walk.turn(arrival, towards);
+    EXPECT_GT(walk.pass(10), 0.8f);
+}
 
 TEST(SlabWalk, NoWeightExceedsTheClassicalOneOverItsShare) {
     const SlabGuide guide = chromatic_guide(0.5f);

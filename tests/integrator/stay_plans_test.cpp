@@ -55,6 +55,27 @@ TEST(StayPlans, GiveTheSharesToWhatIsRight) {
     EXPECT_GT(plans.plan(plans.cell_at(Vec3(0.9f))).shares[1], 0.85f);
 }
 
+TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
+    for (const bool connects : {false, true}) {
+        const SlabGuide::Shares shares{0.25f, 0.75f};
+        StayPlans plans(box, shares);
+        const int cell = plans.cell_at(Vec3(0.1f));
+        EXPECT_GT(plans.plan(cell).connecting.probability, 0.4f);
+        Pcg32 random(1);
+        StayMoments moments;
+        for (int i = 0; i < 5000; ++i) {
+            Stay one = stay(shares, random);
+            one.connected = connects && i == 0;
+            moments.add(cell, one);
+        }
+        plans.learn(moments.of(0));
+        plans.learn({});
+        const float probability = plans.plan(cell).connecting.probability;
+        EXPECT_GT(probability, 0);
+        EXPECT_EQ(probability < 0.1f, !connects);
+    }
+}
+
 TEST(StayPlans, LearnNothingFromNothingOrFromWhatIsNotANumber) {
     const SlabGuide::Shares start{0.25f, 0.75f};
     StayPlans plans(box, start);

@@ -13,7 +13,7 @@ namespace {
 
 using test::Measured;
 
-constexpr const char* guided[] = {"dwivedi", "closest", "incident", "planar", "auto"};
+constexpr const char* guided[] = {"dwivedi", "closest", "incident", "planar", "learned", "auto"};
 
 struct Block {
     const char* name;

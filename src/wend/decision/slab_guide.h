@@ -28,6 +28,7 @@ struct SlabGuide {
     /// By channel like the modes, for one strategy that follows them in place of a mode; empty if there is none.
     std::vector<LayerGuide> layers;
     int layered = -1;  ///< that strategy
+    int lit = -1;      ///< a strategy that heads for lamps outside as well as along its mode; none if negative
     Shares share{1};   ///< where no others are given
 
     int channels() const { return static_cast<int>(modes.size()); }

@@ -26,11 +26,13 @@ void SlabWalk::enter(const SlabGuide& guide, const Rgb& channels, const SlabGuid
     survived_ = 1;
     slots_ = 0;
     layered_ = -1;
+    lit_ = -1;
     share_[0] = shares[0];
     for (int s = 0; s < guide.strategies; ++s) {
         const float share = shares[static_cast<std::size_t>(1 + s)];
         if (share > 0) {
             layered_ = s == guide.layered ? slots_ : layered_;
+            lit_ = s == guide.lit ? slots_ : lit_;
             strategy_[static_cast<std::size_t>(slots_++)] = s;
             share_[static_cast<std::size_t>(slots_)] = share;
         }
@@ -49,6 +51,18 @@ void SlabWalk::aim(int slot, const Vec3& normal, float steepness) {
     level_[static_cast<std::size_t>(slot)] = guide_->level(steepness);
 }
 
+void SlabWalk::aim(const LampView& view) {
+    lamps_ = LampGuide(view, guide_->medium.extinction(), guide_->channels());
+}
+
+float SlabWalk::scattered(int channel, const LampGuide::PerLamp& phases, const Vec3& before) const {
+    float sum = diffuse(channel) * mode(lit_, channel).source(dot(before, normal_[static_cast<std::size_t>(lit_)]));
+    for (std::size_t j = 0; j < lamps_.size(); ++j) {
+        sum += lamps_.fluence(channel, j) * phases[j];
+    }
+    return sum;
+}
+
 void SlabWalk::head(const Vec3& w) {
     has_turned_ = false;
     for (int c = 0; c < guide_->channels(); ++c) {
@@ -58,14 +72,37 @@ void SlabWalk::head(const Vec3& w) {
         rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
     });
     heading_ = w;
+    if (lit_ >= 0) {
+        const LampGuide::PerLamp densities = lamps_.densities(w);
+        const float mu = dot(w, normal_[static_cast<std::size_t>(lit_)]);
+        for (int c = 0; c < guide_->channels(); ++c) {
+            float direct = 0;
+            for (std::size_t j = 0; j < lamps_.size(); ++j) {
+                direct += lamps_.fluence(c, j) * densities[j];
+            }
+            direct_[static_cast<std::size_t>(c)] = direct / (direct + diffuse(c) * mode(lit_, c).radiance(mu));
+        }
+    }
     for_layers([&](std::size_t, int c) { expected_[static_cast<std::size_t>(c)] = layers(c).radiance(place_, w); });
 }
 
 SlabWalk::Directions::Directions(const SlabWalk& walk, const Vec3& before, Pcg32& random)
     : walk_(walk), before_(before), random_(random) {
     relative_ = walk.posterior_;
+    const LampGuide::PerLamp phases =
+        walk.lit_ >= 0 ? walk.lamps_.phases(walk.guide_->medium.phase, before) : LampGuide::PerLamp{};
     walk.for_modes([&](std::size_t i, int s, int c) {
-        relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
+        if (walk.is_lit(s)) {
+            const float scattered = walk.scattered(c, phases, before);
+            for (std::size_t j = 0; j < walk.lamps_.size(); ++j) {
+                const float share = walk.lamps_.fluence(c, j) * phases[j] / scattered;
+                shares_[static_cast<std::size_t>(c)][j] = share;
+                lamps_[j] += relative_[i] * share;
+            }
+            relative_[i] *= walk.diffuse(c) / scattered;
+        } else {
+            relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
+        }
     });
     walk.for_layers([&](std::size_t, int c) {
         layered_[static_cast<std::size_t>(c)] = LayerGuide::Directions(walk.layers(c), walk.place_, before);
@@ -81,6 +118,12 @@ float SlabWalk::Directions::density(const Vec3& w) const {
         boost += relative_[i] * walk_.mode(s, c).radiance(dot(w, walk_.normal_[static_cast<std::size_t>(s)]));
     });
     float density = boost * walk_.guide_->medium.phase.evaluate(dot(before_, w));
+    if (walk_.lit_ >= 0) {
+        const LampGuide::PerLamp lobes = walk_.lamps_.densities(w);
+        for (std::size_t j = 0; j < walk_.lamps_.size(); ++j) {
+            density += lamps_[j] * lobes[j];
+        }
+    }
     walk_.for_layers([&](std::size_t i, int c) {
         density += relative_[i] * static_cast<float>(layered_[static_cast<std::size_t>(c)].density(w));
     });
@@ -91,15 +134,25 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
     const PhaseFunction& phase = walk_.guide_->medium.phase;
     const std::size_t technique = walk_.choose(u);
     const auto channels = static_cast<std::size_t>(walk_.guide_->channels());
+    const int slot = static_cast<int>(technique / channels) - 1;
+    const std::size_t channel = technique % channels;
+    const auto along_mode = [&] {
+        return walk_.mode(slot, static_cast<int>(channel))
+            .sample(phase, before_, walk_.normal_[static_cast<std::size_t>(slot)], random_);
+    };
     Vec3 w;
-    if (technique < channels) {
+    if (slot < 0) {
         w = phase.sample(before_, u2);
+    } else if (walk_.is_layered(slot)) {
+        w = layered_[channel].sample(random_);
+    } else if (walk_.is_lit(slot)) {
+        std::size_t lamp = 0;
+        for (; lamp < walk_.lamps_.size() && !(u < shares_[channel][lamp]); ++lamp) {
+            u -= shares_[channel][lamp];
+        }
+        w = lamp < walk_.lamps_.size() ? walk_.lamps_.lobe(lamp).sample(u2) : along_mode();
     } else {
-        const std::size_t slot = technique / channels - 1;
-        const std::size_t channel = technique % channels;
-        w = walk_.is_layered(static_cast<int>(slot)) ? layered_[channel].sample(random_)
-                                                     : walk_.mode(static_cast<int>(slot), static_cast<int>(channel))
-                                                           .sample(phase, before_, walk_.normal_[slot], random_);
+        w = along_mode();
     }
     DirectionSample s;
     s.direction = w;
@@ -110,6 +163,16 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
 
 void SlabWalk::turn(const Vec3& before, const Vec3& w) {
     head(w);
+    const float phase = guide_->medium.phase.evaluate(dot(before, w));
+    // Of each lamp the density of its lobe, over the phase function, times the phase function at its middle.
+    LampGuide::PerLamp phases{}, boosts{};
+    if (lit_ >= 0) {
+        phases = lamps_.phases(guide_->medium.phase, before);
+        boosts = lamps_.densities(w);
+        for (std::size_t j = 0; j < lamps_.size(); ++j) {
+            boosts[j] *= phases[j] / phase;
+        }
+    }
     float total = 0;
     for (int c = 0; c < guide_->channels(); ++c) {
         total += posterior_[static_cast<std::size_t>(c)];
@@ -117,10 +180,17 @@ void SlabWalk::turn(const Vec3& before, const Vec3& w) {
     for_modes([&](std::size_t i, int s, int c) {
         const Vec3& normal = normal_[static_cast<std::size_t>(s)];
         const SlabMode& m = mode(s, c);
-        posterior_[i] *= m.radiance(dot(w, normal)) / m.source(dot(before, normal));
+        if (is_lit(s)) {
+            float towards = diffuse(c) * m.radiance(dot(w, normal));
+            for (std::size_t j = 0; j < lamps_.size(); ++j) {
+                towards += lamps_.fluence(c, j) * boosts[j];
+            }
+            posterior_[i] *= towards / scattered(c, phases, before);
+        } else {
+            posterior_[i] *= m.radiance(dot(w, normal)) / m.source(dot(before, normal));
+        }
         total += posterior_[i];
     });
-    const float phase = guide_->medium.phase.evaluate(dot(before, w));
     for_layers([&](std::size_t i, int c) {
         posterior_[i] *= static_cast<float>(LayerGuide::Directions(layers(c), place_, before).density(w)) / phase;
         total += posterior_[i];
@@ -152,8 +222,10 @@ SlabFlight SlabWalk::fly(float length, float u, Pcg32& random) {
     if (slot >= 0 && is_layered(slot)) {
         t = static_cast<float>(
             layers(static_cast<int>(technique) % channels).sample_distance(place_, heading_, random));
-    } else if (rate_[technique] > 0) {
-        t = to_exponential(u, rate_[technique]);
+    } else if (const float direct =
+                   slot >= 0 && is_lit(slot) ? direct_[technique % static_cast<std::size_t>(channels)] : 0.0f;
+               rate_[technique] > 0 && u >= direct) {
+        t = to_exponential((u - direct) / (1 - direct), rate_[technique]);
     }
     flight.scatters = t < length;
     if (!flight.scatters) {
@@ -183,7 +255,14 @@ float SlabWalk::weigh_flight(float length, bool collides) {
     for (int c = 0; c < guide_->channels(); ++c) {
         weigh(static_cast<std::size_t>(c));
     }
-    for_modes([&](std::size_t i, int, int) { weigh(i); });
+    for_modes([&](std::size_t i, int s, int c) {
+        const float before = posterior_[i];
+        weigh(i);
+        if (is_lit(s)) {
+            const float direct = direct_[static_cast<std::size_t>(c)];
+            posterior_[i] = (1 - direct) * posterior_[i] + (collides ? 0.0f : direct * before);
+        }
+    });
     for_layers([&](std::size_t i, int c) {
         posterior_[i] *= static_cast<float>(layers(c).flight(place_, heading_, expected_[static_cast<std::size_t>(c)],
                                                              static_cast<double>(length), collides));

@@ -3,6 +3,7 @@
 
 #include <wend/decision/direction.h>
 #include <wend/decision/distance.h>
+#include <wend/decision/lamp_guide.h>
 #include <wend/decision/slab_guide.h>
 
 #include <array>
@@ -44,6 +45,9 @@ public:
     /// Whether a slot's strategy follows layers, and where the walk is in them from now on.
     bool is_layered(int slot) const { return slot == layered_; }
     void aim(const LayerPlace& place) { place_ = place; }
+    /// Whether a slot's strategy heads for lamps, and what it sees of them from now on.
+    bool is_lit(int slot) const { return slot == lit_; }
+    void aim(const LampView& view);
 
     /// Goes on in direction w, which no technique has drawn: at the entry, or where the boundary reflects.
     void head(const Vec3& w);
@@ -63,6 +67,8 @@ public:
         Pcg32& random_;
         std::array<LayerGuide::Directions, 3> layered_;                     // by channel
         std::array<float, 3 * (1 + SlabGuide::most_strategies)> relative_;  // posterior over S(before)
+        LampGuide::PerLamp lamps_{};                                        // posterior of directions in each lobe
+        std::array<LampGuide::PerLamp, 3> shares_{};                        // by channel, of each lamp in the strategy
     };
 
     /// The walk after it went from `before` into w at a collision.
@@ -116,6 +122,11 @@ private:
             }
         }
     }
+    /// The strategy that heads for lamps expects the light of its mode beside theirs: this times the mode's.
+    float diffuse(int channel) const { return lamps_.diffuse()[channel] / mode(lit_, channel).radiance(-1); }
+    /// What a collision scatters to a walk that arrived along `before`, times the mode's: of both, given the phase
+    /// function for each lamp.
+    float scattered(int channel, const LampGuide::PerLamp& phases, const Vec3& before) const;
     const LayerGuide& layers(int channel) const { return guide_->layers[static_cast<std::size_t>(channel)]; }
     /// Draws a technique; u becomes a fresh uniform number.
     std::size_t choose(float& u) const;
@@ -131,6 +142,9 @@ private:
     Values posterior_;         // slot by slot, classical sampling first; channels within
     Values rate_;              // of the exponential flight under each technique that has one
     int layered_ = -1;         // slot of the strategy that follows layers; none if negative
+    int lit_ = -1;             // slot of the strategy that heads for lamps; none if negative
+    LampGuide lamps_;
+    std::array<float, 3> direct_{};  // by channel, the part of the light ahead that comes straight from lamps
     LayerPlace place_;
     Vec3 heading_;                    // of the flight from that place
     std::array<double, 3> expected_;  // by channel, there

@@ -1,8 +1,10 @@
 #include <wend/core/parallel.h>
 #include <wend/integrator/boundary_field.h>
+#include <wend/medium/fresnel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace wend {
 namespace {
@@ -29,10 +31,10 @@ BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, floa
         std::vector<std::pair<float, std::uint16_t>> distances;
         distances.reserve(points_.size());
         for (std::size_t p = 0; p < points_.size(); ++p) {
-            distances.emplace_back(distance_to(points_[p].point, centre), static_cast<std::uint16_t>(p));
+            distances.emplace_back(distance2_to(points_[p].point, centre), static_cast<std::uint16_t>(p));
         }
         Cell& cell = cells_[i];
-        double light = 0;
+        double light = 0, unlit = 0;
         Imath::V3d slope(0, 0, 0);
         // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
         const auto way_to = [&](std::size_t p) {
@@ -46,11 +48,14 @@ BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, floa
             const Vec3 way = way_to(p);
             const double r = std::max(length(way), 1e-3f * spacing_);
             // The gradient of exp(-decay r) / r, up to a factor that keeps it within the range of numbers.
-            const double value = points_[p].irradiance * std::exp(-decay * (r - nearest)) / r;
+            const double reach = std::exp(-decay * (r - nearest)) / r;
+            const double value = points_[p].irradiance * reach;
             light += value;
+            unlit += reach;
             slope += Imath::V3d(way) * (value * (decay + 1 / r) / r);
         }
         const double size = slope.length();
+        cell.irradiance = static_cast<float>(light / unlit);
         if (light > 0 && size > 0) {
             cell.incident = {Vec3(slope / size),
                              static_cast<float>(std::min(1.0, size / (light * static_cast<double>(decay))))};
@@ -73,34 +78,39 @@ std::size_t BoundaryField::cell_at(const Vec3& p) const {
     return static_cast<std::size_t>((z * side + y) * side + x);
 }
 
-const LitPoint& BoundaryField::closest_point(const Vec3& position) const {
-    const auto& nearest = cells_[cell_at(position)].nearest;
-    const auto best = std::min_element(nearest.begin(), nearest.end(), [&](std::uint16_t a, std::uint16_t b) {
-        return distance_to(points_[a].point, position) < distance_to(points_[b].point, position);
-    });
-    return points_[*best];
+const LitPoint& BoundaryField::closest_point(const Cell& cell, const Vec3& position) const {
+    std::uint16_t best = cell.nearest[0];
+    float least = infinity;
+    for (const std::uint16_t candidate : cell.nearest) {
+        const float distance2 = distance2_to(points_[candidate].point, position);
+        if (distance2 < least) {
+            least = distance2;
+            best = candidate;
+        }
+    }
+    return points_[best];
 }
 
-SlabAim BoundaryField::closest(const Vec3& position) const {
-    return {closest_point(position).point.normal, 1};
+BoundaryField::View BoundaryField::at(const Vec3& position) const {
+    const Cell& cell = cells_[cell_at(position)];
+    return {closest_point(cell, position), cell, position};
 }
 
-LayerPlace BoundaryField::layer(const Vec3& position) const {
-    const LitPoint& lit = closest_point(position);
-    const float depth = dot(lit.point.position - position, lit.point.normal);
-    return {-lit.point.normal, std::clamp(depth, 0.0f, lit.thickness), lit.thickness, lit.irradiance,
-            lit.irradiance_behind};
+LayerPlace BoundaryField::View::layer() const {
+    return {-closest_.point.normal, std::clamp(depth_, 0.0f, closest_.thickness), closest_.thickness,
+            closest_.irradiance, closest_.irradiance_behind};
 }
 
-float BoundaryField::distance_to(const BoundaryPoint& point, const Vec3& position) const {
+LampView BoundaryField::View::lamps() const {
+    return {std::span(closest_.lamps).first(static_cast<std::size_t>(closest_.lamp_count)), std::max(0.0f, depth_),
+            Rgb(cell_.irradiance)};
+}
+
+float BoundaryField::distance2_to(const BoundaryPoint& point, const Vec3& position) const {
     const Vec3 way = position - point.position;
     const float height = dot(way, point.normal);
-    const float aside = std::max(0.0f, length(way - point.normal * height) - spacing_);
-    return std::hypot(height, aside);
-}
-
-SlabAim BoundaryField::incident(const Vec3& position) const {
-    return cells_[cell_at(position)].incident;
+    const float aside = std::max(0.0f, safe_sqrt(length_squared(way) - sqr(height)) - spacing_);
+    return sqr(height) + sqr(aside);
 }
 
 namespace {
@@ -121,37 +131,107 @@ float chord(const Scene& scene, MediumId medium, Ray ray, float farthest) {
     return std::min(sum, farthest);
 }
 
-float direct_irradiance(const Scene& scene, const BoundaryPoint& point, int samples, Pcg32& random) {
-    const LightReceiver receiver{point.position, point.normal};
-    float sum = 0;
-    for (int i = 0; i < samples; ++i) {
+/// Light of one of the scene's lights, just inside of the boundary.
+struct Refracted {
+    float fluence = 0;
+    Vec3 towards{0, 0, 0};  ///< directions out to it, weighted with the fluence
+};
+
+/// Sums up samples of lights as they arrive at a point of a boundary.
+class LightAtPoint {
+public:
+    LightAtPoint(const Scene& scene, const BoundaryPoint& point, const BoundarySurface& boundary)
+        : scene_(scene), point_(point), boundary_(boundary) {}
+
+    void add_sample(Pcg32& random) {
+        const LightReceiver receiver{point_.position, point_.normal};
         const float u = random.uniform();
         const Vec2 u2 = random.uniform2();
         const ChosenLight chosen =
-            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene.light_sampler());
+            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
         if (chosen.index < 0) {
-            continue;
+            return;
         }
-        const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], point.position, u2);
-        const float cosine = light ? dot(light->direction, point.normal) : 0.0f;
-        if (cosine > 0 && !scene.is_occluded(spawn_ray(point.position, point.normal, light->direction),
-                                             light->distance * (1 - 1e-3f))) {
-            sum += mean_value(light->radiance) * cosine / (light->density * chosen.probability);
+        const auto light = sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], point_.position, u2);
+        const float cosine = light ? dot(light->direction, point_.normal) : 0.0f;
+        if (!(cosine > 0) || scene_.is_occluded(spawn_ray(point_.position, point_.normal, light->direction),
+                                                light->distance * (1 - 1e-3f))) {
+            return;
+        }
+        const float brought = mean_value(light->radiance) * cosine / (light->density * chosen.probability);
+        if (!std::isfinite(brought)) {
+            return;
+        }
+        irradiance_ += brought;
+        const auto refracted = refract(light->direction, point_.normal, boundary_.ior);
+        // Walks cannot find what only connections reach, unless they can be connected at the boundary.
+        if (refracted && (!light->point_like || boundary_.alpha > 0)) {
+            const float fluence =
+                brought * (1 - fresnel_dielectric(cosine, boundary_.ior)) / -dot(refracted->direction, point_.normal);
+            Refracted& sum = by_light_[chosen.index];
+            sum.fluence += fluence;
+            sum.towards -= refracted->direction * fluence;
         }
     }
-    return std::isfinite(sum) ? sum / static_cast<float>(samples) : 0.0f;
-}
+
+    float irradiance(int samples) const { return irradiance_ / static_cast<float>(samples); }
+
+    void write_lamps(int samples, LitPoint& lit) const {
+        std::vector<BoundaryLamp> lamps;
+        for (const auto& [index, light] : by_light_) {
+            const float size = length(light.towards);
+            const float kappa = vmf_kappa(size / light.fluence);
+            if (!(kappa > least_kappa)) {
+                continue;
+            }
+            const Vmf seen = convolve({light.towards / size, kappa}, boundary_.blur());
+            lamps.push_back({seen, std::max(0.05f, dot(seen.mean, point_.normal)),
+                             certainty * light.fluence / static_cast<float>(samples), vmf_peak(seen.kappa)});
+        }
+        const auto count = static_cast<std::ptrdiff_t>(std::min(lamps.size(), lit.lamps.size()));
+        std::partial_sort(lamps.begin(), lamps.begin() + count, lamps.end(),
+                          [](const BoundaryLamp& a, const BoundaryLamp& b) { return a.fluence > b.fluence; });
+        std::copy_n(lamps.begin(), count, lit.lamps.begin());
+        lit.lamp_count = static_cast<int>(count);
+    }
+
+private:
+    // What is so wide that the diffuse light does as well.
+    static constexpr float least_kappa = 4;
+    // What goes on scattering varies much more than what flies out to a lamp, and walks are drawn by second moments:
+    // of 0.07, 0.2, 1 and 4 this was the best on three scenes.
+    static constexpr float certainty = 0.2f;
+
+    const Scene& scene_;
+    const BoundaryPoint& point_;
+    const BoundarySurface& boundary_;
+    float irradiance_ = 0;
+    std::map<int, Refracted> by_light_;
+};
 
 }  // namespace
 
+float BoundarySurface::blur() const {
+    // Normals tilted by theta move the refracted direction by about (1 - 1/ior) theta; a flat piece of boundary stands
+    // for a curved one.
+    constexpr float curvature = 0.03f;
+    const float spread = alpha * 0.7f * std::abs(1 - 1 / ior);
+    return 1 / (sqr(spread) + sqr(curvature));
+}
+
 std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
-                                 int samples, Pcg32& random) {
+                                 const BoundarySurface& boundary, int samples, Pcg32& random) {
     std::vector<LitPoint> result;
     const float diameter = length(bounds_of(points).size());
     float total = 0;
     for (const BoundaryPoint& point : points) {
         const float thickness = chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
-        result.push_back({point, direct_irradiance(scene, point, samples, random), thickness, 0});
+        LightAtPoint light(scene, point, boundary);
+        for (int i = 0; i < samples; ++i) {
+            light.add_sample(random);
+        }
+        result.push_back({point, light.irradiance(samples), thickness, 0});
+        light.write_lamps(samples, result.back());
         total += result.back().irradiance;
     }
     const float least = total > 0 ? 0.02f * total / static_cast<float>(result.size()) : 1.0f;

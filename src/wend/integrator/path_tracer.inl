@@ -49,12 +49,12 @@ private:
         float index_scale = 1;
         int depth = 0;
         int interfaces = 0;
-        float travelled = 0;        ///< since the last vertex
-        SlabWalk slab;              ///< the stay in a dense medium, if it is guided
-        Stay stay;                  ///< what it brings; of the last one where the walk is outside
-        float preference = 1;       ///< of the last vertex: StayPlan::preference, or 1
-        float stay_preference = 1;  ///< of vertices of the stay
-        float connected = 1;        ///< the probability that the last vertex was connected
+        float travelled = 0;                ///< since the last vertex
+        SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
+        Stay stay;                          ///< what it brings; of the last one where the walk is outside
+        float preference = 1;               ///< of the last vertex: StayPlan::preference, or 1
+        StayPlan::Connecting connecting{};  ///< of vertices of the stay
+        float connected = 1;                ///< the probability that the last vertex was connected
 
         // The last vertex, as multiple importance sampling wants it.
         LightReceiver receiver{};
@@ -140,7 +140,7 @@ private:
         tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
                                   now_.slab);
         if (now_.slab.is_inside() && now_.slab.guide() != before) {
-            now_.stay_preference = tracer_.subsurface_.preference(now_.medium, hit.position);
+            now_.connecting = tracer_.subsurface_.connecting(now_.medium, hit.position);
             if (stays_) {
                 end_stay();
                 now_.stay = {now_.medium, hit.position, 0, {}, {}};
@@ -336,10 +336,14 @@ private:
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
-    float preference(bool in_volume) const { return in_volume && now_.slab.is_inside() ? now_.stay_preference : 1.0f; }
+    float preference(bool in_volume) const {
+        return in_volume && now_.slab.is_inside() ? now_.connecting.preference : 1.0f;
+    }
 
-    /// Of connections to lights that directions find as well: where they count for little they are few.
-    float connection_probability(bool in_volume) const { return 1 / (1 + (preference(in_volume) - 1) / 16); }
+    /// Of connections to lights that directions find as well.
+    float connection_probability(bool in_volume) const {
+        return in_volume && now_.slab.is_inside() ? now_.connecting.probability : 1.0f;
+    }
 
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
@@ -358,6 +362,11 @@ private:
     template <class F, class Directions>
     Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
                        bool in_volume) {
+        const float often = connection_probability(in_volume);
+        const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
+        if (is_left_out && !scene_.has_point_like_lights()) {
+            return {};
+        }
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
         const LightReceiver receiver{position, normal};
@@ -374,8 +383,7 @@ private:
         if (is_black(value)) {
             return {};
         }
-        const float connected = light->point_like ? 1.0f : connection_probability(in_volume);
-        if (connected < 1 && !(sampler_.uniform() < connected)) {
+        if (is_left_out && !light->point_like) {
             return {};
         }
         Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);
@@ -396,7 +404,7 @@ private:
         if (is_black(passage.transmittance)) {
             return {};
         }
-        const float light_density = connected * chosen.probability * light->density;
+        const float light_density = (light->point_like ? 1 : often) * chosen.probability * light->density;
         float weight = 1;
         if (!light->point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
@@ -407,6 +415,7 @@ private:
         Connection found{light->direction, light->radiance * passage.transmittance * (weight / light_density), value,
                          std::nullopt};
         if (stays_ && in_volume && now_.slab.is_inside()) {
+            now_.stay.connected = true;
             found.slope = StaySlope{now_.slab.relative_densities(), weight - 1};
             const SlabGuide::Shares beyond = slab.relative_densities();
             for (std::size_t i = 0; i < beyond.size(); ++i) {

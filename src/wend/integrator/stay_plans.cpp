@@ -15,6 +15,12 @@ constexpr float least_classical = 0.03f;
 constexpr float least_guided = 0.02f;
 constexpr float first_preference = 16;
 constexpr float largest_preference = 1000;
+/// Of connections, by preference; and where none has succeeded in so many stays.
+float connection_probability(float preference) {
+    return 1 / (1 + (preference - 1) / 16);
+}
+constexpr double enough_stays = 2000;
+constexpr float least_probability = 1.0f / 64;
 /// Of a logarithm, in one round of learning: for each relative change of the variance, and at most.
 constexpr double pace = 12;
 constexpr double largest_step = 1;
@@ -69,6 +75,7 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
     add(powers, other.powers);
     add(slopes, other.slopes);
     add(densities, other.densities);
+    connected += other.connected;
     add(slope_squares, other.slope_squares);
     preference_slope += other.preference_slope;
     preference_slope_squares += other.preference_slope_squares;
@@ -77,8 +84,13 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
 
 void StayMoments::add(int cell, const Stay& stay) {
     const double f = stay.brought;
-    Sums one{
-        {1, f, f * f, f * f * f, f * f * f * f}, {}, {}, 2 * f * static_cast<double>(stay.slope.preference), {}, 0};
+    Sums one{{1, f, f * f, f * f * f, f * f * f * f},
+             {},
+             {},
+             stay.connected ? 1.0 : 0.0,
+             2 * f * static_cast<double>(stay.slope.preference),
+             {},
+             0};
     one.preference_slope_squares = sqr(one.preference_slope);
     bool finite = std::isfinite(one.powers[4]) && std::isfinite(one.preference_slope);
     for (std::size_t i = 0; i < one.densities.size(); ++i) {
@@ -108,7 +120,8 @@ const std::map<int, StayMoments::Sums>& StayMoments::of(int medium) const {
 }
 
 StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
-    : box_(box), plans_(side * side * side, StayPlan{start, first_preference}) {
+    : box_(box),
+      plans_(side * side * side, StayPlan{start, {first_preference, connection_probability(first_preference)}}) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {
@@ -126,13 +139,18 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments) {
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
+    stays_ += all.powers[0];
+    connects_ = connects_ || all.connected > 0;
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         const Steps here = seen == moments.end() ? overall : steps(seen->second, overall);
         StayPlan& plan = plans_[cell];
-        plan.preference =
-            std::clamp(plan.preference * static_cast<float>(std::exp(here.preference)), 1.0f, largest_preference);
+        StayPlan::Connecting& connecting = plan.connecting;
+        connecting.preference =
+            std::clamp(connecting.preference * static_cast<float>(std::exp(here.preference)), 1.0f, largest_preference);
+        connecting.probability =
+            connects_ || stays_ < enough_stays ? connection_probability(connecting.preference) : least_probability;
         SlabGuide::Shares& shares = plan.shares;
         for (std::size_t i = 0; i < shares.size(); ++i) {
             shares[i] *= static_cast<float>(std::exp(here.share[i]));

@@ -10,7 +10,8 @@
 namespace wend {
 
 /// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much
-/// more for a larger logarithm of StayPlan::preference.
+/// more for a larger logarithm of the preference of
+/// StayPlan::Connecting.
 struct StaySlope {
     SlabGuide::Shares shares{};
     float preference = 0;
@@ -25,6 +26,7 @@ struct Stay {
     SlabGuide::Shares relative{};
     /// Sum of what was brought, times its slope.
     StaySlope slope;
+    bool connected = false;  ///< a connection to a light from inside has succeeded
 
     void bring(float light, const StaySlope& relative_slope) {
         brought += light;
@@ -38,10 +40,17 @@ struct Stay {
 /// How stays are sampled.
 struct StayPlan {
     SlabGuide::Shares shares{1};
-    /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
-    /// lights. A guided stay brings nearly the same wherever it ends, to which connections would only add noise; in a
-    /// thin or badly guided medium they do the work.
-    float preference = 1;
+
+    /// How collisions are connected to lights that the walk may run into as well.
+    struct Connecting {
+        /// What multiplies the density of the walk's own directions where it is weighed against that of connections. A
+        /// guided stay brings nearly the same wherever it ends, to which connections would only add noise; in a thin or
+        /// badly guided medium they do the work.
+        float preference = 1;
+        /// Of making a connection at all: where they count for little they are few.
+        float probability = 1;
+    };
+    Connecting connecting;
 };
 
 /// Sums over stays that began in the same cell of the same medium, for the second moment of what one brings, F. With
@@ -59,6 +68,7 @@ public:
         std::array<double, 5> powers{};  ///< of F, from the zeroth on
         PerTechnique slopes{};           ///< -(F² p_i / p + 2 F dF)
         PerTechnique densities{};        ///< p_i / p
+        double connected = 0;            ///< number of stays
         double preference_slope = 0;     ///< of F² with the logarithm of the preference
         PerTechnique slope_squares{};
         double preference_slope_squares = 0;
@@ -82,7 +92,8 @@ public:
 
     /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second
     /// moment relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow
-    /// all others. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
+    /// all others. Where no connection has ever succeeded, behind a boundary that refracts, hardly any is made. A guide
+    /// that has become useless is dropped; classical sampling keeps a share that bounds all
     /// weights.
     void learn(const std::map<int, StayMoments::Sums>& moments);
 
@@ -91,6 +102,8 @@ private:
 
     Box3 box_;
     std::vector<StayPlan> plans_;
+    double stays_ = 0;  // seen so far
+    bool connects_ = false;
 };
 
 }  // namespace wend

@@ -2,12 +2,16 @@
 #include <wend/core/parallel.h>
 #include <wend/decision/channels.h>
 #include <wend/integrator/subsurface.h>
+#include <wend/medium/fresnel.h>
+#include <wend/numeric/fast_exp.h>
+#include <wend/theory/half_space.h>
 #include <wend/theory/lit_layers.h>
 #include <wend/theory/slab_modes.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace wend {
 namespace {
@@ -19,20 +23,17 @@ struct Entry {
 
 const std::vector<Entry>& entries() {
     using enum SlabStrategy;
-    static const std::vector<Entry> table = {{"classical", {}},      {"dwivedi", {entry}},
-                                             {"closest", {closest}}, {"incident", {incident}},
-                                             {"planar", {planar}},   {"auto", {entry, closest, incident}}};
+    static const std::vector<Entry> table = {{"classical", {}},           {"dwivedi", {entry}}, {"closest", {closest}},
+                                             {"incident", {incident}},    {"planar", {planar}}, {"learned", {learned}},
+                                             {"auto", {closest, learned}}};
     return table;
 }
-
-// Of the contract, not built.
-constexpr std::array planned = {"learned"};
 
 constexpr float classical_share = 0.25f;
 
 // Points of a boundary, and rays for the light that each gets.
 constexpr int points_of_boundary = 1024;
-constexpr int rays_to_lights = 16;
+constexpr int rays_to_lights = 64;
 
 // Mean free paths in a mean chord from which on a medium is dense: below, most walks end after a few collisions, and
 // there is little to guide.
@@ -51,27 +52,43 @@ bool looks_around(SlabStrategy strategy) {
     return strategy != SlabStrategy::entry;
 }
 
-/// Relative index of refraction of the first surface around a medium. That it may be rough is left out: a guide may be
-/// wrong.
-double ior_of_boundary(const SceneDescription& scene, MediumId medium) {
+/// That of the first surface around a medium.
+BoundarySurface surface_of_boundary(const SceneDescription& scene, MediumId medium) {
     const auto found = std::find_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
         return (surface.interior == medium) != (surface.exterior == medium);
     });
     if (found == scene.surfaces.end()) {
-        return 1;
+        return {};
     }
     const auto* dielectric =
         std::get_if<DielectricMaterial>(&scene.materials[static_cast<std::size_t>(found->material)]);
-    return dielectric ? std::clamp(static_cast<double>(dielectric->ior), 1.0, 3.0) : 1.0;
+    if (!dielectric) {
+        return {};
+    }
+    const float roughness = scene.textures.evaluate_grey(dielectric->roughness.u, {});
+    return {std::clamp(dielectric->ior, 1.0f, 3.0f), dielectric->roughness.remap ? safe_sqrt(roughness) : roughness};
 }
 
-/// The rate of decay, per scene unit, of the channel that reaches deepest.
-float least_decay(const SlabGuide& guide) {
-    float least = infinity;
-    for (int c = 0; c < guide.channels(); ++c) {
-        least = std::min(least, guide.mode(c, guide.level(1)).k() * guide.medium.extinction()[c]);
+/// The rates of decay of diffuse light, per scene unit.
+Rgb decay_of(const SlabGuide& guide) {
+    Rgb decay;
+    for (int c = 0; c < 3; ++c) {
+        decay[c] = guide.mode(std::min(c, guide.channels() - 1), guide.level(1)).k() * guide.medium.extinction()[c];
     }
-    return least;
+    return decay;
+}
+
+/// Of an irradiance on the boundary, the radiance that a walk may expect inside that turns away from it.
+Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary) {
+    const double g = medium.phase.mean_cosine();
+    const double inner = boundary.ior > 1 ? static_cast<double>(fresnel_diffuse_reflectance(1 / boundary.ior)) : 0.0;
+    Rgb result;
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = static_cast<double>(medium.scattering[c] / medium.extinction()[c]);
+        const double reflected = diffuse_reflectance(std::clamp(albedo * (1 - g) / (1 - albedo * g), 0.05, 1.0));
+        result[c] = static_cast<float>(reflected / (1 - inner * reflected) / std::numbers::pi);
+    }
+    return result;
 }
 
 }  // namespace
@@ -90,10 +107,7 @@ SubsurfacePreset parse_subsurface(std::string_view text) {
             return {e.strategies};
         }
     }
-    const bool is_planned = std::find(planned.begin(), planned.end(), text) != planned.end();
-    throw InputError((is_planned ? "the subsurface sampling '" + std::string(text) + "' is not built yet"
-                                 : "unknown subsurface sampling '" + std::string(text) + "'") +
-                     ": expected one of " + subsurface_names());
+    throw InputError("unknown subsurface sampling '" + std::string(text) + "': expected one of " + subsurface_names());
 }
 
 std::string to_string(const SubsurfacePreset& preset) {
@@ -123,17 +137,19 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         SlabGuide guide =
             slab_guide(*medium, slab_modes(*medium), static_cast<int>(strategies_.size()), classical_share);
         const Box3 box = bounds_of(points);
+        const BoundarySurface boundary = surface_of_boundary(scene.description(), static_cast<MediumId>(id));
+        const Rgb decay = decay_of(guide);
         std::optional<BoundaryField> field;
         if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
-            field.emplace(box, lit_points(scene, static_cast<MediumId>(id), points, rays_to_lights, random),
-                          least_decay(guide), threads);
+            field.emplace(box, lit_points(scene, static_cast<MediumId>(id), points, boundary, rays_to_lights, random),
+                          min_value(decay), threads);
         }
         const auto layered = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::planar);
         // A channel that nothing hits has no layers.
         if (layered != strategies_.end() && min_value(medium->extinction()) > 0) {
             guide.layered = static_cast<int>(layered - strategies_.begin());
             guide.layers.resize(static_cast<std::size_t>(guide.channels()));
-            const double ior = ior_of_boundary(scene.description(), static_cast<MediumId>(id));
+            const double ior = static_cast<double>(boundary.ior);
             parallel_for(guide.layers.size(), threads, [&](std::size_t c) {
                 const double extinction = medium->extinction()[static_cast<int>(c)];
                 const double albedo = static_cast<double>(medium->scattering[static_cast<int>(c)]) / extinction;
@@ -141,8 +157,11 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
                 guide.layers[c] = LayerGuide(extinction, g, lit_layers(albedo, g, ior));
             });
         }
+        const auto lit = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::learned);
+        guide.lit = lit != strategies_.end() ? static_cast<int>(lit - strategies_.begin()) : -1;
         StayPlans plans(box, guide.share);
-        media_[id] = std::make_unique<Dense>(Dense{std::move(guide), std::move(plans), std::move(field)});
+        media_[id] = std::make_unique<Dense>(
+            Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(*medium, boundary)});
     }
 }
 
@@ -164,22 +183,32 @@ void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direct
 }
 
 void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk) const {
-    const std::optional<BoundaryField>& field = media_[static_cast<std::size_t>(medium)]->field;
+    const Dense& dense = *media_[static_cast<std::size_t>(medium)];
+    if (!dense.field) {
+        return;
+    }
+    const BoundaryField::View around = dense.field->at(position);
     for (int slot = 0; slot < walk.slots(); ++slot) {
         const SlabStrategy strategy = strategies_[static_cast<std::size_t>(walk.strategy(slot))];
         if (walk.is_layered(slot)) {
-            walk.aim(field->layer(position));
+            walk.aim(around.layer());
         } else if (looks_around(strategy)) {
-            const SlabAim aim =
-                strategy == SlabStrategy::incident ? field->incident(position) : field->closest(position);
+            const SlabAim aim = strategy == SlabStrategy::closest ? around.closest() : around.incident();
             walk.aim(slot, aim.normal, aim.steepness);
+        }
+        if (walk.is_lit(slot)) {
+            LampView view = around.lamps();
+            for (int c = 0; c < 3; ++c) {
+                view.diffuse[c] *= dense.returned[c] * fast_exp(-dense.decay[c] * view.depth);
+            }
+            walk.aim(view);
         }
     }
 }
 
-float SubsurfaceGuides::preference(MediumId medium, const Vec3& entry) const {
+StayPlan::Connecting SubsurfaceGuides::connecting(MediumId medium, const Vec3& entry) const {
     const StayPlans& plans = media_[static_cast<std::size_t>(medium)]->plans;
-    return plans.plan(plans.cell_at(entry)).preference;
+    return plans.plan(plans.cell_at(entry)).connecting;
 }
 
 void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {

@@ -19,6 +19,7 @@ enum class SlabStrategy {
     entry,     ///< that where it entered (krivanek2014)
     closest,   ///< that of the boundary closest to each collision (meng2016)
     incident,  ///< towards the light that diffuses in from outside (after meng2016)
+    learned,   ///< as incident, and to the lamps that are seen from the closest boundary (after gouder2025)
     planar,    ///< that of the closest boundary, and the whole solution of the layer between it and the one behind
 };
 
@@ -55,8 +56,8 @@ public:
     /// colour channels.
     void enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels, SlabWalk& walk) const;
 
-    /// How stays that begin here are weighed against connections to lights: StayPlan::preference.
-    float preference(MediumId medium, const Vec3& entry) const;
+    /// How collisions of stays that begin here are connected to lights.
+    StayPlan::Connecting connecting(MediumId medium, const Vec3& entry) const;
 
     /// Aims the strategies that look around at every collision.
     void aim(MediumId medium, const Vec3& position, SlabWalk& walk) const;
@@ -71,6 +72,8 @@ private:
         SlabGuide guide;
         StayPlans plans;
         std::optional<BoundaryField> field;  ///< where a strategy asks it
+        Rgb decay;                           ///< of diffuse light, per scene unit
+        Rgb returned;                        ///< of an irradiance, the radiance that comes back
     };
 
     std::vector<SlabStrategy> strategies_;

@@ -44,6 +44,8 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         if (is_at_infinity(d_.lights[i])) {
             infinite_lights_.push_back(static_cast<int>(i));
         }
+        has_point_like_lights_ = has_point_like_lights_ || std::holds_alternative<PointLight>(d_.lights[i]) ||
+                                 std::holds_alternative<DistantLight>(d_.lights[i]);
     }
     for (const Surface& surface : d_.surfaces) {
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];

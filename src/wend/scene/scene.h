@@ -120,6 +120,8 @@ public:
     MediumId camera_medium() const { return d_.camera_medium; }
     const std::vector<Light>& lights() const { return d_.lights; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }
+    /// Whether there are lights that only connections find.
+    bool has_point_like_lights() const { return has_point_like_lights_; }
     const LightSampler& light_sampler() const { return *light_sampler_; }
     /// Bounds of all surfaces.
     const Box3& bounds() const { return bounds_; }
@@ -129,6 +131,7 @@ private:
     std::unique_ptr<RayCaster> caster_;
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<int> infinite_lights_;
+    bool has_point_like_lights_ = false;
     Box3 bounds_;
     bool has_interfaces_ = false;
 };

@@ -1,0 +1,103 @@
+// What walks inside a dense object are told of its boundary and of the lights around it.
+#include <tests/support/scenes.h>
+
+#include <wend/integrator/boundary_field.h>
+#include <wend/medium/fresnel.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr MediumId medium = 0;
+constexpr int points = 400;
+constexpr float ior = 1.5f;
+const Vec3 lamp_at(3, 4, 0);
+
+/// A ball of radius 1 under one small lamp.
+SceneDescription lit_ball() {
+    SceneDescription s;
+    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), medium);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, ior), medium);
+    const Vec3 to_ball = normalize(-lamp_at);
+    const Frame frame = Frame::from_z(to_ball);
+    const Vec3 a = frame.s * 0.1f, b = frame.t * 0.1f;
+    s.lights.push_back(make_triangle_light(lamp_at, lamp_at + a, lamp_at + b, false, Rgb(100.0f), false));
+    Surface lamp{TriangleMesh{{lamp_at, lamp_at + a, lamp_at + b}, {}, {}, {0, 1, 2}}, test::add_diffuse(s, Rgb(0.0f))};
+    lamp.first_light = 0;
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(lamp));
+    return s;
+}
+
+std::vector<LitPoint> lit(const Scene& scene, const BoundarySurface& boundary) {
+    Pcg32 random(1);
+    return lit_points(scene, medium, boundary_points(scene.description(), medium, points, 1), boundary, 64, random);
+}
+
+TEST(LitPoints, SeeLampsThroughTheBoundary) {
+    const Scene scene(lit_ball());
+    int seen = 0;
+    for (const LitPoint& p : lit(scene, {ior, 0})) {
+        const Vec3 way = lamp_at - p.point.position;
+        const Vec3 towards = normalize(way);
+        const float cosine = dot(towards, p.point.normal);
+        if (cosine < 0.3f) {
+            EXPECT_TRUE(p.lamp_count == 0 || cosine > -0.05f);
+            continue;
+        }
+        ++seen;
+        ASSERT_EQ(p.lamp_count, 1);
+        const BoundaryLamp& lamp = p.lamps[0];
+        // Snell's law, and the lamp's light through the boundary.
+        const float inside = safe_sqrt(1 - (1 - sqr(cosine)) / sqr(ior));
+        EXPECT_NEAR(lamp.cosine, inside, 0.02f);
+        EXPECT_GT(dot(cross(towards, p.point.normal), cross(lamp.lobe.mean, p.point.normal)), -1e-3f);
+        const float irradiance = 100 * 0.005f * cosine / length_squared(way);
+        const float expected = irradiance * (1 - fresnel_dielectric(cosine, ior)) / inside;
+        // A fifth, for what lies behind is certain (boundary_field.cpp).
+        EXPECT_NEAR(lamp.fluence, 0.2f * expected, 0.15f * 0.2f * expected);
+        EXPECT_GT(lamp.lobe.kappa, 100);
+        EXPECT_FLOAT_EQ(lamp.peak, vmf_peak(lamp.lobe.kappa));
+        // The least irradiance is that of light that comes otherwise.
+        EXPECT_GT(p.irradiance, 0.85f * irradiance);
+    }
+    EXPECT_GT(seen, points / 4);
+}
+
+TEST(LitPoints, BlurLampsByTheRoughnessOfTheBoundary) {
+    const Scene scene(lit_ball());
+    const std::vector<LitPoint> smooth = lit(scene, {ior, 0}), rough = lit(scene, {ior, 0.4f});
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+        if (smooth[i].lamp_count > 0 && rough[i].lamp_count > 0) {
+            EXPECT_LT(rough[i].lamps[0].lobe.kappa, 0.5f * smooth[i].lamps[0].lobe.kappa);
+        }
+    }
+}
+
+TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
+    const Scene scene(lit_ball());
+    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    std::vector<BoundaryPoint> on;
+    for (const LitPoint& p : all) {
+        on.push_back(p.point);
+    }
+    const BoundaryField field(bounds_of(on), all, 5, 2);
+    for (const Vec3& direction : {Vec3(1, 0, 0), normalize(Vec3(1, 1, 1)), normalize(lamp_at), normalize(-lamp_at)}) {
+        const BoundaryField::View view = field.at(direction * 0.9f);
+        EXPECT_GT(dot(view.closest().normal, direction), 0.97f);
+        EXPECT_NEAR(view.lamps().depth, 0.1f, 0.03f);
+        EXPECT_NEAR(view.layer().depth, 0.1f, 0.03f);
+        EXPECT_NEAR(view.layer().thickness, 2, 0.05f);
+    }
+    EXPECT_GT(dot(field.at(Vec3(0.0f)).incident().normal, normalize(lamp_at)), 0.95f);
+    const Vec3 bright = normalize(lamp_at) * 0.9f;
+    EXPECT_EQ(field.at(bright).lamps().lamps.size(), 1u);
+    EXPECT_EQ(field.at(-bright).lamps().lamps.size(), 0u);
+    EXPECT_GT(field.at(bright).lamps().diffuse.g, 5 * field.at(-bright).lamps().diffuse.g);
+}
+
+}  // namespace
+}  // namespace wend
