@@ -35,7 +35,7 @@ SceneDescription table_top() {
 
 /// The mean of the picture, over independent renders.
 Moments render_means(const Scene& scene, const char* sampling, const char* subsurface, std::uint64_t first_seed) {
-    constexpr std::uint64_t replicas = 12;
+    constexpr std::uint64_t replicas = 20;
     Moments means;
     for (std::uint64_t i = 0; i < replicas; ++i) {
         Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});

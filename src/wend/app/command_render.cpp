@@ -27,7 +27,7 @@ struct RenderOptions {
     int samples = 0;
     double seconds = 0;
     std::string sampling = "full";
-    std::string subsurface = "classical";
+    std::string subsurface = "auto";
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
@@ -167,7 +167,8 @@ Action add_render_command(CLI::App& program) {
         "--sampling", options->sampling,
         "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: full)");
     command
-        .add_option("--subsurface", options->subsurface, "walks inside dense homogeneous media: " + subsurface_names())
+        .add_option("--subsurface", options->subsurface,
+                    "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")
         ->capture_default_str();
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     command.add_option("--save-records", options->save_records,
