@@ -57,7 +57,7 @@ TEST(LitPoints, SeeLampsThroughTheBoundary) {
         EXPECT_GT(dot(cross(towards, p.point.normal), cross(lamp.lobe.mean, p.point.normal)), -1e-3f);
         const float irradiance = 100 * 0.005f * cosine / length_squared(way);
         const float expected = irradiance * (1 - fresnel_dielectric(cosine, ior)) / inside;
-        // A fifth, for what lies behind is certain (boundary_field.cpp).
+        // A fifth, for what lies behind is certain (boundary_light.cpp).
         EXPECT_NEAR(lamp.fluence, 0.2f * expected, 0.15f * 0.2f * expected);
         EXPECT_GT(lamp.lobe.kappa, 100);
         EXPECT_FLOAT_EQ(lamp.peak, vmf_peak(lamp.lobe.kappa));

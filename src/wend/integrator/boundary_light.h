@@ -1,0 +1,42 @@
+// The light that arrives at the boundary of a dense medium, and what the medium looks like from there.
+#pragma once
+
+#include <wend/decision/lamp_guide.h>
+#include <wend/scene/boundary_points.h>
+#include <wend/scene/scene.h>
+
+#include <span>
+#include <vector>
+
+namespace wend {
+
+/// A point of the boundary with what a walk inside wants to know of it.
+struct LitPoint {
+    BoundaryPoint point;
+    float irradiance = 0;         ///< of light from outside
+    float thickness = 0;          ///< of the object, straight inwards
+    float irradiance_behind = 0;  ///< where that way leaves the object
+    /// Lights outside that walks may run into, or be connected to at the boundary; the strongest come first.
+    std::array<BoundaryLamp, LampGuide::most> lamps{};
+    int lamp_count = 0;
+};
+
+/// How the boundary refracts, taken to be the same all over.
+struct BoundarySurface {
+    float ior = 1;    ///< of the inside over the outside
+    float alpha = 0;  ///< roughness of the microfacets
+
+    /// The concentration of a vMF lobe that blurs directions inside as the roughness does.
+    float blur() const;
+};
+
+/// Points with the irradiance by lights outside, directly, as a scalar; never quite 0, for the light that comes
+/// otherwise. Ways that leave an open object count as its diameter.
+std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
+                                 const BoundarySurface& boundary, int samples, Pcg32& random);
+
+/// The mean length of chords through the object, 4 volume / area, by rays inwards from its boundary. Those that leave
+/// an open object count as its diameter.
+float mean_chord(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points, Pcg32& random);
+
+}  // namespace wend
