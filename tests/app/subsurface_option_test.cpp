@@ -58,6 +58,12 @@ TEST_F(SubsurfaceOption, RenderTakesEveryNameAndTellsIt) {
     }
 }
 
+TEST_F(SubsurfaceOption, RenderMixesStrategiesByDefault) {
+    const auto result = run_wend({"render", scene_, "-o", folder_.file("room.exr"), "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.json()["settings"]["subsurface"], "auto");
+}
+
 TEST_F(SubsurfaceOption, CompareTakesAListOfThem) {
     std::string list;
     for (const std::string& name : names()) {
