@@ -328,6 +328,9 @@ private:
         } else {
             now_.medium = scene_.medium_beyond(*hit_, s->direction, now_.medium);
             now_.ray = spawn_ray(position, normal, s->direction);
+            if (now_.slab.is_inside()) {
+                now_.slab.head(s->direction);
+            }
             enter_medium(*hit_);
         }
         now_.travelled = 0;
