@@ -88,15 +88,19 @@ TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
     for (const Vec3& direction : {Vec3(1, 0, 0), normalize(Vec3(1, 1, 1)), normalize(lamp_at), normalize(-lamp_at)}) {
         const BoundaryField::View view = field.at(direction * 0.9f);
         EXPECT_GT(dot(view.closest().normal, direction), 0.97f);
-        EXPECT_NEAR(view.lamps().depth, 0.1f, 0.03f);
+        EXPECT_NEAR(view.lamps(Rgb(1.0f), Rgb(0.0f)).depth, 0.1f, 0.03f);
         EXPECT_NEAR(view.layer().depth, 0.1f, 0.03f);
         EXPECT_NEAR(view.layer().thickness, 2, 0.05f);
     }
     EXPECT_GT(dot(field.at(Vec3(0.0f)).incident().normal, normalize(lamp_at)), 0.95f);
     const Vec3 bright = normalize(lamp_at) * 0.9f;
-    EXPECT_EQ(field.at(bright).lamps().lamps.size(), 1u);
-    EXPECT_EQ(field.at(-bright).lamps().lamps.size(), 0u);
-    EXPECT_GT(field.at(bright).lamps().diffuse.g, 5 * field.at(-bright).lamps().diffuse.g);
+    const Rgb returned(0.1f, 0.2f, 0.3f), decay(1, 2, 4);
+    const LampView lit_side = field.at(bright).lamps(returned, decay);
+    const LampView dark_side = field.at(-bright).lamps(returned, decay);
+    EXPECT_EQ(lit_side.lamps.size(), 1u);
+    EXPECT_EQ(dark_side.lamps.size(), 0u);
+    EXPECT_GT(lit_side.diffuse.g, 5 * dark_side.diffuse.g);
+    EXPECT_NEAR(lit_side.diffuse.b / lit_side.diffuse.r, 3 * std::exp(-3 * lit_side.depth), 1e-4f);
 }
 
 }  // namespace

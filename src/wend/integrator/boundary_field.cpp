@@ -1,5 +1,6 @@
 #include <wend/core/parallel.h>
 #include <wend/integrator/boundary_field.h>
+#include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,9 +100,14 @@ LayerPlace BoundaryField::View::layer() const {
             closest_.irradiance, closest_.irradiance_behind};
 }
 
-LampView BoundaryField::View::lamps() const {
-    return {std::span(closest_.lamps).first(static_cast<std::size_t>(closest_.lamp_count)), std::max(0.0f, depth_),
-            Rgb(cell_.irradiance)};
+LampView BoundaryField::View::lamps(const Rgb& returned, const Rgb& decay) const {
+    const float depth = std::max(0.0f, depth_);
+    LampView view{std::span(closest_.lamps).first(static_cast<std::size_t>(closest_.lamp_count)), depth,
+                  Rgb(cell_.irradiance)};
+    for (int c = 0; c < 3; ++c) {
+        view.diffuse[c] *= returned[c] * fast_exp(-decay[c] * depth);
+    }
+    return view;
 }
 
 float BoundaryField::distance2_to(const BoundaryPoint& point, const Vec3& position) const {

@@ -58,9 +58,9 @@ public:
     /// exp(-decay r) / r: with many lights around they share one direction, and where they cancel it has little
     /// steepness (after meng2016, who draws one of the normals).
     const SlabAim& incident() const { return cell_.incident; }
-    /// The lamps seen from the nearest piece of boundary; `diffuse`: the light that arrives at the boundary around and
-    /// diffuses inwards, as an irradiance, before it is attenuated on the way from the nearest piece.
-    LampView lamps() const;
+    /// The lamps seen from the nearest piece of boundary, and the diffuse light: of the irradiance around, `returned`
+    /// is the radiance that comes back at the boundary, by channel, and falls off with `decay`, per scene unit.
+    LampView lamps(const Rgb& returned, const Rgb& decay) const;
 
 private:
     const LitPoint& closest_;

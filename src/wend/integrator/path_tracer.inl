@@ -52,7 +52,7 @@ private:
         float travelled = 0;                ///< since the last vertex
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
-        float preference = 1;               ///< of the last vertex: StayPlan::preference, or 1
+        float preference = 1;               ///< of the last vertex: that of its stay, or 1
         StayPlan::Connecting connecting{};  ///< of vertices of the stay
         float connected = 1;                ///< the probability that the last vertex was connected
 

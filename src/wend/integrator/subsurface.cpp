@@ -3,7 +3,6 @@
 #include <wend/decision/channels.h>
 #include <wend/integrator/subsurface.h>
 #include <wend/medium/fresnel.h>
-#include <wend/numeric/fast_exp.h>
 #include <wend/theory/half_space.h>
 #include <wend/theory/lit_layers.h>
 #include <wend/theory/slab_modes.h>
@@ -197,11 +196,7 @@ void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk
             walk.aim(slot, aim.normal, aim.steepness);
         }
         if (walk.is_lit(slot)) {
-            LampView view = around.lamps();
-            for (int c = 0; c < 3; ++c) {
-                view.diffuse[c] *= dense.returned[c] * fast_exp(-dense.decay[c] * view.depth);
-            }
-            walk.aim(view);
+            walk.aim(around.lamps(dense.returned, dense.decay));
         }
     }
 }
