@@ -30,6 +30,14 @@ struct alignas(16) Lanes {
         return *this;
     }
 
+    /// Takes the first `blocks` blocks of another; the rest stays.
+    void copy(int blocks, const Lanes& other) {
+        for (int block = 0; block < blocks; ++block) {
+            const int first = block * lanes_per_block;
+            std::memcpy(value + first, other.value + first, lanes_per_block * sizeof(float));
+        }
+    }
+
     float& operator[](int i) { return value[i]; }
     float operator[](int i) const { return value[i]; }
 };

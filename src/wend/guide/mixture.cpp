@@ -54,13 +54,16 @@ Vec3 VmfMixture::sample(Vec2 u) const {
 }
 
 WEND_VECTOR_CLONES VmfMixture VmfMixture::re_aimed(const Vec3& offset, const Lanes& inverse_distance) const {
-    VmfMixture result(*this, Unset{});
+    VmfMixture result(size_, Unset{});
     for_lanes(blocks(), [&, offset](int i) {
         const Mean mean = turned_mean(i, offset, inverse_distance);
         result.mean_x_[i] = mean.x;
         result.mean_y_[i] = mean.y;
         result.mean_z_[i] = mean.z;
     });
+    result.kappa_.copy(blocks(), kappa_);
+    result.weight_.copy(blocks(), weight_);
+    result.amplitude_.copy(blocks(), amplitude_);
     return result;
 }
 

@@ -68,22 +68,23 @@ private:
     [[gnu::always_inline]] Mean turned_mean(int i, const Vec3& offset, const Lanes& inverse_distance) const {
         const float own_x = mean_x_[i], own_y = mean_y_[i], own_z = mean_z_[i], inverse = inverse_distance[i];
         const float x = own_x + offset.x * inverse, y = own_y + offset.y * inverse, z = own_z + offset.z * inverse;
-        const float length = std::sqrt(x * x + y * y + z * z);
-        const float scale = 1 / length;
+        const float squared = x * x + y * y + z * z, length = std::sqrt(squared);
+        // 1 / length without waiting for the root.
+        const float scale = length * (1 / squared);
         // On top of the source no direction is better than another.
         const bool far = length > 1e-3f;
         return {far ? x * scale : own_x, far ? y * scale : own_y, far ? z * scale : own_z};
     }
 
-    /// The mixture with means that are still to be written.
-    explicit VmfMixture(const VmfMixture& other, Unset unset)
-        : size_(other.size_),
+    /// A mixture of as many lobes, all of them still to be written.
+    VmfMixture(int size, Unset unset)
+        : size_(size),
           mean_x_(unset),
           mean_y_(unset),
           mean_z_(unset),
-          kappa_(other.kappa_),
-          weight_(other.weight_),
-          amplitude_(other.amplitude_) {}
+          kappa_(unset),
+          weight_(unset),
+          amplitude_(unset) {}
 
     int blocks() const { return blocks_for(size_); }
 

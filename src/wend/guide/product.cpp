@@ -35,14 +35,12 @@ struct Overlap {
     Overlap(float kappa, float other, float to_mean, float to_opposite) {
         const float difference = kappa - other;
         const float both = kappa * other;
-        const float squared = difference * difference + both * to_opposite;
         // Never 0.
-        joint = std::sqrt(squared + 1e-12f);
-        // 1 / joint, and 1 / sum for joint - kappa - other, by one division.
-        const float sum = joint + (kappa + other);
-        const float of_both = 1 / (joint * sum);
-        exponent = -both * to_mean * (of_both * joint);
-        reciprocal = of_both * sum;
+        const float squared = difference * difference + both * to_opposite + 1e-12f;
+        joint = std::sqrt(squared);
+        // joint - kappa - other, and 1 / joint without waiting for the root.
+        exponent = -both * to_mean / (joint + (kappa + other));
+        reciprocal = joint * (1 / squared);
         joint = smaller(joint, saturated);
     }
 };
@@ -122,9 +120,11 @@ template <class MeanOf>
         }
         below_.set(blocks, sums_ + (lobes_.size() - 1) * lanes);
     }
-    mixture_.mean_x_ = mean_x;
-    mixture_.mean_y_ = mean_y;
-    mixture_.mean_z_ = mean_z;
+    mixture_.mean_x_.copy(blocks, mean_x);
+    mixture_.mean_y_.copy(blocks, mean_y);
+    mixture_.mean_z_.copy(blocks, mean_z);
+    mixture_.kappa_.copy(blocks, source.kappa_);
+    mixture_.amplitude_.copy(blocks, source.amplitude_);
     integral_ = below_.total();
     scale_ = 1 / integral_;
     if (!(integral_ > least_integral)) {

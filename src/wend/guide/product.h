@@ -14,10 +14,12 @@ namespace wend::guide {
 /// reference.
 class MixtureProduct {
 public:
-    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes) : mixture_(mixture, Unset{}), lobes_(lobes) {
+    MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes)
+        : mixture_(mixture.size(), Unset{}), lobes_(lobes) {
         weigh(mixture);
     }
-    MixtureProduct(const MixtureView& view, const AxialLobes& lobes) : mixture_(view.mixture_, Unset{}), lobes_(lobes) {
+    MixtureProduct(const MixtureView& view, const AxialLobes& lobes)
+        : mixture_(view.mixture_.size(), Unset{}), lobes_(lobes) {
         turn_and_weigh(view);
     }
 
@@ -39,11 +41,11 @@ private:
     /// Numbers for pairs of lobes, those of one axial lobe side by side. Only the pairs there are have some.
     using Pairs = float[AxialLobes::capacity * max_lobes];
 
-    /// Set the means and the numbers below, and the lobes to the uniform one where the product is too small.
+    /// Set the lobes' means, concentrations and amplitudes (nothing asks for their weights) and the numbers below, and
+    /// the axial lobes to the uniform one where the product is too small.
     void weigh(const VmfMixture& mixture);
     void turn_and_weigh(const MixtureView& view);
-    /// Their body, of which each compiles its own copy for several vector widths. What does not depend on the position
-    /// is read from the mixture that was copied: reading what has just been written is slower.
+    /// Their body, of which each compiles its own copy for several vector widths.
     template <class MeanOf>
     void weigh_parts(const VmfMixture& source, const MeanOf& mean_of);
 

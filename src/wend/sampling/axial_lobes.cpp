@@ -10,11 +10,11 @@
 
 namespace wend {
 
-AxialLobes::AxialLobes() {
-    amplitude_[0] = inv_4pi;
+AxialLobes::AxialLobes() : axis_(0, 0, 1), size_(1), kappa_{}, amplitude_{inv_4pi} {
 }
 
-AxialLobes::AxialLobes(std::span<const AxialLobe> lobes) : size_(static_cast<int>(lobes.size())) {
+AxialLobes::AxialLobes(std::span<const AxialLobe> lobes)
+    : axis_(0, 0, 1), size_(static_cast<int>(lobes.size())), kappa_{}, amplitude_{} {
     WEND_EXPECT(!lobes.empty() && lobes.size() <= capacity);
     double total = 0;
     for (const AxialLobe& lobe : lobes) {

@@ -5,6 +5,7 @@
 #include <wend/core/vector.h>
 #include <wend/numeric/fast_exp.h>
 
+#include <cstring>
 #include <span>
 
 namespace wend {
@@ -28,6 +29,18 @@ public:
     /// 1 to `capacity` lobes around +z; weights are scaled to the sum 1, and one at least must be positive.
     explicit AxialLobes(std::span<const AxialLobe> lobes);
 
+    // Written out, to copy no more than the lobes there are.
+    AxialLobes(const AxialLobes& other) { *this = other; }
+    AxialLobes& operator=(const AxialLobes& other) {
+        axis_ = other.axis_;
+        size_ = other.size_;
+        for (int first = 0; first < size_; first += block) {
+            std::memcpy(kappa_ + first, other.kappa_ + first, block * sizeof(float));
+            std::memcpy(amplitude_ + first, other.amplitude_ + first, block * sizeof(float));
+        }
+        return *this;
+    }
+
     /// The cosine of a surface that reflects diffusely, clamped to its upper side, as a single lobe: the least-squares
     /// fit's concentration (ruppert2020).
     static const AxialLobes& cosine();
@@ -46,9 +59,6 @@ public:
     float density(const Vec3& direction) const;
     /// Its body, for functions that are compiled for several vector widths.
     [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
-        // Vector instructions want an inner loop of constant length; lobes that are not there have amplitude 0.
-        constexpr int block = 8;
-        static_assert(capacity % block == 0);
         const float before = 0.5f * length_squared(direction - axis_),
                     behind = 0.5f * length_squared(direction + axis_);
         if (size_ == 1) {
@@ -68,10 +78,15 @@ public:
     Vec3 sample(Vec2 u) const;
 
 private:
-    Vec3 axis_{0, 0, 1};
-    int size_ = 1;
-    float kappa_[capacity] = {};
-    float amplitude_[capacity] = {};
+    /// Vector instructions want inner loops of constant length: a block's lobes that are not there have amplitude 0,
+    /// and beyond the last block that is used nothing need be set.
+    static constexpr int block = 8;
+    static_assert(capacity % block == 0);
+
+    Vec3 axis_;
+    int size_;
+    float kappa_[capacity];
+    float amplitude_[capacity];
 };
 
 }  // namespace wend
