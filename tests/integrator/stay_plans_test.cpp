@@ -27,7 +27,7 @@ Stay stay(const SlabGuide::Shares& shares, Pcg32& random) {
     for (std::size_t i = 0; i < 3; ++i) {
         mixture += static_cast<double>(shares[i]) * density(i, x);
     }
-    Stay result{0, Vec3(0.1f), 0, {}, {}};
+    Stay result{.medium = 0, .entry = Vec3(0.1f)};
     for (std::size_t i = 0; i < 3; ++i) {
         result.relative[i] = static_cast<float>(density(i, x) / mixture);
     }
@@ -44,7 +44,7 @@ TEST(StayPlans, GiveTheSharesToWhatIsRight) {
         for (int i = 0; i < 20000; ++i) {
             moments.add(cell, stay(plans.plan(cell).shares, random));
         }
-        plans.learn(moments.of(0));
+        plans.learn(moments.of(0), false);
     }
     const SlabGuide::Shares& learned = plans.plan(cell).shares;
     EXPECT_GT(learned[1], 0.85f);
@@ -55,12 +55,44 @@ TEST(StayPlans, GiveTheSharesToWhatIsRight) {
     EXPECT_GT(plans.plan(plans.cell_at(Vec3(0.9f))).shares[1], 0.85f);
 }
 
+TEST(StayPlans, LeaveStaysToClassicalSamplingWhereGuidesDoNotPay) {
+    for (const double spread : {0.1, 1.5}) {
+        // Guided stays bring 1 and a bit, classical ones vary with a standard deviation that is smaller or larger.
+        StayPlans plans(box, {0.25f, 0.75f});
+        const int cell = plans.cell_at(Vec3(0.1f)), elsewhere = plans.cell_at(Vec3(0.9f));
+        EXPECT_EQ(plans.plan(cell).classical_probability, 0.0625f);
+        Pcg32 random(1);
+        const auto lesson = [&](bool last) {
+            StayMoments moments;
+            for (int i = 0; i < 4000; ++i) {
+                Stay one{.medium = 0, .entry = Vec3(0.1f)};
+                one.guided = !(random.uniform() < plans.plan(cell).classical_probability);
+                one.flights = 4;
+                one.relative = {1, 1};
+                const float deviation = random.uniform() - 0.5f;
+                one.bring(1 + (one.guided ? 1.0f : static_cast<float>(spread)) * deviation, {one.relative, 0});
+                moments.add(cell, one);
+            }
+            plans.learn(moments.of(0), last);
+        };
+        const bool pays = spread > 1;
+        lesson(false);
+        const float probability = plans.plan(cell).classical_probability;
+        EXPECT_GT(probability, 0.01f);
+        EXPECT_LE(probability, 0.0625f);
+        EXPECT_EQ(plans.plan(elsewhere).classical_probability, probability);
+        lesson(true);
+        EXPECT_EQ(plans.plan(cell).classical_probability, pays ? 0 : 1);
+        EXPECT_EQ(plans.plan(elsewhere).classical_probability, pays ? 0 : 1);
+    }
+}
+
 TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
     for (const bool connects : {false, true}) {
         const SlabGuide::Shares shares{0.25f, 0.75f};
         StayPlans plans(box, shares);
         const int cell = plans.cell_at(Vec3(0.1f));
-        EXPECT_GT(plans.plan(cell).connecting.probability, 0.4f);
+        EXPECT_GT(plans.plan(cell).guided.probability, 0.4f);
         Pcg32 random(1);
         StayMoments moments;
         for (int i = 0; i < 5000; ++i) {
@@ -68,9 +100,9 @@ TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
             one.connected = connects && i == 0;
             moments.add(cell, one);
         }
-        plans.learn(moments.of(0));
-        plans.learn({});
-        const float probability = plans.plan(cell).connecting.probability;
+        plans.learn(moments.of(0), false);
+        plans.learn({}, false);
+        const float probability = plans.plan(cell).guided.probability;
         EXPECT_GT(probability, 0);
         EXPECT_EQ(probability < 0.1f, !connects);
     }
@@ -80,12 +112,12 @@ TEST(StayPlans, LearnNothingFromNothingOrFromWhatIsNotANumber) {
     const SlabGuide::Shares start{0.25f, 0.75f};
     StayPlans plans(box, start);
     StayMoments moments;
-    plans.learn(moments.of(0));
-    Stay bad{0, Vec3(0.5f), 0, {}, {}};
+    plans.learn(moments.of(0), false);
+    Stay bad{.medium = 0, .entry = Vec3(0.5f)};
     bad.relative = {1, 1};
     bad.bring(std::numeric_limits<float>::quiet_NaN(), {bad.relative, 0});
     moments.add(plans.cell_at(bad.entry), bad);
-    plans.learn(moments.of(0));
+    plans.learn(moments.of(0), false);
     EXPECT_EQ(plans.plan(0).shares, start);
 }
 
@@ -99,8 +131,8 @@ TEST(StayPlans, MomentsAddUp) {
     }
     first += second;
     for (const auto& [cell, sums] : all.of(0)) {
-        EXPECT_NEAR(first.of(0).at(cell).powers[4], sums.powers[4], 1e-9 * sums.powers[4]);
-        EXPECT_NEAR(first.of(0).at(cell).slopes[1], sums.slopes[1], 1e-9 * sums.powers[2]);
+        EXPECT_NEAR(first.of(0).at(cell).guided.powers[4], sums.guided.powers[4], 1e-9 * sums.guided.powers[4]);
+        EXPECT_NEAR(first.of(0).at(cell).slopes[1], sums.slopes[1], 1e-9 * sums.guided.powers[2]);
     }
     EXPECT_TRUE(all.of(1).empty());
 }

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <wend/decision/channels.h>
+#include <wend/integrator/light_connection.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
-#include <wend/medium/transmittance.h>
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -53,7 +54,7 @@ private:
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
-        StayPlan::Connecting connecting{};  ///< of vertices of the stay
+        StayPlan::Connecting connecting{};  ///< of vertices in the medium
         float connected = 1;                ///< the probability that the last vertex was connected
 
         // The last vertex, as multiple importance sampling wants it.
@@ -100,17 +101,18 @@ private:
             }
         }
         if (scene_.is_interface(*hit)) {
-            now_.medium = scene_.medium_beyond(*hit, now_.ray.direction, now_.medium);
+            const MediumId from =
+                std::exchange(now_.medium, scene_.medium_beyond(*hit, now_.ray.direction, now_.medium));
             now_.ray = spawn_ray(hit->position, hit->normal, now_.ray.direction);
-            enter_medium(*hit);
-            // A walk that meets hundreds of interfaces in a row is caught between coincident surfaces.
-            return ++now_.interfaces < max_interfaces;
+            enter_medium(*hit, from);
+            return ++now_.interfaces < most_interfaces;
         }
         return scatter_at(*hit);
     }
 
     /// The next flight, up to the hit; if it passes the segment, that is counted in.
     Flight fly(const Medium& medium, float length, const std::optional<Hit>& hit) {
+        now_.stay.flights += now_.medium == now_.stay.medium ? 1 : 0;
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
@@ -131,20 +133,25 @@ private:
     }
 
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
-    void enter_medium(const Hit& hit) {
+    void enter_medium(const Hit& hit, MediumId from) {
         if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
             return;
         }
-        const SlabGuide* before = now_.slab.guide();
         update_stay();
-        tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
-                                  now_.slab);
-        if (now_.slab.is_inside() && now_.slab.guide() != before) {
-            now_.connecting = tracer_.subsurface_.connecting(now_.medium, hit.position);
-            if (stays_) {
+        bool guided = now_.slab.is_inside();
+        if (now_.medium != from) {
+            const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
+            guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
+            now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
+            now_.slab.leave();
+            if (stays_ && plan) {
                 end_stay();
-                now_.stay = {now_.medium, hit.position, 0, {}, {}};
+                now_.stay = {.medium = now_.medium, .entry = hit.position, .guided = guided};
             }
+        }
+        if (guided) {
+            tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
+                                      now_.slab);
         }
     }
 
@@ -326,12 +333,12 @@ private:
         if (in_volume) {
             now_.ray = {position, s->direction};
         } else {
-            now_.medium = scene_.medium_beyond(*hit_, s->direction, now_.medium);
+            const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium));
             now_.ray = spawn_ray(position, normal, s->direction);
             if (now_.slab.is_inside()) {
                 now_.slab.head(s->direction);
             }
-            enter_medium(*hit_);
+            enter_medium(*hit_, from);
         }
         now_.travelled = 0;
         return true;
@@ -339,14 +346,10 @@ private:
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
-    float preference(bool in_volume) const {
-        return in_volume && now_.slab.is_inside() ? now_.connecting.preference : 1.0f;
-    }
+    float preference(bool in_volume) const { return in_volume ? now_.connecting.preference : 1.0f; }
 
     /// Of connections to lights that directions find as well.
-    float connection_probability(bool in_volume) const {
-        return in_volume && now_.slab.is_inside() ? now_.connecting.probability : 1.0f;
-    }
+    float connection_probability(bool in_volume) const { return in_volume ? now_.connecting.probability : 1.0f; }
 
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
@@ -373,52 +376,39 @@ private:
         const float u = sampler_.uniform();
         const Vec2 u2 = sampler_.uniform2();
         const LightReceiver receiver{position, normal};
-        const ChosenLight chosen =
-            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
-        if (chosen.index < 0) {
+        const auto chosen = choose_light(scene_, receiver, u, u2);
+        if (!chosen) {
             return {};
         }
-        const auto light = sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], position, u2);
-        if (!light) {
+        const LightSample& light = chosen->light;
+        const Rgb value = f.evaluate(light.direction);
+        if (is_black(value) || (is_left_out && !light.point_like)) {
             return {};
         }
-        const Rgb value = f.evaluate(light->direction);
-        if (is_black(value)) {
-            return {};
-        }
-        if (is_left_out && !light->point_like) {
-            return {};
-        }
-        Ray shadow = in_volume ? Ray{position, light->direction} : spawn_ray(position, normal, light->direction);
-        float distance = light->distance;
-        if (!in_volume && distance < infinity) {
-            // Moving the origin off the surface must not move the far end through the light.
-            const Vec3 rest = position + light->direction * distance - shadow.origin;
-            distance = length(rest);
-            shadow.direction = rest / distance;
-        }
-        const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light->direction, now_.medium);
+        const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
         SlabWalk slab;
         if (in_volume && now_.slab.is_inside()) {
             slab = now_.slab;
-            slab.turn(now_.ray.direction, light->direction);
+            slab.turn(now_.ray.direction, light.direction);
         }
-        const Passage passage = pass(shadow, distance, medium, slab);
+        const Passage passage = pass(scene_, d_.distance, shadow_ray(receiver, light), medium, slab, sampler_.random());
         if (is_black(passage.transmittance)) {
             return {};
         }
-        const float light_density = (light->point_like ? 1 : often) * chosen.probability * light->density;
+        const float density = (light.point_like ? 1 : often) * chosen->density();
         float weight = 1;
-        if (!light->point_like) {
+        if (!light.point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
             const float other =
-                preference(in_volume) * directions.density(light->direction) * dot(channels, passage.probability);
-            weight = light_density / (light_density + other);
+                preference(in_volume) * directions.density(light.direction) * dot(channels, passage.probability);
+            weight = density / (density + other);
         }
-        Connection found{light->direction, light->radiance * passage.transmittance * (weight / light_density), value,
+        Connection found{light.direction, light.radiance * passage.transmittance * (weight / density), value,
                          std::nullopt};
-        if (stays_ && in_volume && now_.slab.is_inside()) {
+        if (stays_ && in_volume && now_.medium == now_.stay.medium) {
             now_.stay.connected = true;
+        }
+        if (stays_ && in_volume && now_.slab.is_inside()) {
             found.slope = StaySlope{now_.slab.relative_densities(), weight - 1};
             const SlabGuide::Shares beyond = slab.relative_densities();
             for (std::size_t i = 0; i < beyond.size(); ++i) {
@@ -426,48 +416,6 @@ private:
             }
         }
         return found;
-    }
-
-    /// What a straight line to a light meets: an estimate of the transmittance, 0 where it is blocked, and the
-    /// probability, by channel, that a walk would have flown through: in `slab`, if it is inside, on its stay.
-    struct Passage {
-        Rgb transmittance{1.0f};
-        Rgb probability{1.0f};
-    };
-    Passage pass(Ray ray, float distance, MediumId medium, SlabWalk& slab) {
-        Passage passage;
-        float rest = distance == infinity ? farthest : distance * (1 - 1e-4f);
-        if (scene_.is_occluded(ray, rest)) {
-            return {Rgb(0.0f), Rgb(0.0f)};
-        }
-        for (int crossed = 0; crossed < max_interfaces; ++crossed) {
-            const std::optional<Hit> hit =
-                scene_.has_interfaces() ? scene_.intersect_interface(ray, rest) : std::nullopt;
-            if (hit && scene_.blocks(*hit, ray)) {
-                return {Rgb(0.0f), Rgb(0.0f)};
-            }
-            const float length = hit ? hit->distance : rest;
-            if (medium != vacuum) {
-                passage.transmittance *= estimate_transmittance(scene_.medium(medium), ray, length, sampler_.random());
-                passage.probability *= slab.is_inside()
-                                           ? Rgb(slab.pass(length))
-                                           : d_.distance.pass_probability(scene_.medium(medium), ray, length);
-                if (is_black(passage.transmittance)) {
-                    return passage;
-                }
-            }
-            if (!hit) {
-                return passage;
-            }
-            rest -= length;
-            const MediumId beyond = scene_.medium_beyond(*hit, ray.direction, medium);
-            if (beyond != medium) {
-                slab.leave();
-            }
-            medium = beyond;
-            ray = spawn_ray(hit->position, hit->normal, ray.direction);
-        }
-        return {Rgb(0.0f), Rgb(0.0f)};
     }
 
     /// Light that the walk ran into, weighted against the connection that could have found it.
@@ -576,8 +524,6 @@ private:
         }
     }
 
-    static constexpr float farthest = 1e30f;
-    static constexpr int max_interfaces = 1000;
     static constexpr int max_pending = 64;
 
     const PathTracer& tracer_;

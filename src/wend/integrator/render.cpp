@@ -248,7 +248,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             for (Tile& tile : tiles) {
                 moments += std::exchange(tile.stays, {});
             }
-            subsurface.learn(moments);
+            subsurface.learn(moments, statistics.samples >= settings.training_samples);
         }
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;

@@ -13,6 +13,12 @@ constexpr double trusted = 64;
 constexpr float least_classical = 0.03f;
 /// A guide that is worth less costs more than it brings.
 constexpr float least_guided = 0.02f;
+/// What a guided flight takes of time, in classical ones, and how many of these a walk makes beside a stay.
+constexpr double cost_of_guided_flight = 2.2;
+constexpr double flights_outside = 2;
+/// How much of the variance classical stays may add while they are watched, and their largest share.
+constexpr float variance_for_watching = 0.1f;
+constexpr float largest_share_for_watching = 0.0625f;
 constexpr float first_preference = 16;
 constexpr float largest_preference = 1000;
 /// Of connections, by preference; and where none has succeeded in so many stays.
@@ -31,30 +37,81 @@ struct Steps {
     double preference = 0;
 };
 
+struct Variance {
+    double value = 0;
+    double count = 0;  ///< how many stays of equal weight tell it
+};
+
+Variance variance(const StayMoments::Kind& sums) {
+    const auto& powers = sums.powers;
+    const double n = powers[0];
+    if (!(n > 0)) {
+        return {};
+    }
+    const double mean = powers[1] / n, value = powers[2] / n - mean * mean;
+    const double fourth =
+        (powers[4] - 4 * mean * powers[3] + 6 * mean * mean * powers[2]) / n - 3 * mean * mean * mean * mean;
+    return value > 1e-6 * mean * mean ? Variance{value, fourth > 0 ? n * value * value / fourth : 0.0} : Variance{};
+}
+
+/// Of guided stays over classical ones.
+struct Advantage {
+    double efficiency = 0;  ///< logarithm of the ratio of variance times cost
+    double deviation = 1;   ///< of that, as far as it is known
+    double variance = 0;    ///< logarithm of the ratio of the variances alone
+
+    bool is_clear() const { return std::abs(efficiency) > 1.5 * deviation; }
+
+    /// The share of classical stays: a few as long as both kinds are watched, and after that none or all. What is
+    /// rarely found by classical sampling may long seem not to be there: before the last lesson guides are never given
+    /// up.
+    float classical_probability(bool last) const {
+        if (last) {
+            return is_clear() && efficiency < 0 ? 1.0f : 0.0f;
+        }
+        return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
+    }
+};
+
+Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& classical) {
+    const auto [guided_variance, guided_count] = variance(guided);
+    const auto [classical_variance, classical_count] = variance(classical);
+    if (!(guided_count > 0 && classical_count > 0)) {
+        return {};
+    }
+    const double guided_cost = flights_outside + cost_of_guided_flight * guided.flights / guided.powers[0];
+    const double classical_cost = flights_outside + classical.flights / classical.powers[0];
+    const double ratio = std::log(classical_variance / guided_variance);
+    return {ratio + std::log(classical_cost / guided_cost), std::sqrt(1 / guided_count + 1 / classical_count), ratio};
+}
+
 /// Between what was seen and what is expected elsewhere.
 Steps steps(const StayMoments::Sums& sums, const Steps& expected) {
-    const double n = sums.powers[0];
-    const double mean = n > 0 ? sums.powers[1] / n : 0.0;
-    const double variance = n > 0 ? sums.powers[2] / n - mean * mean : 0.0;
-    if (!(variance > 1e-6 * mean * mean)) {
+    const double n = sums.guided.powers[0];
+    const auto [variance_here, count] = variance(sums.guided);
+    if (!(variance_here > 0)) {
         return expected;
     }
-    const double fourth = (sums.powers[4] - 4 * mean * sums.powers[3] + 6 * mean * mean * sums.powers[2]) / n -
-                          3 * mean * mean * mean * mean;
-    const double count = fourth > 0 ? n * variance * variance / fourth : 0.0;
     // `slope` and `squares`: sums of what falls.
     const auto step = [&](double slope, double squares, double elsewhere) {
         const double significance = squares > 0 ? slope * slope / (slope * slope + 4 * squares) : 0.0;
-        const double seen = std::clamp(pace * slope / (n * variance), -largest_step, largest_step) * significance;
+        const double seen = std::clamp(pace * slope / (n * variance_here), -largest_step, largest_step) * significance;
         return (count * seen + trusted * elsewhere) / (count + trusted);
     };
     Steps result;
     for (std::size_t i = 0; i < result.share.size(); ++i) {
-        result.share[i] =
-            step(sums.slopes[i] - sums.powers[2] / n * sums.densities[i], sums.slope_squares[i], expected.share[i]);
+        result.share[i] = step(sums.slopes[i] - sums.guided.powers[2] / n * sums.densities[i], sums.slope_squares[i],
+                               expected.share[i]);
     }
     result.preference = step(-sums.preference_slope, sums.preference_slope_squares, expected.preference);
     return result;
+}
+
+template <std::size_t n>
+void add_each(std::array<double, n>& to, const std::array<double, n>& from) {
+    for (std::size_t i = 0; i < n; ++i) {
+        to[i] += from[i];
+    }
 }
 
 void normalize(SlabGuide::Shares& shares) {
@@ -64,19 +121,37 @@ void normalize(SlabGuide::Shares& shares) {
     }
 }
 
+/// Makes the steps.
+void learn_guided(StayPlan& plan, const Steps& steps) {
+    plan.guided.preference =
+        std::clamp(plan.guided.preference * static_cast<float>(std::exp(steps.preference)), 1.0f, largest_preference);
+    SlabGuide::Shares& shares = plan.shares;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        shares[i] *= static_cast<float>(std::exp(steps.share[i]));
+    }
+    normalize(shares);
+    for (std::size_t i = 1; i < shares.size(); ++i) {
+        shares[i] = shares[i] < least_guided ? 0.0f : shares[i];
+    }
+    shares[0] = std::max(shares[0], least_classical);
+    normalize(shares);
+}
+
 }  // namespace
 
+StayMoments::Kind& StayMoments::Kind::operator+=(const Kind& other) {
+    add_each(powers, other.powers);
+    flights += other.flights;
+    return *this;
+}
+
 StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
-    const auto add = [](auto& to, const auto& from) {
-        for (std::size_t i = 0; i < to.size(); ++i) {
-            to[i] += from[i];
-        }
-    };
-    add(powers, other.powers);
-    add(slopes, other.slopes);
-    add(densities, other.densities);
+    guided += other.guided;
+    classical += other.classical;
+    add_each(slopes, other.slopes);
+    add_each(densities, other.densities);
     connected += other.connected;
-    add(slope_squares, other.slope_squares);
+    add_each(slope_squares, other.slope_squares);
     preference_slope += other.preference_slope;
     preference_slope_squares += other.preference_slope_squares;
     return *this;
@@ -84,23 +159,29 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
 
 void StayMoments::add(int cell, const Stay& stay) {
     const double f = stay.brought;
-    Sums one{{1, f, f * f, f * f * f, f * f * f * f},
-             {},
-             {},
-             stay.connected ? 1.0 : 0.0,
-             2 * f * static_cast<double>(stay.slope.preference),
-             {},
-             0};
-    one.preference_slope_squares = sqr(one.preference_slope);
-    bool finite = std::isfinite(one.powers[4]) && std::isfinite(one.preference_slope);
-    for (std::size_t i = 0; i < one.densities.size(); ++i) {
-        one.densities[i] = stay.relative[i];
-        one.slopes[i] = 2 * f * static_cast<double>(stay.slope.shares[i]) - f * f * one.densities[i];
-        one.slope_squares[i] = sqr(one.slopes[i]);
-        finite = finite && std::isfinite(one.densities[i]) && std::isfinite(one.slopes[i]);
+    const Kind one{{1, f, f * f, f * f * f, f * f * f * f}, static_cast<double>(stay.flights)};
+    if (!std::isfinite(one.powers[4])) {
+        return;
+    }
+    Sums sums;
+    sums.connected = stay.connected ? 1 : 0;
+    if (!stay.guided) {
+        sums.classical = one;
+        media_[stay.medium][cell] += sums;
+        return;
+    }
+    sums.guided = one;
+    sums.preference_slope = 2 * f * static_cast<double>(stay.slope.preference);
+    sums.preference_slope_squares = sqr(sums.preference_slope);
+    bool finite = std::isfinite(sums.preference_slope);
+    for (std::size_t i = 0; i < sums.densities.size(); ++i) {
+        sums.densities[i] = stay.relative[i];
+        sums.slopes[i] = 2 * f * static_cast<double>(stay.slope.shares[i]) - f * f * sums.densities[i];
+        sums.slope_squares[i] = sqr(sums.slopes[i]);
+        finite = finite && std::isfinite(sums.densities[i]) && std::isfinite(sums.slopes[i]);
     }
     if (finite) {
-        media_[stay.medium][cell] += one;
+        media_[stay.medium][cell] += sums;
     }
 }
 
@@ -121,7 +202,9 @@ const std::map<int, StayMoments::Sums>& StayMoments::of(int medium) const {
 
 StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
     : box_(box),
-      plans_(side * side * side, StayPlan{start, {first_preference, connection_probability(first_preference)}}) {
+      plans_(side * side * side,
+             StayPlan{
+                 start, largest_share_for_watching, {first_preference, connection_probability(first_preference)}, {}}) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {
@@ -134,33 +217,24 @@ int StayPlans::cell_at(const Vec3& entry) const {
     return cell;
 }
 
-void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments) {
+void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, bool last) {
     StayMoments::Sums all;
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
-    stays_ += all.powers[0];
+    classical_ += all.classical;
+    stays_ += all.guided.powers[0] + all.classical.powers[0];
     connects_ = connects_ || all.connected > 0;
+    const float most_connected = connects_ || stays_ < enough_stays ? 1.0f : least_probability;
+    const float classical = advantage(all.guided, classical_).classical_probability(last);
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
-        const Steps here = seen == moments.end() ? overall : steps(seen->second, overall);
         StayPlan& plan = plans_[cell];
-        StayPlan::Connecting& connecting = plan.connecting;
-        connecting.preference =
-            std::clamp(connecting.preference * static_cast<float>(std::exp(here.preference)), 1.0f, largest_preference);
-        connecting.probability =
-            connects_ || stays_ < enough_stays ? connection_probability(connecting.preference) : least_probability;
-        SlabGuide::Shares& shares = plan.shares;
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            shares[i] *= static_cast<float>(std::exp(here.share[i]));
-        }
-        normalize(shares);
-        for (std::size_t i = 1; i < shares.size(); ++i) {
-            shares[i] = shares[i] < least_guided ? 0.0f : shares[i];
-        }
-        shares[0] = std::max(shares[0], least_classical);
-        normalize(shares);
+        learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
+        plan.classical_probability = classical;
+        plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);
+        plan.classical.probability = most_connected;
     }
 }
 

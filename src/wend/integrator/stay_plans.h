@@ -21,11 +21,13 @@ struct StaySlope {
 struct Stay {
     int medium = -1;  ///< none if negative
     Vec3 entry{0, 0, 0};
+    bool guided = true;
+    int flights = 0;
     float brought = 0;
     /// Density of each technique over that of the mixture, at the end of the stay or now.
     SlabGuide::Shares relative{};
     /// Sum of what was brought, times its slope.
-    StaySlope slope;
+    StaySlope slope{};
     bool connected = false;  ///< a connection to a light from inside has succeeded
 
     void bring(float light, const StaySlope& relative_slope) {
@@ -39,7 +41,10 @@ struct Stay {
 
 /// How stays are sampled.
 struct StayPlan {
+    /// Of guided stays.
     SlabGuide::Shares shares{1};
+    /// Of leaving a stay to classical sampling alone.
+    float classical_probability = 0;
 
     /// How collisions are connected to lights that the walk may run into as well.
     struct Connecting {
@@ -50,7 +55,8 @@ struct StayPlan {
         /// Of making a connection at all: where they count for little they are few.
         float probability = 1;
     };
-    Connecting connecting;
+    Connecting guided;     ///< in guided stays
+    Connecting classical;  ///< in others
 };
 
 /// Sums over stays that began in the same cell of the same medium, for the second moment of what one brings, F. With
@@ -63,13 +69,21 @@ public:
     void add(int cell, const Stay& stay);
     StayMoments& operator+=(const StayMoments& other);
 
+    /// Of guided stays, or of those left to classical sampling.
+    struct Kind {
+        std::array<double, 5> powers{};  ///< of F, from the zeroth on
+        double flights = 0;
+
+        Kind& operator+=(const Kind& other);
+    };
     struct Sums {
         using PerTechnique = std::array<double, 1 + SlabGuide::most_strategies>;
-        std::array<double, 5> powers{};  ///< of F, from the zeroth on
-        PerTechnique slopes{};           ///< -(F² p_i / p + 2 F dF)
-        PerTechnique densities{};        ///< p_i / p
-        double connected = 0;            ///< number of stays
-        double preference_slope = 0;     ///< of F² with the logarithm of the preference
+        Kind guided, classical;
+        // Of guided stays:
+        PerTechnique slopes{};        ///< -(F² p_i / p + 2 F dF)
+        PerTechnique densities{};     ///< p_i / p
+        double connected = 0;         ///< number of stays
+        double preference_slope = 0;  ///< of F² with the logarithm of the preference
         PerTechnique slope_squares{};
         double preference_slope_squares = 0;
 
@@ -93,16 +107,17 @@ public:
     /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second
     /// moment relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow
     /// all others. Where no connection has ever succeeded, behind a boundary that refracts, hardly any is made. A guide
-    /// that has become useless is dropped; classical sampling keeps a share that bounds all
-    /// weights.
-    void learn(const std::map<int, StayMoments::Sums>& moments);
+    /// that has become useless is dropped; classical sampling keeps a share that bounds all weights. A few stays
+    /// are left to classical sampling, to compare variance times cost: after the `last` lesson none are, or all.
+    void learn(const std::map<int, StayMoments::Sums>& moments, bool last);
 
 private:
     static constexpr int side = 6;
 
     Box3 box_;
     std::vector<StayPlan> plans_;
-    double stays_ = 0;  // seen so far
+    StayMoments::Kind classical_;  // seen so far, everywhere
+    double stays_ = 0;             // the same of all stays
     bool connects_ = false;
 };
 

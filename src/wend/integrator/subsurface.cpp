@@ -164,15 +164,19 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
     }
 }
 
+const StayPlan* SubsurfaceGuides::plan(MediumId medium, const Vec3& entry) const {
+    if (medium == vacuum || media_.empty() || !media_[static_cast<std::size_t>(medium)]) {
+        return nullptr;
+    }
+    const StayPlans& plans = media_[static_cast<std::size_t>(medium)]->plans;
+    return &plans.plan(plans.cell_at(entry));
+}
+
 void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels,
                              SlabWalk& walk) const {
-    const Dense* dense = medium == vacuum || media_.empty() ? nullptr : media_[static_cast<std::size_t>(medium)].get();
-    if (!dense) {
-        walk.leave();
-        return;
-    }
-    if (walk.guide() != &dense->guide) {
-        walk.enter(dense->guide, channels, dense->plans.plan(dense->plans.cell_at(hit.position)).shares);
+    const Dense& dense = *media_[static_cast<std::size_t>(medium)];
+    if (walk.guide() != &dense.guide) {
+        walk.enter(dense.guide, channels, plan(medium, hit.position)->shares);
         for (int slot = 0; slot < walk.slots(); ++slot) {
             walk.aim(slot, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
         }
@@ -201,19 +205,14 @@ void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk
     }
 }
 
-StayPlan::Connecting SubsurfaceGuides::connecting(MediumId medium, const Vec3& entry) const {
-    const StayPlans& plans = media_[static_cast<std::size_t>(medium)]->plans;
-    return plans.plan(plans.cell_at(entry)).connecting;
-}
-
 void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {
     moments.add(media_[static_cast<std::size_t>(stay.medium)]->plans.cell_at(stay.entry), stay);
 }
 
-void SubsurfaceGuides::learn(const StayMoments& moments) {
+void SubsurfaceGuides::learn(const StayMoments& moments, bool last) {
     for (std::size_t id = 0; id < media_.size(); ++id) {
         if (media_[id]) {
-            media_[id]->plans.learn(moments.of(static_cast<int>(id)));
+            media_[id]->plans.learn(moments.of(static_cast<int>(id)), last);
         }
     }
 }

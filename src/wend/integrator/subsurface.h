@@ -51,21 +51,20 @@ public:
 
     bool is_empty() const { return media_.empty(); }
 
-    /// Begins the walk's stay in a medium behind the surface that was hit, in the given direction, if the medium is
-    /// guided, and ends it if not. A stay in the same medium goes on. `channels` are the probabilities of the walk's
-    /// colour channels.
-    void enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels, SlabWalk& walk) const;
+    /// How stays that begin here are sampled; null for a medium that is not dense.
+    const StayPlan* plan(MediumId medium, const Vec3& entry) const;
 
-    /// How collisions of stays that begin here are connected to lights.
-    StayPlan::Connecting connecting(MediumId medium, const Vec3& entry) const;
+    /// Begins the walk's guided stay in a dense medium behind the surface that was hit, in the given direction, or lets
+    /// one in the same medium go on. `channels` are the probabilities of the walk's colour channels.
+    void enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels, SlabWalk& walk) const;
 
     /// Aims the strategies that look around at every collision.
     void aim(MediumId medium, const Vec3& position, SlabWalk& walk) const;
 
     /// What stays brought, counted apart by each thread.
     void count(const Stay& stay, StayMoments& moments) const;
-    /// Learns shares for the stays to come.
-    void learn(const StayMoments& moments);
+    /// Learns plans for the stays to come; the `last` time for good.
+    void learn(const StayMoments& moments, bool last);
 
 private:
     struct Dense {

@@ -1,0 +1,104 @@
+// What a straight line from a vertex to a light meets, for walks that connect their vertices to lights.
+#pragma once
+
+#include <wend/decision/distance.h>
+#include <wend/decision/slab_walk.h>
+#include <wend/medium/transmittance.h>
+#include <wend/scene/scene.h>
+
+#include <optional>
+#include <variant>
+
+namespace wend {
+
+/// How far rays go where nothing is near.
+inline constexpr float farthest = 1e30f;
+/// A ray that meets as many interfaces in a row is caught between coincident surfaces.
+inline constexpr int most_interfaces = 1000;
+
+/// A direction towards a light that the scene's light sampler chose, with the probability of that choice.
+struct ChosenSample {
+    LightSample light;
+    float probability;
+
+    /// Of the direction, for lights that a ray can hit.
+    float density() const { return probability * light.density; }
+};
+
+/// `u` chooses the light, `u2` the point of it; nothing where no light reaches the receiver.
+inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightReceiver& receiver, float u, Vec2 u2) {
+    const ChosenLight chosen = std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene.light_sampler());
+    if (chosen.index < 0) {
+        return std::nullopt;
+    }
+    const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2);
+    return light ? std::optional(ChosenSample{*light, chosen.probability}) : std::nullopt;
+}
+
+struct ShadowRay {
+    Ray ray;
+    float length;
+};
+
+/// From a vertex in a volume, whose normal is zero, or on a surface.
+inline ShadowRay shadow_ray(const LightReceiver& from, const LightSample& light) {
+    if (from.normal == Vec3(0, 0, 0)) {
+        return {{from.position, light.direction}, light.distance};
+    }
+    const Ray ray = spawn_ray(from.position, from.normal, light.direction);
+    if (light.distance == infinity) {
+        return {ray, light.distance};
+    }
+    // Moving the origin off the surface must not move the far end through the light.
+    const Vec3 rest = from.position + light.direction * light.distance - ray.origin;
+    const float distance = length(rest);
+    return {{ray.origin, rest / distance}, distance};
+}
+
+/// An estimate of the transmittance, 0 where something blocks the light, and the probability, by channel, that a walk
+/// would have flown through.
+struct Passage {
+    Rgb transmittance{1.0f};
+    Rgb probability{1.0f};
+};
+
+/// From a place in `medium`, and in a stay in a dense one if `slab` is inside, which ends where the medium does.
+template <DistanceDecision Distance>
+Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shadow, MediumId medium, SlabWalk& slab,
+             Pcg32& random) {
+    constexpr Passage blocked{Rgb(0.0f), Rgb(0.0f)};
+    Passage passage;
+    Ray ray = shadow.ray;
+    float rest = shadow.length == infinity ? farthest : shadow.length * (1 - 1e-4f);
+    if (scene.is_occluded(ray, rest)) {
+        return blocked;
+    }
+    for (int crossed = 0; crossed < most_interfaces; ++crossed) {
+        const std::optional<Hit> hit = scene.has_interfaces() ? scene.intersect_interface(ray, rest) : std::nullopt;
+        if (hit && scene.blocks(*hit, ray)) {
+            return blocked;
+        }
+        const float length = hit ? hit->distance : rest;
+        if (medium != vacuum) {
+            passage.transmittance *= estimate_transmittance(scene.medium(medium), ray, length, random);
+            passage.probability *= slab.is_inside() ? Rgb(slab.pass(length))
+                                                    : distance.pass_probability(scene.medium(medium), ray, length);
+            if (is_black(passage.transmittance)) {
+                return passage;
+            }
+        }
+        if (!hit) {
+            return passage;
+        }
+        rest -= length;
+        const MediumId beyond = scene.medium_beyond(*hit, ray.direction, medium);
+        if (beyond != medium) {
+            slab.leave();
+        }
+        medium = beyond;
+        ray = spawn_ray(hit->position, hit->normal, ray.direction);
+    }
+    return blocked;
+}
+
+}  // namespace wend
