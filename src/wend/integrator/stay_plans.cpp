@@ -60,14 +60,12 @@ struct Advantage {
     double deviation = 1;   ///< of that, as far as it is known
     double variance = 0;    ///< logarithm of the ratio of the variances alone
 
-    bool is_clear() const { return std::abs(efficiency) > 1.5 * deviation; }
-
     /// The share of classical stays: a few as long as both kinds are watched, and after that none or all. What is
     /// rarely found by classical sampling may long seem not to be there: before the last lesson guides are never given
     /// up.
     float classical_probability(bool last) const {
         if (last) {
-            return is_clear() && efficiency < 0 ? 1.0f : 0.0f;
+            return efficiency < 0 && deviation < 0.5 ? 1.0f : 0.0f;
         }
         return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
     }
