@@ -2,11 +2,12 @@
 #pragma once
 
 #include <wend/guide/lanes.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_exp2.h>
 #include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/vmf.h>
 
 #include <cmath>
+#include <numbers>
 #include <span>
 
 namespace wend::guide {
@@ -55,7 +56,7 @@ private:
     [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
         return sum_over_lanes(blocks(), [&, x = direction.x, y = direction.y, z = direction.z](int i) {
             const float squared = sqr(x - mean_x_[i]) + sqr(y - mean_y_[i]) + sqr(z - mean_z_[i]);
-            return amplitude_[i] * fast_exp(-0.5f * kappa_[i] * squared);
+            return amplitude_[i] * fast_exp2(-0.5f * std::numbers::log2e_v<float> * kappa_[i] * squared);
         });
     }
 

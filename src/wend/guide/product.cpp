@@ -1,12 +1,13 @@
 #include <wend/guide/product.h>
 
 #include <wend/core/vector_clones.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_exp2.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace wend::guide {
 namespace {
@@ -24,11 +25,13 @@ inline float smaller(float a, float b) {
 }
 
 /// What ∫ f g dω of two lobes needs but for exponentials: divided by 2 pi times the product of their densities at their
-/// means it is e^exponent · (1 - e^{-2 joint}) / joint. No two terms cancel.
+/// means it is 2^exponent · (1 - e^{-2 joint}) / joint. No two terms cancel.
 struct Overlap {
     float exponent, joint, reciprocal;
 
-    static float exponentials(float exponent, float joint) { return fast_exp(exponent) * fast_expm1(-2 * joint); }
+    static float exponentials(float exponent, float joint) {
+        return fast_exp2(exponent) * fast_exp2m1(-2 * std::numbers::log2e_v<float> * joint);
+    }
     float exponentials() const { return exponentials(exponent, joint); }
 
     /// From the concentrations and the squared distances of one mean to the other and to its opposite.
@@ -38,8 +41,8 @@ struct Overlap {
         // Never 0.
         const float squared = difference * difference + both * to_opposite + 1e-12f;
         joint = std::sqrt(squared);
-        // joint - kappa - other, and 1 / joint without waiting for the root.
-        exponent = -both * to_mean / (joint + (kappa + other));
+        // joint - kappa - other in base 2, and 1 / joint without waiting for the root.
+        exponent = -std::numbers::log2e_v<float> * both * to_mean / (joint + (kappa + other));
         reciprocal = joint * (1 / squared);
         joint = smaller(joint, saturated);
     }

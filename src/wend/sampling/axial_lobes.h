@@ -3,9 +3,10 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_exp2.h>
 
 #include <cstring>
+#include <numbers>
 #include <span>
 
 namespace wend {
@@ -59,16 +60,16 @@ public:
     float density(const Vec3& direction) const;
     /// Its body, for functions that are compiled for several vector widths.
     [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
-        const float before = 0.5f * length_squared(direction - axis_),
-                    behind = 0.5f * length_squared(direction + axis_);
+        const float before = 0.5f * std::numbers::log2e_v<float> * length_squared(direction - axis_),
+                    behind = 0.5f * std::numbers::log2e_v<float> * length_squared(direction + axis_);
         if (size_ == 1) {
-            return amplitude_[0] * fast_exp(kappa_[0] * (kappa_[0] < 0 ? behind : -before));
+            return amplitude_[0] * fast_exp2(kappa_[0] * (kappa_[0] < 0 ? behind : -before));
         }
         float part[block] = {};
         for (int first = 0; first < size_; first += block) {
             for (int j = 0; j < block; ++j) {
                 const float kappa = kappa_[first + j];
-                part[j] += amplitude_[first + j] * fast_exp(kappa * (kappa < 0 ? behind : -before));
+                part[j] += amplitude_[first + j] * fast_exp2(kappa * (kappa < 0 ? behind : -before));
             }
         }
         return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
