@@ -39,11 +39,14 @@ public:
     }
 
     /// The vertex at hand was connected to a light: `fluence` is the radiance over the density of the direction, and
-    /// `brought` that times the scattering function, which the walk gathers too.
+    /// `brought` that times the scattering function, which the walk gathers too. Where there are several connections
+    /// they add up, and the direction is that of one that outweighs those before it.
     void connect(const Vec3& to_light, float fluence, const Rgb& brought) {
-        at_.to_light = to_light;
-        at_.light_fluence = fluence;
-        at_.connected = brought;
+        if (fluence >= at_.light_fluence) {
+            at_.to_light = to_light;
+        }
+        at_.light_fluence += fluence;
+        at_.connected += brought;
     }
 
     /// The vertex at hand is on a surface: the normal on the side that the walk came from.

@@ -54,8 +54,8 @@ private:
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
-        StayPlan::Connecting connecting{};  ///< of vertices in the medium
-        float connected = 1;                ///< the probability that the last vertex was connected
+        StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
+        float connected = 1;                ///< the last vertex: how often, as a mean
 
         // The last vertex, as multiple importance sampling wants it.
         LightReceiver receiver{};
@@ -218,7 +218,7 @@ private:
         return scatter(f, hit.position, hit.normal, false);
     }
 
-    /// Connects a vertex to a light, draws a direction, and decides on survival. `normal` is zero in a volume.
+    /// Connects a vertex to lights, draws a direction, and decides on survival. `normal` is zero in a volume.
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
         if (in_volume && now_.slab.is_inside()) {
@@ -233,12 +233,7 @@ private:
     template <class F, class Directions>
     bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
         if (!f.is_specular()) {
-            const Connection found = connect(f, directions, position, normal, in_volume);
-            const Rgb brought = found.scattering * found.light;
-            gather(brought, found.slope);
-            if (log_) {
-                log_->connect(found.to_light, mean_value(found.light), brought);
-            }
+            connect_to_lights(f, directions, position, normal, in_volume);
         }
         const std::optional<WeightWindow::Outcome> outcome =
             d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
@@ -313,7 +308,7 @@ private:
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.specular = s->specular;
         now_.preference = preference(in_volume);
-        now_.connected = connection_probability(in_volume);
+        now_.connected = connections(in_volume);
         now_.density = s->density * now_.preference;
         now_.receiver = {position, normal};
         now_.pass_probability = Rgb(1.0f);
@@ -348,8 +343,10 @@ private:
     /// lights.
     float preference(bool in_volume) const { return in_volume ? now_.connecting.preference : 1.0f; }
 
-    /// Of connections to lights that directions find as well.
-    float connection_probability(bool in_volume) const { return in_volume ? now_.connecting.probability : 1.0f; }
+    /// To lights that directions find as well, as a mean.
+    float connections(bool in_volume) const {
+        return in_volume ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
+    }
 
     float survival_probability() {
         const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
@@ -365,24 +362,40 @@ private:
         Rgb scattering;
         std::optional<StaySlope> slope;  ///< during a stay
     };
+
     template <class F, class Directions>
-    Connection connect(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                       bool in_volume) {
-        const float often = connection_probability(in_volume);
+    void connect_to_lights(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
+                           bool in_volume) {
+        const float often = connections(in_volume);
         const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
         if (is_left_out && !scene_.has_point_like_lights()) {
-            return {};
+            return;
         }
+        const int n = std::max(1, static_cast<int>(often));
         const float u = sampler_.uniform();
-        const Vec2 u2 = sampler_.uniform2();
-        const LightReceiver receiver{position, normal};
-        const auto chosen = choose_light(scene_, receiver, u, u2);
-        if (!chosen) {
-            return {};
+        for (int i = 0; i < n; ++i) {
+            // Several go through the lights in their order.
+            const auto chosen =
+                choose_light(scene_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
+                             i == 0 ? sampler_.uniform2() : sampler_.random().uniform2());
+            if (!chosen || (is_left_out && !chosen->light.point_like)) {
+                continue;
+            }
+            const Connection found = connect(*chosen, often, f, directions, position, normal, in_volume);
+            const Rgb brought = found.scattering * found.light;
+            gather(brought, found.slope);
+            if (log_) {
+                log_->connect(found.to_light, mean_value(found.light), brought);
+            }
         }
-        const LightSample& light = chosen->light;
+    }
+
+    template <class F, class Directions>
+    Connection connect(const ChosenSample& chosen, float often, const F& f, const Directions& directions,
+                       const Vec3& position, const Vec3& normal, bool in_volume) {
+        const LightSample& light = chosen.light;
         const Rgb value = f.evaluate(light.direction);
-        if (is_black(value) || (is_left_out && !light.point_like)) {
+        if (is_black(value)) {
             return {};
         }
         const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
@@ -391,11 +404,12 @@ private:
             slab = now_.slab;
             slab.turn(now_.ray.direction, light.direction);
         }
-        const Passage passage = pass(scene_, d_.distance, shadow_ray(receiver, light), medium, slab, sampler_.random());
+        const Passage passage =
+            pass(scene_, d_.distance, shadow_ray({position, normal}, light), medium, slab, sampler_.random());
         if (is_black(passage.transmittance)) {
             return {};
         }
-        const float density = (light.point_like ? 1 : often) * chosen->density();
+        const float density = (light.point_like ? std::max(1.0f, often) : often) * chosen.density();
         float weight = 1;
         if (!light.point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);

@@ -25,6 +25,8 @@ constexpr float largest_preference = 1000;
 float connection_probability(float preference) {
     return 1 / (1 + (preference - 1) / 16);
 }
+/// On surfaces, each behind many flights.
+constexpr int connections_at_surfaces = 8;
 constexpr double enough_stays = 2000;
 constexpr float least_probability = 1.0f / 64;
 /// Of a logarithm, in one round of learning: for each relative change of the variance, and at most.
@@ -201,8 +203,10 @@ const std::map<int, StayMoments::Sums>& StayMoments::of(int medium) const {
 StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
     : box_(box),
       plans_(side * side * side,
-             StayPlan{
-                 start, largest_share_for_watching, {first_preference, connection_probability(first_preference)}, {}}) {
+             StayPlan{start,
+                      largest_share_for_watching,
+                      {first_preference, connection_probability(first_preference), connections_at_surfaces},
+                      {1, 1, connections_at_surfaces}}) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {

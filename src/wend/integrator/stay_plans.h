@@ -46,14 +46,17 @@ struct StayPlan {
     /// Of leaving a stay to classical sampling alone.
     float classical_probability = 0;
 
-    /// How collisions are connected to lights that the walk may run into as well.
+    /// How vertices are connected to lights that the walk may run into as well.
     struct Connecting {
         /// What multiplies the density of the walk's own directions where it is weighed against that of connections. A
         /// guided stay brings nearly the same wherever it ends, to which connections would only add noise; in a thin or
         /// badly guided medium they do the work.
         float preference = 1;
-        /// Of making a connection at all: where they count for little they are few.
+        /// Of connecting a collision at all: where connections count for little they are few.
         float probability = 1;
+        /// Connections of a vertex on a surface that is met from inside. It took many flights to get there, so that
+        /// which lamp is chosen should not add to the variance.
+        int at_surfaces = 1;
     };
     Connecting guided;     ///< in guided stays
     Connecting classical;  ///< in others
