@@ -52,13 +52,14 @@ void walks(benchmark::State& state, const char* name) {
     const Loaded& loaded = scene_named(name);
     const ClassicalDecisions decisions;
     const SubsurfaceGuides unguided;
-    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, loaded.max_depth);
+    const LightChoices lights(loaded.scene);
+    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, lights, loaded.max_depth);
     std::uint32_t i = 0;
     std::uint64_t segments = 0;
     for (auto _ : state) {
         Sampler sampler(SamplerKind::sobol, 1, i % 1000, i / 1000);
         ++i;
-        const WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler, nullptr);
+        const WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler);
         segments += result.sample.segments;
         benchmark::DoNotOptimize(result);
     }

@@ -98,11 +98,12 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max
                           const SubsurfacePreset& strategies) {
     const ClassicalDecisions decisions;
     const SubsurfaceGuides subsurface(scene, strategies, 0);
-    const PathTracer tracer(scene, decisions, subsurface, max_depth);
+    const LightChoices lights(scene);
+    const PathTracer tracer(scene, decisions, subsurface, lights, max_depth);
     Moments moments;
     for (int i = 0; i < walks; ++i) {
         Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));
-        moments.add(mean(tracer.trace(ray, 0, sampler, nullptr).sample.radiance));
+        moments.add(mean(tracer.trace(ray, 0, sampler).sample.radiance));
     }
     return {moments.mean(), moments.standard_error()};
 }

@@ -3,11 +3,11 @@
 
 #include <wend/decision/distance.h>
 #include <wend/decision/slab_walk.h>
+#include <wend/integrator/light_choices.h>
 #include <wend/medium/transmittance.h>
 #include <wend/scene/scene.h>
 
 #include <optional>
-#include <variant>
 
 namespace wend {
 
@@ -16,8 +16,9 @@ inline constexpr float farthest = 1e30f;
 /// A ray that meets as many interfaces in a row is caught between coincident surfaces.
 inline constexpr int most_interfaces = 1000;
 
-/// A direction towards a light that the scene's light sampler chose, with the probability of that choice.
+/// A direction towards a light that was chosen, with the probability of that choice.
 struct ChosenSample {
+    int index;
     LightSample light;
     float probability;
 
@@ -26,13 +27,14 @@ struct ChosenSample {
 };
 
 /// `u` chooses the light, `u2` the point of it; nothing where no light reaches the receiver.
-inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightReceiver& receiver, float u, Vec2 u2) {
-    const ChosenLight chosen = std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene.light_sampler());
+inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightChoices& choices,
+                                                const LightReceiver& receiver, float u, Vec2 u2) {
+    const ChosenLight chosen = choices.sample(receiver, u);
     if (chosen.index < 0) {
         return std::nullopt;
     }
     const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2);
-    return light ? std::optional(ChosenSample{*light, chosen.probability}) : std::nullopt;
+    return light ? std::optional(ChosenSample{chosen.index, *light, chosen.probability}) : std::nullopt;
 }
 
 struct ShadowRay {

@@ -7,6 +7,7 @@
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
 #include <wend/guide/path_log.h>
+#include <wend/integrator/light_choices.h>
 #include <wend/integrator/subsurface.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
@@ -58,19 +59,25 @@ struct GuidedDecisions {
 template <class Field, class Distance, class Survival>
 GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<Field, Distance, Survival>;
 
+/// What a walk tells those that learn from it, if they are there.
+struct WalkLessons {
+    guide::PathLog* log = nullptr;       ///< is started anew
+    std::vector<Stay>* stays = nullptr;  ///< those in dense media are added
+    LightMoments* lights = nullptr;
+};
+
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
 template <class Decisions>
 class PathTracer {
 public:
     /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to.
-    PathTracer(const Scene& scene, const Decisions& decisions, const SubsurfaceGuides& subsurface, int max_depth)
-        : scene_(scene), decisions_(decisions), subsurface_(subsurface), max_depth_(max_depth) {}
+    PathTracer(const Scene& scene, const Decisions& decisions, const SubsurfaceGuides& subsurface,
+               const LightChoices& lights, int max_depth)
+        : scene_(scene), decisions_(decisions), subsurface_(subsurface), lights_(lights), max_depth_(max_depth) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
-    /// none. Where a log is given, it is started anew and the walk written into it; to `stays`, if given, those in
-    /// dense media are added.
-    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log,
-                     std::vector<Stay>* stays = nullptr) const;
+    /// none.
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const WalkLessons& lessons = {}) const;
 
 private:
     class Walk;
@@ -78,6 +85,7 @@ private:
     const Scene& scene_;
     const Decisions& decisions_;
     const SubsurfaceGuides& subsurface_;
+    const LightChoices& lights_;
     int max_depth_;
 };
 

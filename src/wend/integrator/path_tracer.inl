@@ -16,13 +16,14 @@ namespace wend {
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, guide::PathLog* log, std::vector<Stay>* stays)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const WalkLessons& lessons)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
-          log_(log),
-          stays_(stays),
+          log_(lessons.log),
+          stays_(lessons.stays),
+          lights_(lessons.lights),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
@@ -375,15 +376,19 @@ private:
         const float u = sampler_.uniform();
         for (int i = 0; i < n; ++i) {
             // Several go through the lights in their order.
-            const auto chosen =
-                choose_light(scene_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
-                             i == 0 ? sampler_.uniform2() : sampler_.random().uniform2());
+            const auto chosen = choose_light(scene_, tracer_.lights_, {position, normal},
+                                             (static_cast<float>(i) + u) / static_cast<float>(n),
+                                             i == 0 ? sampler_.uniform2() : sampler_.random().uniform2());
             if (!chosen || (is_left_out && !chosen->light.point_like)) {
                 continue;
             }
             const Connection found = connect(*chosen, often, f, directions, position, normal, in_volume);
             const Rgb brought = found.scattering * found.light;
             gather(brought, found.slope);
+            if (lights_) {
+                lights_->add(tracer_.lights_.cell_at({position, normal}), chosen->index,
+                             mean_value(brought) * often * chosen->probability);
+            }
             if (log_) {
                 log_->connect(found.to_light, mean_value(found.light), brought);
             }
@@ -437,9 +442,7 @@ private:
         if (now_.depth == 0 || now_.specular) {
             return 1;
         }
-        const float chosen =
-            std::visit([&](const auto& s) { return s.probability(now_.receiver, light); }, scene_.light_sampler());
-        const float other = now_.connected * chosen *
+        const float other = now_.connected * tracer_.lights_.probability(now_.receiver, light) *
                             light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
                                           now_.ray.direction, hit, normal);
         const float own = now_.density * dot(now_.channels, now_.pass_probability);
@@ -546,6 +549,7 @@ private:
     Sampler& sampler_;
     guide::PathLog* log_;
     std::vector<Stay>* stays_;
+    LightMoments* lights_;
 
     Branch now_;
     std::vector<Branch> pending_;
@@ -557,9 +561,9 @@ private:
 };
 
 template <class Decisions>
-WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler, guide::PathLog* log,
-                                        std::vector<Stay>* stays) const {
-    return Walk(*this, expected, sampler, log, stays).run(ray);
+WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler,
+                                        const WalkLessons& lessons) const {
+    return Walk(*this, expected, sampler, lessons).run(ray);
 }
 
 }  // namespace wend

@@ -1,0 +1,118 @@
+// One pass over the picture, tile by tile.
+#pragma once
+
+#include <wend/film/film.h>
+#include <wend/integrator/path_tracer.h>
+#include <wend/integrator/render.h>
+#include <wend/integrator/subsurface.h>
+
+#include <utility>
+#include <vector>
+
+namespace wend {
+
+/// A block of pixels, rendered by one thread at a time.
+struct Tile {
+    PixelRect pixels;
+    WalkCounts counts;
+    guide::PathRecords records;
+    StayMoments stays;
+    LightMoments lights;
+};
+
+inline std::vector<Tile> tiles_of(const PixelRect& crop) {
+    constexpr int side = 16;
+    std::vector<Tile> tiles;
+    for (int y = crop.min.y; y < crop.max.y; y += side) {
+        for (int x = crop.min.x; x < crop.max.x; x += side) {
+            tiles.push_back(
+                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}});
+        }
+    }
+    return tiles;
+}
+
+/// What one pass does.
+struct PassPlan {
+    int first;  ///< sample of each pixel
+    int count;
+    bool record;
+    bool record_stays;
+    bool record_lights;
+    /// Of each pixel of the crop, without exposure; empty where not known.
+    std::vector<float> estimates;
+};
+
+/// One pass, with the same decisions for all walks.
+template <class Decisions>
+class Pass {
+public:
+    Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
+         const SubsurfaceGuides& subsurface, const LightChoices& lights, const PassPlan& plan)
+        : tracer_(scene, decisions, subsurface, lights, settings.max_depth),
+          subsurface_(subsurface),
+          camera_(scene.camera()),
+          film_(film),
+          settings_(settings),
+          plan_(plan) {}
+
+    void run(Tile& tile) const {
+        guide::PathLog log;
+        std::vector<Stay> stays;
+        for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
+            for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
+                for (int i = 0; i < plan_.count; ++i) {
+                    sample({x, y}, plan_.first + i, tile, log, stays);
+                }
+            }
+        }
+    }
+
+private:
+    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log, std::vector<Stay>& stays) const {
+        const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
+                            static_cast<std::uint64_t>(pixel.x);
+        Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
+        const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
+        const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
+                              static_cast<float>(pixel.y) + 0.5f + place.offset.y);
+        const Ray ray = camera_.ray(film_point, sampler.uniform2());
+        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler,
+                                          {plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
+                                           plan_.record_lights ? &tile.lights : nullptr});
+        for (const Stay& stay : std::exchange(stays, {})) {
+            subsurface_.count(stay, tile.stays);
+        }
+        ++tile.counts.paths;
+        tile.counts.segments += result.sample.segments;
+        if (!is_finite(result.sample.radiance)) {
+            ++tile.counts.rejected;
+            film_.reject(pixel);
+            return;
+        }
+        if (plan_.record) {
+            // More vertices of one walk say little that is new: they are correlated.
+            constexpr std::size_t most_records = 64;
+            tile.records.add(log.vertices(), most_records);
+        }
+        result.sample.radiance *= place.weight * settings_.exposure;
+        film_.add(pixel, result.sample);
+    }
+
+    float estimate(const Vec2i& pixel) const {
+        const PixelRect& crop = film_.crop();
+        return plan_.estimates.empty() ? 0.0f
+                                       : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
+                                                             static_cast<std::size_t>(crop.width()) +
+                                                         static_cast<std::size_t>(pixel.x - crop.min.x)];
+    }
+
+    PathTracer<Decisions> tracer_;
+    const SubsurfaceGuides& subsurface_;
+    const Camera& camera_;
+    Film& film_;
+    const RenderSettings& settings_;
+    const PassPlan& plan_;
+};
+
+}  // namespace wend
