@@ -7,13 +7,15 @@
 namespace wend {
 namespace {
 
-constexpr int side = 16;
+constexpr int side = 12;
 /// In a volume, or the direction of an axis that is closest to a surface's normal.
 constexpr int kinds = 7;
 constexpr std::size_t most_lights = 256;
 constexpr float scene_share = 0.25f;
 /// Connections in a cell that tell its lights apart.
-constexpr double enough_connections = 32;
+constexpr double enough_connections = 8;
+/// How many connections the scene's opinion of a light is worth.
+constexpr double trust_in_scene = 2;
 
 int kind_of(const Vec3& normal) {
     if (normal == Vec3(0, 0, 0)) {
@@ -61,6 +63,24 @@ int LightChoices::cell_at(const LightReceiver& receiver) const {
     return cell;
 }
 
+LightReceiver LightChoices::centre_of(int cell) const {
+    const Box3& box = scene_.bounds();
+    LightReceiver receiver{box.min};
+    for (int axis = 2; axis >= 0; --axis) {
+        const float step = (box.max[axis] - box.min[axis]) / side;
+        receiver.position[axis] += step * (static_cast<float>(cell % side) + 0.5f);
+        cell /= side;
+    }
+    if (cell > 0) {
+        receiver.normal[(cell - 1) / 2] = cell % 2 == 1 ? 1.0f : -1.0f;
+    }
+    return receiver;
+}
+
+float LightChoices::by_scene(const LightReceiver& receiver, int light) const {
+    return std::visit([&](const auto& s) { return s.probability(receiver, light); }, scene_.light_sampler());
+}
+
 const float* LightChoices::cumulative(const LightReceiver& receiver) const {
     if (cumulative_.empty()) {
         return nullptr;
@@ -93,10 +113,9 @@ ChosenLight LightChoices::sample(const LightReceiver& receiver, float u) const {
 }
 
 float LightChoices::probability(const LightReceiver& receiver, int light) const {
-    const float by_scene =
-        std::visit([&](const auto& s) { return s.probability(receiver, light); }, scene_.light_sampler());
     const float* learned = cumulative(receiver);
-    return learned ? scene_share * by_scene + (1 - scene_share) * share(learned, light) : by_scene;
+    return learned ? scene_share * by_scene(receiver, light) + (1 - scene_share) * share(learned, light)
+                   : by_scene(receiver, light);
 }
 
 void LightChoices::learn(const LightMoments& moments) {
@@ -104,29 +123,35 @@ void LightChoices::learn(const LightMoments& moments) {
     const std::size_t lights = scene_.lights().size();
     struct Cell {
         double connections = 0;
-        std::vector<double> means;
+        double mean = 0;  ///< of all light
+        std::vector<LightMoments::Tally> tallies;
     };
     std::unordered_map<int, Cell> cells;
     seen_.for_each([&](int cell, int light, const LightMoments::Tally& tally) {
         Cell& c = cells[cell];
-        c.means.resize(lights);
+        c.tallies.resize(lights);
         c.connections += tally.count;
-        c.means[static_cast<std::size_t>(light)] = tally.sum / (tally.count + 1);
+        c.mean += tally.sum / tally.count;
+        c.tallies[static_cast<std::size_t>(light)] = tally;
     });
     cumulative_.assign(static_cast<std::size_t>(kinds) * side * side * side, {});
     for (const auto& [index, cell] : cells) {
-        double total = 0;
-        for (const double mean : cell.means) {
-            total += mean;
-        }
-        if (cell.connections < enough_connections || !(total > 0)) {
+        if (cell.connections < enough_connections || !(cell.mean > 0)) {
             continue;
+        }
+        // A light that was hardly tried may bring what the scene's sampler takes it for.
+        const LightReceiver centre = centre_of(index);
+        std::vector<double> sums;
+        double total = 0;
+        for (std::size_t i = 0; i < lights; ++i) {
+            const auto [count, sum] = cell.tallies[i];
+            const auto prior = static_cast<double>(by_scene(centre, static_cast<int>(i))) * cell.mean;
+            total += (sum + trust_in_scene * prior) / (count + trust_in_scene);
+            sums.push_back(total);
         }
         std::vector<float>& cumulative = cumulative_[static_cast<std::size_t>(index)];
         cumulative.reserve(lights);
-        double sum = 0;
-        for (const double mean : cell.means) {
-            sum += mean;
+        for (const double sum : sums) {
             cumulative.push_back(static_cast<float>(sum / total));
         }
     }

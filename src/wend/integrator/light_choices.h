@@ -55,6 +55,9 @@ public:
     void learn(const LightMoments& moments);
 
 private:
+    /// In the middle of a cell.
+    LightReceiver centre_of(int cell) const;
+    float by_scene(const LightReceiver& receiver, int light) const;
     /// Of the lights up to each, by cell; null where too little is known.
     const float* cumulative(const LightReceiver& receiver) const;
     static float share(const float* cumulative, int light) {

@@ -1,0 +1,183 @@
+// Choices of lights that were learned: their probabilities, what they learn, and that pictures stay the same.
+#include <tests/support/scenes.h>
+
+#include <wend/integrator/light_choices.h>
+#include <wend/stats/chi_square.h>
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace wend {
+namespace {
+
+void add_lamp(SceneDescription& s, const Vec3& p, float size, const Rgb& radiance, int material) {
+    Surface lamp{TriangleMesh{{p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size)}, {}, {}, {0, 1, 2}}, material};
+    lamp.first_light = static_cast<int>(s.lights.size());
+    s.lights.push_back(make_triangle_light(p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size), true, radiance, true));
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(lamp));
+}
+
+constexpr int resolution = 16;
+constexpr int hidden = 1, first_plain = 0, sky = 4;
+
+/// A floor and a wall under four lamps and a dim sky. The strongest lamp stands over a plate that hides it
+/// from nearly everything.
+SceneDescription lamps() {
+    SceneDescription s = test::scene_with_camera({0, 1, -4}, {0, 0.3f, 0}, 18, resolution);
+    const int grey = test::add_diffuse(s, Rgb(0.5f));
+    test::add_parallelogram(s, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, grey);
+    test::add_parallelogram(s, {-2, 0, 1.5f}, {4, 0, 0}, {0, 1.5f, 0}, grey);
+    test::add_parallelogram(s, {-1.2f, 1.9f, -1.2f}, {2.4f, 0, 0}, {0, 0, 2.4f}, grey);
+    add_lamp(s, {-1.5f, 1.2f, 0.5f}, 0.3f, {8, 4, 2}, grey);
+    add_lamp(s, {-0.3f, 2, -0.3f}, 0.6f, Rgb(60.0f), grey);
+    add_lamp(s, {1.2f, 1.5f, 0}, 0.3f, {2, 4, 8}, grey);
+    add_lamp(s, {1.4f, 1, -1}, 0.2f, Rgb(5.0f), grey);
+    test::add_environment(s, Rgb(0.05f));
+    return s;
+}
+
+/// What some thousand connections might have brought around these receivers.
+LightMoments random_moments(const LightChoices& choices, std::span<const LightReceiver> receivers, int lights) {
+    LightMoments moments;
+    Pcg32 random(3);
+    for (const LightReceiver& receiver : receivers) {
+        for (int i = 0; i < 400; ++i) {
+            const int light = static_cast<int>(random.uniform() * static_cast<float>(lights));
+            const float brought = light == 2 ? 0.0f : static_cast<float>(light + 1) * random.uniform();
+            moments.add(choices.cell_at(receiver), light, brought);
+        }
+    }
+    return moments;
+}
+
+std::vector<LightReceiver> receivers() {
+    return {{{0.5f, 0.01f, 0}, {0, 1, 0}}, {{-0.5f, 0.3f, 1.49f}, {0, 0, -1}}, {{0.2f, 1, -0.5f}, {0, 0, 0}}};
+}
+
+TEST(LightChoices, FrequenciesFitTheProbabilities) {
+    const Scene scene(lamps());
+    const int lights = static_cast<int>(scene.lights().size());
+    for (const bool learned : {false, true}) {
+        LightChoices choices(scene);
+        ASSERT_TRUE(choices.learns());
+        if (learned) {
+            choices.learn(random_moments(choices, receivers(), lights));
+        }
+        for (const LightReceiver& receiver : receivers()) {
+            constexpr int samples = 50000;
+            std::vector<double> expected;
+            for (int i = 0; i < lights; ++i) {
+                expected.push_back(samples * static_cast<double>(choices.probability(receiver, i)));
+            }
+            EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0) / samples, 1, 1e-5);
+            std::vector<std::uint64_t> observed(expected.size());
+            Pcg32 random(1);
+            for (int i = 0; i < samples; ++i) {
+                const ChosenLight chosen = choices.sample(receiver, random.uniform());
+                ASSERT_GE(chosen.index, 0);
+                EXPECT_NEAR(chosen.probability, choices.probability(receiver, chosen.index), 1e-6);
+                ++observed[static_cast<std::size_t>(chosen.index)];
+            }
+            EXPECT_GE(chi_square_test(observed, expected).p_value, 1e-4);
+            std::rotate(expected.begin(), expected.begin() + 1, expected.end());
+            EXPECT_LT(chi_square_test(observed, expected).p_value, 1e-6);
+        }
+    }
+}
+
+TEST(LightChoices, TheEndsOfTheUnitIntervalAreLights) {
+    const Scene scene(lamps());
+    LightChoices choices(scene);
+    choices.learn(random_moments(choices, receivers(), sky));  // nothing of the last light
+    for (const LightReceiver& receiver : receivers()) {
+        for (const float u : {0.0f, 0.25f, std::nextafter(1.0f, 0.0f)}) {
+            const ChosenLight chosen = choices.sample(receiver, u);
+            EXPECT_GE(chosen.index, 0);
+            EXPECT_GT(chosen.probability, 0);
+        }
+    }
+}
+
+TEST(LightChoices, FollowWhatWasBrought) {
+    const Scene scene(lamps());
+    LightChoices choices(scene);
+    const LightReceiver here = receivers().front();
+    const float before = choices.probability(here, hidden);
+    LightMoments moments;
+    for (int i = 0; i < 1000; ++i) {
+        moments.add(choices.cell_at(here), hidden, 0);
+        moments.add(choices.cell_at(here), first_plain, 2);
+        moments.add(choices.cell_at(here), sky, 1);
+        moments.add(choices.cell_at(here), sky, NAN);
+    }
+    choices.learn(moments);
+    EXPECT_LT(choices.probability(here, hidden), 0.3f * before);
+    EXPECT_GT(choices.probability(here, hidden), 0) << "what was never seen may yet be";
+    EXPECT_NEAR(choices.probability(here, first_plain) / 0.75f, 2.0f / 3, 0.2f);
+    // Elsewhere, and on the other side of a surface, nothing is known.
+    const LightReceiver below{here.position, -here.normal};
+    EXPECT_EQ(choices.probability(below, hidden), LightChoices(scene).probability(below, hidden));
+}
+
+TEST(LightChoices, AreLeftToTheSceneWhereThereAreTooManyOrOne) {
+    for (const int lights : {1, 300}) {
+        SceneDescription s;
+        for (int i = 0; i < lights; ++i) {
+            s.lights.push_back(PointLight{{static_cast<float>(i), 1, 0}, Rgb(1.0f)});
+        }
+        EXPECT_FALSE(LightChoices(Scene(std::move(s))).learns()) << lights;
+    }
+}
+
+/// The mean of the picture and the sum of squared differences of pictures, over independent renders.
+struct Renders {
+    Moments mean;
+    double noise = 0;
+
+    Renders(const Scene& scene, const char* sampling, std::uint64_t first_seed) {
+        Image last;
+        for (std::uint64_t i = 0; i < 8; ++i) {
+            Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+            RenderSettings settings;
+            settings.preset = parse_preset(sampling);
+            settings.samples = 512;
+            settings.seed = first_seed + i;
+            settings.max_depth = 20;
+            render(scene, film, settings);
+            const Image image = film.beauty();
+            double sum = 0;
+            for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+                sum += luminance(image.pixels[k]);
+                noise += i > 0 ? std::pow(luminance(image.pixels[k] - last.pixels[k]), 2) : 0;
+            }
+            mean.add(sum / static_cast<double>(image.pixels.size()));
+            last = image;
+        }
+    }
+};
+
+TEST(LightChoices, GiveTheSamePictureWithLessNoise) {
+    const Scene scene(lamps());
+    const Renders classical(scene, "classical", 1000);
+    for (const char* sampling : {"direction", "full"}) {
+        SCOPED_TRACE(sampling);
+        const Renders guided(scene, sampling, 2000);
+        const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
+        EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+            << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;
+        EXPECT_FALSE(agrees(1.01 * guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+            << "a bias of 1 % must be seen: " << error / classical.mean.mean();
+        EXPECT_LT(guided.noise, 0.85 * classical.noise);
+    }
+}
+
+}  // namespace
+}  // namespace wend
