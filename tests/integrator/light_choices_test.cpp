@@ -45,17 +45,18 @@ SceneDescription lamps() {
 }
 
 /// What some thousand connections might have brought around these receivers.
-LightMoments random_moments(const LightChoices& choices, std::span<const LightReceiver> receivers, int lights) {
-    LightMoments moments;
+std::vector<LightRecord> random_records(const LightChoices& choices, std::span<const LightReceiver> receivers,
+                                        int lights) {
+    std::vector<LightRecord> records;
     Pcg32 random(3);
     for (const LightReceiver& receiver : receivers) {
         for (int i = 0; i < 400; ++i) {
             const int light = static_cast<int>(random.uniform() * static_cast<float>(lights));
             const float brought = light == 2 ? 0.0f : static_cast<float>(light + 1) * random.uniform();
-            moments.add(choices.cell_at(receiver), light, brought);
+            records.push_back(choices.record(receiver, light, brought));
         }
     }
-    return moments;
+    return records;
 }
 
 std::vector<LightReceiver> receivers() {
@@ -69,7 +70,8 @@ TEST(LightChoices, FrequenciesFitTheProbabilities) {
         LightChoices choices(scene);
         ASSERT_TRUE(choices.learns());
         if (learned) {
-            choices.learn(random_moments(choices, receivers(), lights));
+            choices.add(random_records(choices, receivers(), lights));
+            choices.learn(0);
         }
         for (const LightReceiver& receiver : receivers()) {
             constexpr int samples = 50000;
@@ -96,7 +98,8 @@ TEST(LightChoices, FrequenciesFitTheProbabilities) {
 TEST(LightChoices, TheEndsOfTheUnitIntervalAreLights) {
     const Scene scene(lamps());
     LightChoices choices(scene);
-    choices.learn(random_moments(choices, receivers(), sky));  // nothing of the last light
+    choices.add(random_records(choices, receivers(), sky));
+    choices.learn(0);  // nothing of the last light
     for (const LightReceiver& receiver : receivers()) {
         for (const float u : {0.0f, 0.25f, std::nextafter(1.0f, 0.0f)}) {
             const ChosenLight chosen = choices.sample(receiver, u);
@@ -111,14 +114,15 @@ TEST(LightChoices, FollowWhatWasBrought) {
     LightChoices choices(scene);
     const LightReceiver here = receivers().front();
     const float before = choices.probability(here, hidden);
-    LightMoments moments;
+    std::vector<LightRecord> records;
     for (int i = 0; i < 1000; ++i) {
-        moments.add(choices.cell_at(here), hidden, 0);
-        moments.add(choices.cell_at(here), first_plain, 2);
-        moments.add(choices.cell_at(here), sky, 1);
-        moments.add(choices.cell_at(here), sky, NAN);
+        records.push_back(choices.record(here, hidden, 0));
+        records.push_back(choices.record(here, first_plain, 2));
+        records.push_back(choices.record(here, sky, 1));
+        records.push_back(choices.record(here, sky, NAN));
     }
-    choices.learn(moments);
+    choices.add(records);
+    choices.learn(0);
     EXPECT_LT(choices.probability(here, hidden), 0.3f * before);
     EXPECT_GT(choices.probability(here, hidden), 0) << "what was never seen may yet be";
     EXPECT_NEAR(choices.probability(here, first_plain) / 0.75f, 2.0f / 3, 0.2f);

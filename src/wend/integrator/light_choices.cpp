@@ -1,3 +1,4 @@
+#include <wend/core/parallel.h>
 #include <wend/integrator/light_choices.h>
 
 #include <algorithm>
@@ -8,8 +9,10 @@ namespace wend {
 namespace {
 
 constexpr int side = 12;
-/// In a volume, or the direction of an axis that is closest to a surface's normal.
+/// In a volume, or the axis that is closest to a surface's normal and its direction.
 constexpr int kinds = 7;
+constexpr std::size_t cells = kinds * side * side * side;
+static_assert(cells <= 65536, "LightRecord::cell");
 constexpr std::size_t most_lights = 256;
 constexpr float scene_share = 0.25f;
 /// Connections in a cell that tell its lights apart.
@@ -30,49 +33,33 @@ int kind_of(const Vec3& normal) {
 
 }  // namespace
 
-void LightMoments::add(int cell, int light, float brought) {
-    if (!std::isfinite(brought)) {
-        return;
-    }
-    Tally& tally = tallies_[static_cast<std::uint64_t>(cell) << 32 | static_cast<std::uint64_t>(light)];
-    ++tally.count;
-    tally.sum += brought;
-}
-
-LightMoments& LightMoments::operator+=(const LightMoments& other) {
-    for (const auto& [key, tally] : other.tallies_) {
-        Tally& mine = tallies_[key];
-        mine.count += tally.count;
-        mine.sum += tally.sum;
-    }
-    return *this;
-}
-
 LightChoices::LightChoices(const Scene& scene)
     : scene_(scene), learns_(scene.lights().size() > 1 && scene.lights().size() <= most_lights) {
 }
 
-int LightChoices::cell_at(const LightReceiver& receiver) const {
+std::size_t LightChoices::index_of(const LightReceiver& receiver) const {
     const Box3& box = scene_.bounds();
     int cell = kind_of(receiver.normal);
     for (int axis = 0; axis < 3; ++axis) {
         const float size = box.max[axis] - box.min[axis];
         const float u = size > 0 ? (receiver.position[axis] - box.min[axis]) / size : 0.0f;
-        cell = cell * side + std::clamp(static_cast<int>(u * side), 0, side - 1);
+        // In this order a position that is not a number gives 0.
+        cell = cell * side + static_cast<int>(std::min(std::max(0.0f, u * side), side - 1.0f));
     }
-    return cell;
+    return static_cast<std::size_t>(cell);
 }
 
-LightReceiver LightChoices::centre_of(int cell) const {
+LightReceiver LightChoices::centre_of(std::size_t cell) const {
     const Box3& box = scene_.bounds();
+    auto rest = static_cast<int>(cell);
     LightReceiver receiver{box.min};
     for (int axis = 2; axis >= 0; --axis) {
         const float step = (box.max[axis] - box.min[axis]) / side;
-        receiver.position[axis] += step * (static_cast<float>(cell % side) + 0.5f);
-        cell /= side;
+        receiver.position[axis] += step * (static_cast<float>(rest % side) + 0.5f);
+        rest /= side;
     }
-    if (cell > 0) {
-        receiver.normal[(cell - 1) / 2] = cell % 2 == 1 ? 1.0f : -1.0f;
+    if (rest > 0) {
+        receiver.normal[(rest - 1) / 2] = rest % 2 == 1 ? 1.0f : -1.0f;
     }
     return receiver;
 }
@@ -82,11 +69,11 @@ float LightChoices::by_scene(const LightReceiver& receiver, int light) const {
 }
 
 const float* LightChoices::cumulative(const LightReceiver& receiver) const {
-    if (cumulative_.empty()) {
+    if (cells_.empty()) {
         return nullptr;
     }
-    const std::vector<float>& cell = cumulative_[static_cast<std::size_t>(cell_at(receiver))];
-    return cell.empty() ? nullptr : cell.data();
+    const std::vector<float>& learned = cells_[index_of(receiver)].cumulative;
+    return learned.empty() ? nullptr : learned.data();
 }
 
 ChosenLight LightChoices::sample(const LightReceiver& receiver, float u) const {
@@ -118,42 +105,58 @@ float LightChoices::probability(const LightReceiver& receiver, int light) const 
                    : by_scene(receiver, light);
 }
 
-void LightChoices::learn(const LightMoments& moments) {
-    seen_ += moments;
-    const std::size_t lights = scene_.lights().size();
-    struct Cell {
-        double connections = 0;
-        double mean = 0;  ///< of all light
-        std::vector<LightMoments::Tally> tallies;
-    };
-    std::unordered_map<int, Cell> cells;
-    seen_.for_each([&](int cell, int light, const LightMoments::Tally& tally) {
-        Cell& c = cells[cell];
-        c.tallies.resize(lights);
-        c.connections += tally.count;
-        c.mean += tally.sum / tally.count;
-        c.tallies[static_cast<std::size_t>(light)] = tally;
-    });
-    cumulative_.assign(static_cast<std::size_t>(kinds) * side * side * side, {});
-    for (const auto& [index, cell] : cells) {
-        if (cell.connections < enough_connections || !(cell.mean > 0)) {
+LightRecord LightChoices::record(const LightReceiver& receiver, int light, float brought) const {
+    return {static_cast<std::uint16_t>(index_of(receiver)), static_cast<std::uint16_t>(light), brought};
+}
+
+void LightChoices::add(std::span<const LightRecord> records) {
+    cells_.resize(cells);
+    for (const LightRecord& record : records) {
+        if (!std::isfinite(record.brought)) {
             continue;
         }
-        // A light that was hardly tried may bring what the scene's sampler takes it for.
+        std::vector<Tally>& tallies = cells_[record.cell].tallies;
+        tallies.resize(scene_.lights().size());
+        ++tallies[record.light].count;
+        tallies[record.light].sum += record.brought;
+    }
+}
+
+void LightChoices::learn(int threads) {
+    parallel_for(cells_.size(), threads, [this](std::size_t i) {
+        if (!cells_[i].tallies.empty()) {
+            learn(i);
+        }
+    });
+}
+
+void LightChoices::learn(std::size_t index) {
+    Cell& cell = cells_[index];
+    double connections = 0, mean = 0;
+    for (const Tally& tally : cell.tallies) {
+        connections += tally.count;
+        mean += tally.count > 0 ? tally.sum / tally.count : 0.0;
+    }
+    if (connections < enough_connections || !(mean > 0)) {
+        return;
+    }
+    if (cell.prior.empty()) {
         const LightReceiver centre = centre_of(index);
-        std::vector<double> sums;
-        double total = 0;
-        for (std::size_t i = 0; i < lights; ++i) {
-            const auto [count, sum] = cell.tallies[i];
-            const auto prior = static_cast<double>(by_scene(centre, static_cast<int>(i))) * cell.mean;
-            total += (sum + trust_in_scene * prior) / (count + trust_in_scene);
-            sums.push_back(total);
+        for (int light = 0; light < static_cast<int>(cell.tallies.size()); ++light) {
+            cell.prior.push_back(by_scene(centre, light));
         }
-        std::vector<float>& cumulative = cumulative_[static_cast<std::size_t>(index)];
-        cumulative.reserve(lights);
-        for (const double sum : sums) {
-            cumulative.push_back(static_cast<float>(sum / total));
-        }
+    }
+    // A light that was hardly tried may bring what the scene's sampler takes it for.
+    std::vector<double> sums;
+    double total = 0;
+    for (std::size_t i = 0; i < cell.tallies.size(); ++i) {
+        const auto [count, sum] = cell.tallies[i];
+        total += (sum + trust_in_scene * static_cast<double>(cell.prior[i]) * mean) / (count + trust_in_scene);
+        sums.push_back(total);
+    }
+    cell.cumulative.clear();
+    for (const double sum : sums) {
+        cell.cumulative.push_back(static_cast<float>(sum / total));
     }
 }
 

@@ -4,39 +4,23 @@
 #include <wend/scene/scene.h>
 
 #include <cstdint>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 namespace wend {
 
-/// What connections brought, by cell and light, however often each light was chosen.
-class LightMoments {
-public:
-    struct Tally {
-        double count = 0;
-        double sum = 0;
-    };
-
-    /// `brought` over the probability of choosing the light would be the estimate of all light; 0 where it was blocked.
-    /// Values that are not finite say nothing.
-    void add(int cell, int light, float brought);
-    LightMoments& operator+=(const LightMoments& other);
-
-    /// Calls f(cell, light, tally), in no order.
-    template <class F>
-    void for_each(F&& f) const {
-        for (const auto& [key, tally] : tallies_) {
-            f(static_cast<int>(key >> 32), static_cast<int>(key & 0xffffffff), tally);
-        }
-    }
-
-private:
-    std::unordered_map<std::uint64_t, Tally> tallies_;
+/// What one connection brought, however often its light was chosen: over the probability of that choice it would be an
+/// estimate of all light. 0 where something was in the way.
+struct LightRecord {
+    std::uint16_t cell;
+    std::uint16_t light;
+    float brought;
 };
 
-/// Choices of lights: the scene's light sampler knows where lights are, how strong and which way they face, but not
-/// what stands between, nor how a vertex scatters. In a grid of cells, surfaces apart by the direction they face, the
-/// mean that each light brought tells that; a quarter of all choices stays with the scene's sampler.
+/// Choices of lights. The scene's light sampler knows where lights are, how strong and which way they face, but not
+/// what stands between, nor how a vertex scatters; the mean of what each light brought tells that, in a grid of cells,
+/// surfaces apart by the direction they face. A quarter of all choices stays with the scene's sampler
+/// (docs/theory/next_event.md).
 class LightChoices {
 public:
     /// Nothing is learned yet. The scene must outlive it.
@@ -50,15 +34,30 @@ public:
     /// With which sample() chooses that light.
     float probability(const LightReceiver& receiver, int light) const;
 
-    int cell_at(const LightReceiver& receiver) const;
-    /// Adds to what is known, for choices to come.
-    void learn(const LightMoments& moments);
+    /// For what its connection to a light brought.
+    LightRecord record(const LightReceiver& receiver, int light, float brought) const;
+    /// Adds to what is known; values that are not finite say nothing.
+    void add(std::span<const LightRecord> records);
+    /// Makes choices to come follow all that was added.
+    void learn(int threads);
 
 private:
+    struct Tally {
+        double count = 0;
+        double sum = 0;
+    };
+    struct Cell {
+        std::vector<Tally> tallies;     ///< by light; empty without records
+        std::vector<float> prior;       ///< probabilities of the scene's sampler in the middle of the cell
+        std::vector<float> cumulative;  ///< of what was learned; empty where that is too little
+    };
+
+    std::size_t index_of(const LightReceiver& receiver) const;
     /// In the middle of a cell.
-    LightReceiver centre_of(int cell) const;
+    LightReceiver centre_of(std::size_t cell) const;
     float by_scene(const LightReceiver& receiver, int light) const;
-    /// Of the lights up to each, by cell; null where too little is known.
+    void learn(std::size_t index);
+    /// Of the lights up to each; null where too little is known.
     const float* cumulative(const LightReceiver& receiver) const;
     static float share(const float* cumulative, int light) {
         return light == 0 ? cumulative[0] : cumulative[light] - cumulative[light - 1];
@@ -66,8 +65,7 @@ private:
 
     const Scene& scene_;
     bool learns_;
-    LightMoments seen_;
-    std::vector<std::vector<float>> cumulative_;  ///< empty as long as nothing is known
+    std::vector<Cell> cells_;  ///< none as long as nothing was added
 };
 
 }  // namespace wend

@@ -17,7 +17,7 @@ struct Tile {
     WalkCounts counts;
     guide::PathRecords records;
     StayMoments stays;
-    LightMoments lights;
+    std::vector<LightRecord> lights;
 };
 
 inline std::vector<Tile> tiles_of(const PixelRect& crop) {

@@ -61,9 +61,9 @@ GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<F
 
 /// What a walk tells those that learn from it, if they are there.
 struct WalkLessons {
-    guide::PathLog* log = nullptr;       ///< is started anew
-    std::vector<Stay>* stays = nullptr;  ///< those in dense media are added
-    LightMoments* lights = nullptr;
+    guide::PathLog* log = nullptr;               ///< is started anew
+    std::vector<Stay>* stays = nullptr;          ///< those in dense media are added
+    std::vector<LightRecord>* lights = nullptr;  ///< what connections brought is added
 };
 
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.

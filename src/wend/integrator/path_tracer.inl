@@ -386,8 +386,8 @@ private:
             const Rgb brought = found.scattering * found.light;
             gather(brought, found.slope);
             if (lights_) {
-                lights_->add(tracer_.lights_.cell_at({position, normal}), chosen->index,
-                             mean_value(brought) * often * chosen->probability);
+                lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
+                                                          mean_value(brought) * often * chosen->probability));
             }
             if (log_) {
                 log_->connect(found.to_light, mean_value(found.light), brought);
@@ -549,7 +549,7 @@ private:
     Sampler& sampler_;
     guide::PathLog* log_;
     std::vector<Stay>* stays_;
-    LightMoments* lights_;
+    std::vector<LightRecord>* lights_;
 
     Branch now_;
     std::vector<Branch> pending_;

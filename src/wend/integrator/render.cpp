@@ -117,11 +117,10 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             subsurface.learn(moments, statistics.samples >= settings.training_samples);
         }
         if (plan.record_lights) {
-            LightMoments moments;
             for (Tile& tile : tiles) {
-                moments += std::exchange(tile.lights, {});
+                lights.add(std::exchange(tile.lights, {}));
             }
-            lights.learn(moments);
+            lights.learn(settings.threads);
         }
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;
