@@ -12,6 +12,8 @@ namespace {
 TEST(Channels, ProbabilitiesFollowTheThroughput) {
     EXPECT_EQ(channel_probabilities(Rgb(2, 1, 1)), Rgb(0.5f, 0.25f, 0.25f));
     EXPECT_FLOAT_EQ(channel_probabilities(Rgb(0)).g, 1.0f / 3);
+    // The inverse of so little overflows.
+    EXPECT_FLOAT_EQ(channel_probabilities(Rgb(1e-40f, 0, 0)).g, 1.0f / 3);
 }
 
 TEST(Channels, FrequenciesFitAndTheRescaledNumberIsUniform) {

@@ -6,12 +6,16 @@
 
 #include <wend/core/colour.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace wend {
 
-/// Probability of each channel for a walk with the given throughput, which is not negative.
+/// Probability of each channel for a walk with the given throughput, which is not negative. Alike where there is none,
+/// or so little that its inverse overflows.
 inline Rgb channel_probabilities(const Rgb& throughput) {
     const float total = throughput.r + throughput.g + throughput.b;
-    return total > 0 ? throughput / total : Rgb(1.0f / 3.0f);
+    return total >= std::numeric_limits<float>::min() ? throughput / total : Rgb(1.0f / 3.0f);
 }
 
 /// Draws a channel, and rescales u to a fresh uniform number.

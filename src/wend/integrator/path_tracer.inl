@@ -54,6 +54,7 @@ private:
         float travelled = 0;                ///< since the last vertex
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
+        bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
         float connected = 1;                ///< the last vertex: how often, as a mean
@@ -143,6 +144,7 @@ private:
         if (now_.medium != from) {
             const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
             guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
+            now_.is_trial = plan && !guided && plan->classical_probability < 1;
             now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
             now_.slab.leave();
             if (stays_ && plan) {
@@ -227,6 +229,9 @@ private:
             const SlabWalk slab = now_.slab;
             return scatter(f, SlabWalk::Directions(slab, now_.ray.direction, sampler_.random()), position, normal,
                            true);
+        }
+        if (in_volume && now_.is_trial) {
+            return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
         }
         return scatter(f, d_.direction.at(position, in_volume, f, now_.boost), position, normal, in_volume);
     }
