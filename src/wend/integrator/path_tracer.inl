@@ -387,12 +387,14 @@ private:
             if (!chosen || (is_left_out && !chosen->light.point_like)) {
                 continue;
             }
-            const Connection found = connect(*chosen, often, f, directions, position, normal, in_volume);
+            // What only connections find is never left out.
+            const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
+            const Connection found = connect(*chosen, times, f, directions, position, normal, in_volume);
             const Rgb brought = found.scattering * found.light;
             gather(brought, found.slope);
             if (lights_) {
                 lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
-                                                          mean_value(brought) * often * chosen->probability));
+                                                          mean_value(brought) * times * chosen->probability));
             }
             if (log_) {
                 log_->connect(found.to_light, mean_value(found.light), brought);
@@ -401,7 +403,7 @@ private:
     }
 
     template <class F, class Directions>
-    Connection connect(const ChosenSample& chosen, float often, const F& f, const Directions& directions,
+    Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
                        const Vec3& position, const Vec3& normal, bool in_volume) {
         const LightSample& light = chosen.light;
         const Rgb value = f.evaluate(light.direction);
@@ -419,7 +421,7 @@ private:
         if (is_black(passage.transmittance)) {
             return {};
         }
-        const float density = (light.point_like ? std::max(1.0f, often) : often) * chosen.density();
+        const float density = times * chosen.density();
         float weight = 1;
         if (!light.point_like) {
             const Rgb channels = channel_probabilities(now_.throughput * value);
