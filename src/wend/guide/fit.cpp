@@ -27,6 +27,7 @@ void validate(const FitSettings& s) {
             "the largest number of lobes must be between the number at first and 16");
     require(s.leaf_samples >= 1, "the samples of a leaf must be at least 1");
     require(s.uniform_factor >= 1, "the factor of uniform leaves must be at least 1");
+    require(s.uniform_evidence >= 0, "the evidence of uniform leaves must not be negative");
     require(s.variation >= 0, "the variation must not be negative");
     require(s.max_depth >= 0 && s.max_depth <= Field::max_depth, "the depth must be 0 to 64");
     require(s.max_bytes >= (std::size_t{64} << 10), "the memory must be at least 64 KiB");
@@ -124,7 +125,7 @@ private:
             memory_of(cell).depth >= static_cast<std::uint32_t>(settings_.max_depth)) {
             return {};
         }
-        if (count_of(cell) > settings_.uniform_factor * settings_.leaf_samples) {
+        if (is_overfull(cell)) {
             return sorted_.plane_across(cell, SplitPlane::no_axis);
         }
         const SplitEvidence evidence = evidence_for(cell);
@@ -132,6 +133,26 @@ private:
         return evidence.significance > beyond_chance && evidence.gain > settings_.variation
                    ? sorted_.plane_across(cell, evidence.axis)
                    : SplitPlane{};
+    }
+
+    /// Whether a cell is to be split in any case.
+    bool is_overfull(const Cell& cell) const {
+        constexpr double rare_factor = 3;
+        const double most = settings_.uniform_factor * settings_.leaf_samples;
+        return count_of(cell) > rare_factor * most ||
+               (count_of(cell) > most && evidence_in(cell) >= settings_.uniform_evidence);
+    }
+
+    /// How many records of equal weight would know as much as those of a cell (kish1965).
+    double evidence_in(const Cell& cell) const {
+        const Statistics& earlier = memory_of(cell).statistics;
+        double sum = earlier.fluence, squares = earlier.fluence_square;
+        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+            const double weight = weight_of(sorted_[i]);
+            sum += weight;
+            squares += weight * weight;
+        }
+        return squares > 0 ? sum * sum / squares : 0.0;
     }
 
     /// Whether a cell's halves differ, by a fit to a sample of its records on top of what earlier ones told. The fit is

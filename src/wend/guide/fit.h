@@ -18,8 +18,11 @@ struct FitSettings {
     int most_lobes = max_lobes;
     /// A cell holding more records than this is split where its halves differ; older records count less (see `decay`).
     double leaf_samples = 1000;
-    /// A cell whose halves do not differ may hold this many times more, at least 1.
+    /// A cell whose halves do not differ may hold this many times more, at least 1; and three times that where few of
+    /// its records carry radiance, so that they are worth less than `uniform_evidence` ones of equal weight: what is
+    /// rare cannot be learned in small cells. The latter is not negative.
     double uniform_factor = 8;
+    double uniform_evidence = 60;
     /// Halves differ when what is seen varies by more than this divergence in nats within the cell, and that is no
     /// chance; not negative.
     double variation = 0.002;

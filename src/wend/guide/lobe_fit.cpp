@@ -191,6 +191,15 @@ double likely_inverse_distance(const LobeSums& s, double kappa, double radius) {
     return std::max(0.0, likely) * ramp_down(likely * radius, 0.75, 1.0);
 }
 
+/// The mean cosine of a lobe from the length of the mean of its records' directions. They lie closer to their own mean
+/// than to the lobe's, and the next record will not lie around their mean: both widen the lobe, without end where there
+/// is but one record.
+double likely_mean_cosine(double mean_length, double records, const LobePriors& priors) {
+    const double distance = 1 - std::min(mean_length, 1.0);
+    return 1 - std::min(1.0, (distance * (records + 1) + priors.mean_cosine) /
+                                 (std::max(0.0, records - 1) + priors.mean_cosine));
+}
+
 }  // namespace
 
 LobeModel initial_lobes(int lobes) {
@@ -239,8 +248,7 @@ LobeModel maximization(const std::array<LobeSums, max_lobes>& sums, const LobeMo
         const Imath::V3d direction(s.direction);
         const double resultant = direction.length();
         const double own_records = effective_records(s);
-        const double mean_cosine =
-            s.weight > 0 ? resultant / s.weight * own_records / (own_records + priors.mean_cosine) : 0.0;
+        const double mean_cosine = s.weight > 0 ? likely_mean_cosine(resultant / s.weight, own_records, priors) : 0.0;
         const float share =
             static_cast<float>((records * s.weight / weight + priors.weight) / (records + size * priors.weight));
         const Vec3 mean = resultant > 0 ? Vec3(direction / resultant) : previous.mixture.lobe(i).vmf.mean;

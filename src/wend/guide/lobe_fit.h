@@ -33,7 +33,7 @@ struct LobePriors {
     /// Records that each lobe is believed to have.
     double weight = 0.01;
     /// Records with mean cosine 0 that each lobe is believed to have.
-    double mean_cosine = 0.2;
+    double mean_cosine = 0.003;
     /// Concentrations stay below.
     float max_kappa = 2e4f;
 };

@@ -95,8 +95,10 @@ public:
     }
 
 private:
-    /// Records of effect that a change must concern, in nats times records: each lobe has five unknowns.
-    static constexpr double least_evidence = 30;
+    /// Nats that a lobe's records must gain by a split: two for each of the five unknowns of a lobe.
+    static constexpr double splitting_evidence = 10;
+    /// Nats that two lobes' records may lose by a merger.
+    static constexpr double merging_evidence = 1.5;
     /// Nats that are worth a lobe.
     static constexpr double least_gain = 0.002;
 
@@ -141,7 +143,7 @@ private:
                 const double loss = merging_loss(a, b);
                 const double records = records_of(a) + records_of(b);
                 const double share = share_of(a) + share_of(b);
-                if (loss < 0.25 * least_gain || loss / share * records < 0.05 * least_evidence) {
+                if (loss < 0.25 * least_gain || loss / share * records < merging_evidence) {
                     merge(a, b);
                     changed = true;
                 }
@@ -156,8 +158,10 @@ private:
             (*sums)[a] = joined((*sums)[a], lobes_[a].vmf.mean, (*sums)[b], lobes_[b].vmf.mean, one.vmf.mean);
         }
         lobes_[a] = one;
+        is_joined_[a] = true;
         --size_;
         lobes_[b] = lobes_[size_];
+        is_joined_[b] = is_joined_[size_];
         learned_.model.inverse_distance[b] = learned_.model.inverse_distance[size_];
         learned_.model.inverse_distance[size_] = 0;
         for (auto* sums : {&learned_.sums, &earlier_}) {
@@ -174,9 +178,9 @@ private:
         std::array<Candidate, max_lobes> candidates{};
         int count = 0;
         for (int i = 0; i < size_; ++i) {
-            if (records_of(i) > 1) {
+            if (records_of(i) > 1 && !is_joined_[i]) {
                 const double own_gain = misfit(learned_.sums[i], lobes_[i].vmf).total();
-                if (own_gain * records_of(i) > least_evidence && own_gain * share_of(i) > least_gain) {
+                if (own_gain * records_of(i) > splitting_evidence && own_gain * share_of(i) > least_gain) {
                     candidates[count++] = {i, own_gain * share_of(i)};
                 }
             }
@@ -220,6 +224,8 @@ private:
     int most_lobes_;
     int size_;
     std::array<WeightedVmf, max_lobes> lobes_{};
+    /// The shape of a lobe that was just made of two is known too roughly to be judged.
+    std::array<bool, max_lobes> is_joined_{};
     double weight_ = 0;
 };
 
