@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace wend {
@@ -32,8 +33,9 @@ LayerGuide::LayerGuide(double extinction, double mean_cosine, std::vector<Planar
 std::array<LayerGuide::View, 2> LayerGuide::views(const LayerPlace& place) const {
     const double thickness = static_cast<double>(place.thickness) * extinction_;
     const double depth = static_cast<double>(place.depth) * extinction_;
-    const auto last = static_cast<double>(layers_.size() - 1);
-    const double size = std::clamp(std::round(std::log2(std::max(thickness, 1.0))), 0.0, last);
+    const auto last = static_cast<int>(layers_.size()) - 1;
+    // The nearest power of two.
+    const int size = std::clamp(std::ilogb(std::max(thickness, 1.0) * std::numbers::sqrt2), 0, last);
     const Layer& layer = *layers_[static_cast<std::size_t>(size)];
     const double deepest = layer.adjoint.slab().thickness;
     const double far = std::isinf(deepest) ? 0.0 : static_cast<double>(place.far);

@@ -26,13 +26,20 @@ Filter::Axis::Axis(float radius, const Function& f) : radius_(radius) {
         value_.push_back(static_cast<float>(std::copysign(absolute / integral, v)));
     }
     cdf_.back() = 1;
+    for (std::size_t i = 0, cell = 0; i < values.size(); ++i) {
+        while (cdf_[cell + 1] <= static_cast<float>(i) / cells) {
+            ++cell;
+        }
+        first_.push_back(static_cast<std::uint16_t>(cell));
+    }
 }
 
 float Filter::Axis::sample(float u, float& weight) const {
-    const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-    const auto i =
-        std::clamp<std::ptrdiff_t>(above - cdf_.begin() - 1, 0, static_cast<std::ptrdiff_t>(value_.size()) - 1);
-    const auto cell = static_cast<std::size_t>(i);
+    const auto part = static_cast<std::size_t>(u * static_cast<float>(first_.size()));
+    std::size_t cell = first_[std::min(part, first_.size() - 1)];
+    while (cell + 1 < value_.size() && cdf_[cell + 1] <= u) {
+        ++cell;
+    }
     const float width = cdf_[cell + 1] - cdf_[cell];
     const float f = width > 0 ? (u - cdf_[cell]) / width : 0.5f;
     weight *= value_[cell];

@@ -2,6 +2,7 @@
 
 #include <wend/core/vector.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace wend {
@@ -33,8 +34,9 @@ private:
 
     private:
         float radius_;
-        std::vector<float> cdf_;    // of |f|
-        std::vector<float> value_;  // f at the cells' centres, over the cell's density and the integral of f
+        std::vector<float> cdf_;            // of |f|
+        std::vector<std::uint16_t> first_;  // of as many equal parts of [0,1), the cell in which each begins
+        std::vector<float> value_;          // f at the cells' centres, over the cell's density and the integral of f
     };
 
     Filter(Axis x, Axis y) : x_(std::move(x)), y_(std::move(y)) {}

@@ -48,6 +48,9 @@ double average(double g, const Denominator& d) {
 }  // namespace
 
 double averaged_henyey_greenstein(double g, double mu, double mu_new) {
+    if (g == 0) {
+        return 0.5;
+    }
     return average(g, Denominator(g, mu, mu_new));
 }
 
