@@ -50,7 +50,7 @@ public:
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
             return fly(*homogeneous, start, share, u);
         }
-        return fly(std::get<GridMedium>(medium), start, share, random);
+        return fly(std::get<GridMedium>(medium), start, 1 - (1 - share) * share_in_grids, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -62,6 +62,9 @@ private:
     /// Through grids only the first flights are guided. Later ones would gain less than the cells on their way cost
     /// (docs/theory/distance.md).
     static constexpr int guided_in_grids = 2;
+    /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
+    /// next.
+    static constexpr float share_in_grids = 0.5f;
 
     using Light = decltype(std::declval<const Field&>().scattered_light(Vec3()));
 
