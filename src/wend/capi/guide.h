@@ -84,7 +84,7 @@ typedef struct wend_record {
 /* How a field is fitted. Start from wend_fit_settings_default(). */
 typedef struct wend_fit_settings {
     int lobes;                /* per cell, 1 to 16 */
-    double leaf_samples;      /* a cell that holds more records is split; at least 1 */
+    double leaf_samples;      /* a cell that holds more records may be split; at least 1 */
     int max_depth;            /* most splits above a cell, 0 to 64 */
     size_t max_bytes;         /* memory of a field, at least 64 KiB */
     double decay;             /* how much the records of earlier fits count, 0 to 1 */
