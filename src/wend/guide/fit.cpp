@@ -140,11 +140,11 @@ private:
         constexpr double rare_factor = 3;
         const double most = settings_.uniform_factor * settings_.leaf_samples;
         return count_of(cell) > rare_factor * most ||
-               (count_of(cell) > most && evidence_in(cell) >= settings_.uniform_evidence);
+               (count_of(cell) > most && effective_records_of(cell) >= settings_.uniform_evidence);
     }
 
     /// How many records of equal weight would know as much as those of a cell (kish1965).
-    double evidence_in(const Cell& cell) const {
+    double effective_records_of(const Cell& cell) const {
         const Statistics& earlier = memory_of(cell).statistics;
         double sum = earlier.fluence, squares = earlier.fluence_square;
         for (std::size_t i = cell.begin; i < cell.end; ++i) {

@@ -238,9 +238,9 @@ double QuantileTable::density(const Blend& blend, double value) const {
         (cubic(blend, piece, middle).value <= value ? low : high) = middle;
     }
     const Cubic c = cubic(blend, piece, low);
-    // Newton's steps where they stay inside, from where the secant says; what a step leaves is about its square.
+    // Newton's steps where they stay inside; what a step leaves is about its square.
     constexpr double least_step = 1e-9;
-    double begin = 0, end = 1, s = std::clamp((value - c.value) / (c.end_value - c.value), 0.0, 1.0);
+    double begin = 0, end = 1, s = 0.5;
     for (int iteration = 0; iteration < 60 && end - begin > 1e-15; ++iteration) {
         const Sample at = c.at(s);
         (at.value > value ? end : begin) = s;
