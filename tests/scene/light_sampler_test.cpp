@@ -131,7 +131,7 @@ TYPED_TEST(LightSamplers, WhateverShinesCanBeChosen) {
                 bool shines = false;
                 for (int k = 0; k < 20 && !shines; ++k) {
                     // The back of a surface counts: it may transmit.
-                    const auto s = sample_light(lights[i], receiver.position, random.uniform2());
+                    const auto s = sample_light(lights[i], receiver.position, random.uniform2(), random);
                     shines = s && !is_black(s->radiance) &&
                              (length_squared(receiver.normal) == 0 || abs_dot(s->direction, receiver.normal) > 1e-3f);
                 }

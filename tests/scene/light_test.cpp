@@ -31,7 +31,7 @@ Moments irradiance(const Light& light, const Vec3& p, const Vec3& n, int samples
     Moments moments;
     Pcg32 random(1);
     for (int i = 0; i < samples; ++i) {
-        const auto s = sample_light(light, p, random.uniform2());
+        const auto s = sample_light(light, p, random.uniform2(), random);
         moments.add(s ? s->radiance.g * std::max(0.0f, dot(n, s->direction)) / s->density : 0);
     }
     return moments;
@@ -41,8 +41,9 @@ TEST(PointLights, IrradianceFallsWithTheSquare) {
     const Moments e = irradiance(PointLight{{0, 0, 2}, Rgb(8)}, {0, 0, 0}, {0, 0, 1}, 10);
     EXPECT_NEAR(e.mean(), 2, 1e-6);
     EXPECT_EQ(e.variance(), 0);
-    EXPECT_FALSE(sample_light(PointLight{{0, 0, 2}, Rgb(8)}, {0, 0, 2}, {0.5f, 0.5f}));
-    const auto distant = sample_light(DistantLight{{0, 1, 0}, Rgb(3)}, {5, 5, 5}, {0.5f, 0.5f});
+    Pcg32 random(1);
+    EXPECT_FALSE(sample_light(PointLight{{0, 0, 2}, Rgb(8)}, {0, 0, 2}, {0.5f, 0.5f}, random));
+    const auto distant = sample_light(DistantLight{{0, 1, 0}, Rgb(3)}, {5, 5, 5}, {0.5f, 0.5f}, random);
     ASSERT_TRUE(distant);
     EXPECT_EQ(distant->distance, infinity);
     EXPECT_EQ(distant->radiance, Rgb(3));
@@ -194,7 +195,7 @@ test::SphereTestOptions coarse() {
 test::SphereTest direction_test(const Light& light, const Vec3& p, const test::DirectionDensity& density) {
     return test::chi_square_sphere(
         [&](Pcg32& random) -> std::optional<Vec3> {
-            const auto s = sample_light(light, p, random.uniform2());
+            const auto s = sample_light(light, p, random.uniform2(), random);
             return s ? std::optional(s->direction) : std::nullopt;
         },
         density, coarse());
@@ -210,7 +211,7 @@ testing::AssertionResult directions_follow(const Light& light, const Vec3& p, co
     std::vector<std::uint64_t> observed(cells * cells + 1);
     Pcg32 random(1);
     for (int i = 0; i < samples; ++i) {
-        const auto s = sample_light(light, p, random.uniform2());
+        const auto s = sample_light(light, p, random.uniform2(), random);
         const Vec3 w = s ? frame.to_local(s->direction) : Vec3(0);
         const Vec2 q = w.z > 0 ? Vec2(w.x / w.z + half_width, w.y / w.z + half_width) / cell : Vec2(-1);
         const bool inside = q.x >= 0 && q.y >= 0 && q.x < cells && q.y < cells;
@@ -283,7 +284,7 @@ TEST(QuadricLights, InverseDensityMeasuresSolidAngle) {
         std::array<Moments, 3> measured;
         Pcg32 random(1);
         for (int i = 0; i < 1000000; ++i) {
-            const auto s = sample_light(light, p, random.uniform2());
+            const auto s = sample_light(light, p, random.uniform2(), random);
             const Vec3 local = s ? frame.to_local(s->direction) : Vec3(0);
             const double size = s ? 1 / s->density : 0;
             measured[0].add(size);
@@ -317,7 +318,7 @@ TEST(AreaLights, SampleReportsTheDensityOfItsPoint) {
           quadric_light(Disk{0.2f, 1.5f, 0.3f}, awkward_place(), true)}) {
         const Quadric& quadric = *std::get<QuadricLight>(light).quadric;
         for (int i = 0; i < 2000; ++i) {
-            if (const auto s = sample_light(light, p, random.uniform2())) {
+            if (const auto s = sample_light(light, p, random.uniform2(), random)) {
                 const Vec3 hit = p + s->direction * s->distance;
                 const auto point = project(quadric, quadric.object_from_world.point(hit));
                 const Vec3 normal = normalize(quadric.object_from_world.transposed_vector(point.normal));
@@ -330,7 +331,7 @@ TEST(AreaLights, SampleReportsTheDensityOfItsPoint) {
     const Light triangle = make_triangle_light({-1, 0.5f, 2}, {1.5f, -0.2f, 1}, {0.3f, 1.5f, 3}, false, radiance, true);
     const Vec3 normal = std::get<TriangleLight>(triangle).normal;
     for (int i = 0; i < 2000; ++i) {
-        const auto s = sample_light(triangle, p, random.uniform2());
+        const auto s = sample_light(triangle, p, random.uniform2(), random);
         ASSERT_TRUE(s);
         EXPECT_NEAR(light_density(triangle, p, s->direction, p + s->direction * s->distance, normal), s->density,
                     1e-4f * s->density);
@@ -387,7 +388,7 @@ TEST(ImageInfiniteLights, SamplesAgreeWithTheRadianceOfTheirDirection) {
     Pcg32 random(7);
     Moments fluence;
     for (int i = 0; i < 1500000; ++i) {
-        const auto s = sample_light(light, Vec3(0), random.uniform2());
+        const auto s = sample_light(light, Vec3(0), random.uniform2(), random);
         ASSERT_TRUE(s);
         EXPECT_EQ(s->radiance, environment_radiance(light, s->direction));
         EXPECT_EQ(s->density, light_density(light, Vec3(0), s->direction, Vec3(0), Vec3(0)));

@@ -84,8 +84,11 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
                 const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
                 const float density = medium.density().sample_nearest(p, corner);
                 if (emission) {
-                    pick_up(flight, flight.weight * medium.absorption() * emission->at(ray.at(t)) * (density / rate),
-                            t);
+                    const Vec3 here = ray.at(t);
+                    pick_up(
+                        flight,
+                        flight.weight * medium.absorption() * emission->at(here) * (start.keeps(here) * density / rate),
+                        t);
                 }
                 if (!(u < acceptance * density)) {
                     if (!grey) {

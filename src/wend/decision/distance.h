@@ -42,6 +42,24 @@ struct FlightEnd {
     float emitted = 0;
 };
 
+/// What of a glowing medium's light a flight may keep, by multiple importance sampling: connections from the vertex
+/// before find it as well.
+struct GlowShare {
+    const Glow* glow = nullptr;  ///< null: it keeps all
+    Vec3 from{0, 0, 0};          ///< the vertex
+    float own = 0;               ///< density of the flight's direction there, per steradian
+    float connected = 0;         ///< how often the vertex is connected to the medium
+
+    /// At a point of the flight.
+    float operator()(const Vec3& position) const {
+        if (!glow) {
+            return 1;
+        }
+        const float other = connected * glow->seen_from(from, position, glow->density(position));
+        return own > 0 ? own / (own + other) : 0.0f;
+    }
+};
+
 /// What is known before a flight.
 struct FlightStart {
     Ray ray;
@@ -53,6 +71,7 @@ struct FlightStart {
     FlightEnd end;
     /// Vertices of the walk so far.
     int depth = 0;
+    GlowShare keeps{};
 };
 
 /// A decision about flights: draws one, and tells the probability, under each colour channel, of flying through a

@@ -110,8 +110,11 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
             const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
             const float density = medium_.density().sample_nearest(index_ray.at(t), corner);
             if (emission) {
-                pick_up(flight,
-                        flight.weight * medium_.absorption() * emission->at(start_.ray.at(t)) * (density / rate), t);
+                const Vec3 place = start_.ray.at(t);
+                pick_up(
+                    flight,
+                    flight.weight * medium_.absorption() * emission->at(place) * (start_.keeps(place) * density / rate),
+                    t);
             }
             const float classical = largest * density * (grey ? 1.0f : dot(channels, relative)) / rate;
             const float here = classical * bright;
@@ -138,7 +141,9 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
                                start_.length - passed,
                                start_.throughput * flight.weight,
                                flight.boost,
-                               {}};
+                               {},
+                               start_.depth,
+                               start_.keeps};
         const Flight last = ClassicalDistance().sample(medium_, rest, random);
         if (last.glow > 0) {
             pick_up(flight, flight.weight * last.emitted, passed + mean_value(last.emitted) / last.glow);

@@ -45,7 +45,8 @@ public:
         if (chosen.index < 0) {
             return;
         }
-        const auto light = sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], point_.position, u2);
+        const auto light =
+            sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], point_.position, u2, random);
         const float cosine = light ? dot(light->direction, point_.normal) : 0.0f;
         if (!(cosine > 0) || scene_.is_occluded(spawn_ray(point_.position, point_.normal, light->direction),
                                                 light->distance * (1 - 1e-3f))) {

@@ -26,35 +26,37 @@ struct ChosenSample {
     float density() const { return probability * light.density; }
 };
 
-/// `u` chooses the light, `u2` the point of it; nothing where no light reaches the receiver.
+/// `u` chooses the light, `u2` and `random` the point of it; nothing where no light reaches the receiver.
 inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightChoices& choices,
-                                                const LightReceiver& receiver, float u, Vec2 u2) {
+                                                const LightReceiver& receiver, float u, Vec2 u2, Pcg32& random) {
     const ChosenLight chosen = choices.sample(receiver, u);
     if (chosen.index < 0) {
         return std::nullopt;
     }
-    const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2);
+    const auto light =
+        sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
     return light ? std::optional(ChosenSample{chosen.index, *light, chosen.probability}) : std::nullopt;
 }
 
 struct ShadowRay {
     Ray ray;
     float length;
+    MediumId medium;  ///< that glows at its end; vacuum for other lights
 };
 
 /// From a vertex in a volume, whose normal is zero, or on a surface.
 inline ShadowRay shadow_ray(const LightReceiver& from, const LightSample& light) {
     if (from.normal == Vec3(0, 0, 0)) {
-        return {{from.position, light.direction}, light.distance};
+        return {{from.position, light.direction}, light.distance, light.medium};
     }
     const Ray ray = spawn_ray(from.position, from.normal, light.direction);
     if (light.distance == infinity) {
-        return {ray, light.distance};
+        return {ray, light.distance, light.medium};
     }
     // Moving the origin off the surface must not move the far end through the light.
     const Vec3 rest = from.position + light.direction * light.distance - ray.origin;
     const float distance = length(rest);
-    return {{ray.origin, rest / distance}, distance};
+    return {{ray.origin, rest / distance}, distance, light.medium};
 }
 
 /// An estimate of the transmittance, 0 where something blocks the light, and the probability, by channel, that a walk
@@ -71,7 +73,10 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     constexpr Passage blocked{Rgb(0.0f), Rgb(0.0f)};
     Passage passage;
     Ray ray = shadow.ray;
-    float rest = shadow.length == infinity ? farthest : shadow.length * (1 - 1e-4f);
+    // Short of a light that is a surface.
+    float rest = shadow.length == infinity ? farthest
+                 : shadow.medium == vacuum ? shadow.length * (1 - 1e-4f)
+                                           : shadow.length;
     if (scene.is_occluded(ray, rest)) {
         return blocked;
     }
@@ -90,7 +95,8 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
             }
         }
         if (!hit) {
-            return passage;
+            // A grid may reach farther than the medium that it tells of.
+            return shadow.medium == vacuum || shadow.medium == medium ? passage : blocked;
         }
         rest -= length;
         const MediumId beyond = scene.medium_beyond(*hit, ray.direction, medium);

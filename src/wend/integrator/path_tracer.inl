@@ -123,7 +123,7 @@ private:
                 told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
         }
-        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}, now_.depth};
+        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}, now_.depth, keeps_of_glow()};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(hit);
         }
@@ -381,9 +381,9 @@ private:
         const float u = sampler_.uniform();
         for (int i = 0; i < n; ++i) {
             // Several go through the lights in their order.
-            const auto chosen = choose_light(scene_, tracer_.lights_, {position, normal},
-                                             (static_cast<float>(i) + u) / static_cast<float>(n),
-                                             i == 0 ? sampler_.uniform2() : sampler_.random().uniform2());
+            const auto chosen = choose_light(
+                scene_, tracer_.lights_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
+                i == 0 ? sampler_.uniform2() : sampler_.random().uniform2(), sampler_.random());
             if (!chosen || (is_left_out && !chosen->light.point_like)) {
                 continue;
             }
@@ -452,8 +452,22 @@ private:
         const float other = now_.connected * tracer_.lights_.probability(now_.receiver, light) *
                             light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
                                           now_.ray.direction, hit, normal);
-        const float own = now_.density * dot(now_.channels, now_.pass_probability);
+        const float own = own_density();
         return own > 0 ? own / (own + other) : 0.0f;
+    }
+
+    /// Of the walk's direction, where it is weighed against that of connections.
+    float own_density() const { return now_.density * dot(now_.channels, now_.pass_probability); }
+
+    /// What a flight through the medium may keep of its light.
+    GlowShare keeps_of_glow() const {
+        const int light = scene_.glow_light(now_.medium);
+        if (light < 0 || now_.depth == 0 || now_.specular) {
+            return {};
+        }
+        return {std::get<GlowLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
+                now_.receiver.position, own_density(),
+                now_.connected * tracer_.lights_.probability(now_.receiver, light)};
     }
 
     /// Light with its weight of multiple importance sampling.

@@ -4,6 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/ray.h>
 #include <wend/core/transform.h>
+#include <wend/medium/glow.h>
 #include <wend/medium/grid.h>
 #include <wend/medium/majorant_grid.h>
 #include <wend/medium/phase.h>
@@ -55,6 +56,12 @@ public:
     const Rgb& extinction() const { return extinction_; }
     const PhaseFunction& phase() const { return phase_; }
     const GridEmission* emission() const { return emission_.get(); }
+    /// Where the medium can be connected to for its light; null where it emits none.
+    const Glow* glow() const { return glow_.get(); }
+    /// Radiance emitted per unit length at a point in the world; the medium must have an emission.
+    Rgb emitted_at(const Vec3& p) const {
+        return absorption_ * emission_->at(p) * density_->interpolate(index_from_world_.point(p));
+    }
     const Grid& density() const { return *density_; }
     const MajorantGrid& majorants() const { return majorants_; }
 
@@ -80,6 +87,7 @@ private:
     Rgb extinction_;
     PhaseFunction phase_;
     std::shared_ptr<const GridEmission> emission_;
+    std::shared_ptr<const Glow> glow_;
 };
 
 /// The closed set of media.

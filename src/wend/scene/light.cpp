@@ -85,7 +85,7 @@ float area_stretch(const QuadricLight& light, const Vec3& n) {
     return light.determinant * length(light.quadric->object_from_world.transposed_vector(n));
 }
 
-std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2&, const Light&) {
+std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
     const Vec3 d = l.position - p;
     const float d2 = length_squared(d);
     if (!(d2 > 0)) {
@@ -94,21 +94,21 @@ std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2
     const float distance = std::sqrt(d2);
     return LightSample{d / distance, distance, l.intensity / d2, 1, true};
 }
-std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&) {
+std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&, Pcg32&) {
     return LightSample{l.direction, infinity, l.radiance, 1, true};
 }
-std::optional<LightSample> sample(const UniformInfiniteLight& l, const Vec3&, const Vec2& u, const Light&) {
+std::optional<LightSample> sample(const UniformInfiniteLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
     return LightSample{to_sphere(u), infinity, l.radiance, inv_4pi, false};
 }
-std::optional<LightSample> sample(const ImageInfiniteLight& l, const Vec3&, const Vec2& u, const Light&) {
+std::optional<LightSample> sample(const ImageInfiniteLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
     const LightSample s = l.sample(u);
     return s.density > 0 ? std::optional(s) : std::nullopt;
 }
-std::optional<LightSample> sample(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light) {
+std::optional<LightSample> sample(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
     const Vec2 b = to_triangle(u);
     return connect(p, l.p0 * (1 - b.x - b.y) + l.p1 * b.x + l.p2 * b.y, l.normal, 1 / l.area, light);
 }
-std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light) {
+std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
     const Quadric& quadric = *l.quadric;
     const Vec3 from = quadric.object_from_world.point(p);
     const ShapePoint point =
@@ -119,6 +119,22 @@ std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Ve
                    light);
 }
 
+std::optional<LightSample> sample(const GlowLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32& random) {
+    const Glow& glow = *l.grid->glow();
+    const Glow::Sample point = glow.sample(u, random.uniform());
+    const float distance = length(point.position - p);
+    const Rgb radiance = l.grid->emitted_at(point.position) * glow.unit();
+    if (!(distance > 0) || is_black(radiance)) {
+        return std::nullopt;
+    }
+    return LightSample{(point.position - p) / distance,
+                       distance,
+                       radiance,
+                       glow.seen_from(p, point.position, point.density),
+                       false,
+                       l.medium};
+}
+
 float solid_angle_density(float area_density, const Vec3& p, const Vec3& direction, const Vec3& hit,
                           const Vec3& normal) {
     const float cosine = abs_dot(normal, direction);
@@ -127,8 +143,8 @@ float solid_angle_density(float area_density, const Vec3& p, const Vec3& directi
 
 }  // namespace
 
-std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u) {
-    return std::visit([&](const auto& l) { return sample(l, p, u, light); }, light);
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random) {
+    return std::visit([&](const auto& l) { return sample(l, p, u, light, random); }, light);
 }
 
 float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal) {
@@ -149,6 +165,10 @@ float light_density(const Light& light, const Vec3& p, const Vec3& direction, co
     }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->density(direction);
+    }
+    if (const auto* glowing = std::get_if<GlowLight>(&light)) {
+        const Glow& glow = *glowing->grid->glow();
+        return glow.seen_from(p, hit, glow.density(hit));
     }
     return 0;
 }
@@ -194,6 +214,7 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const QuadricLight& l) const {
             return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean(l.radiance);
         }
+        float operator()(const GlowLight& l) const { return 4 * pi * l.grid->glow()->power(); }
     };
     return std::visit(Power{pi * scene_radius * scene_radius}, light);
 }

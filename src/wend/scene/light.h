@@ -3,7 +3,9 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/image.h>
+#include <wend/core/random.h>
 #include <wend/core/transform.h>
+#include <wend/medium/medium.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/shape.h>
 
@@ -20,6 +22,7 @@ struct LightSample {
     Rgb radiance;             ///< arriving without any loss; for point-like lights irradiance on a facing surface
     float density = 0;        ///< per steradian; 1 for point-like lights
     bool point_like = false;  ///< cannot be hit by a ray
+    int medium = -1;          ///< of a medium that glows, its index: the light is where that medium is
 };
 
 /// An isotropic point source; intensity in power per steradian.
@@ -81,14 +84,21 @@ struct QuadricLight {
     float determinant = 1;  ///< absolute volume factor of the map to the world
 };
 
-using Light =
-    std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight>;
+/// A heterogeneous medium that glows. Connections lead to points in it, whose radiance is that of a line as long as
+/// the unit of Glow, and whose density is per steradian and such a unit.
+struct GlowLight {
+    int medium;              ///< its index in the scene
+    const GridMedium* grid;  ///< the same; its glow() is not null
+};
 
-/// A connection from `p` to the light; none where it cannot shine.
-std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u);
+using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight,
+                           QuadricLight, GlowLight>;
 
-/// Density per steradian with which sample_light(light, p) yields `direction`, whose ray meets an area light at `hit`
-/// with unit normal `hit_normal` (both ignored for lights at infinity).
+/// A connection from `p` to the light; none where it cannot shine. `u` places it on the light, `random` in its depth.
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random);
+
+/// Density with which sample_light(light, p) yields `direction` (LightSample), whose ray meets an area light at `hit`
+/// with unit normal `hit_normal` (both ignored for lights at infinity), or passes `hit` in a medium that glows.
 float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal);
 
 /// Radiance that leaves an area light at a point with the given unit geometric normal towards w.

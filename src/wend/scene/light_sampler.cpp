@@ -90,6 +90,9 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
             }
             return b;
         }
+        Bounds operator()(const GlowLight& l) const {
+            return {l.grid->glow()->bounds(), {0, 0, 1}, -1, 0, light_power(l, 0), false};
+        }
         Bounds operator()(const DistantLight&) const { return {}; }
         Bounds operator()(const UniformInfiniteLight&) const { return {}; }
         Bounds operator()(const ImageInfiniteLight&) const { return {}; }

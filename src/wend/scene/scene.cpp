@@ -40,12 +40,14 @@ Ray spawn_ray(const Vec3& position, const Vec3& normal, const Vec3& w) {
 
 Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     caster_ = std::make_unique<RayCaster>(d_);
-    for (std::size_t i = 0; i < d_.lights.size(); ++i) {
-        if (is_at_infinity(d_.lights[i])) {
+    lights_ = d_.lights;
+    add_glowing_media();
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (is_at_infinity(lights_[i])) {
             infinite_lights_.push_back(static_cast<int>(i));
         }
-        has_point_like_lights_ = has_point_like_lights_ || std::holds_alternative<PointLight>(d_.lights[i]) ||
-                                 std::holds_alternative<DistantLight>(d_.lights[i]);
+        has_point_like_lights_ = has_point_like_lights_ || std::holds_alternative<PointLight>(lights_[i]) ||
+                                 std::holds_alternative<DistantLight>(lights_[i]);
     }
     for (const Surface& surface : d_.surfaces) {
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
@@ -56,11 +58,33 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         bounds_ = Box3(Vec3(-1), Vec3(1));  // nothing but lights and media
     }
     const float radius = 0.5f * length(bounds_.size());
-    light_sampler_ = std::make_unique<LightSampler>(d_.light_tree ? LightSampler(TreeLightSampler(d_.lights, radius))
-                                                                  : LightSampler(PowerLightSampler(d_.lights, radius)));
+    light_sampler_ = std::make_unique<LightSampler>(d_.light_tree ? LightSampler(TreeLightSampler(lights_, radius))
+                                                                  : LightSampler(PowerLightSampler(lights_, radius)));
 }
 
 Scene::~Scene() = default;
+
+void Scene::add_glowing_media() {
+    std::vector<bool> is_used(d_.media.size(), false);
+    const auto use = [&](MediumId id) {
+        if (id != vacuum) {
+            is_used[static_cast<std::size_t>(id)] = true;
+        }
+    };
+    use(d_.camera_medium);
+    for (const Surface& surface : d_.surfaces) {
+        use(surface.interior);
+        use(surface.exterior);
+    }
+    glow_lights_.assign(d_.media.size(), -1);
+    for (std::size_t id = 0; id < d_.media.size(); ++id) {
+        const auto* grid = std::get_if<GridMedium>(&d_.media[id]);
+        if (grid && grid->glow() && is_used[id]) {
+            glow_lights_[id] = static_cast<int>(lights_.size());
+            lights_.push_back(GlowLight{static_cast<int>(id), grid});
+        }
+    }
+}
 
 std::optional<Hit> Scene::intersect(const Ray& ray, float distance) const {
     Ray rest = ray;

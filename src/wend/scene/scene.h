@@ -118,7 +118,10 @@ public:
     const SceneDescription& description() const { return d_; }
     const Camera& camera() const { return d_.camera; }
     MediumId camera_medium() const { return d_.camera_medium; }
-    const std::vector<Light>& lights() const { return d_.lights; }
+    /// Those of the description, and then the media that glow.
+    const std::vector<Light>& lights() const { return lights_; }
+    /// The light that a medium is, as an index of lights(); -1: none.
+    int glow_light(MediumId id) const { return glow_lights_[static_cast<std::size_t>(id)]; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }
     /// Whether there are lights that only connections find.
     bool has_point_like_lights() const { return has_point_like_lights_; }
@@ -127,9 +130,13 @@ public:
     const Box3& bounds() const { return bounds_; }
 
 private:
+    void add_glowing_media();
+
     SceneDescription d_;
     std::unique_ptr<RayCaster> caster_;
     std::unique_ptr<LightSampler> light_sampler_;
+    std::vector<Light> lights_;
+    std::vector<int> glow_lights_;  ///< by medium
     std::vector<int> infinite_lights_;
     bool has_point_like_lights_ = false;
     Box3 bounds_;
