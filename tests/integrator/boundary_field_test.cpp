@@ -101,6 +101,33 @@ TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
     EXPECT_EQ(dark_side.lamps.size(), 0u);
     EXPECT_GT(lit_side.diffuse.g, 5 * dark_side.diffuse.g);
     EXPECT_NEAR(lit_side.diffuse.b / lit_side.diffuse.r, 3 * std::exp(-3 * lit_side.depth), 1e-4f);
+    const BoundaryField::View view = field.at(bright);
+    EXPECT_NEAR(view.closest().steepness, steepness(5, 1, 0.1f), 0.02f);
+}
+
+/// -d ln(sinh(decay r) / r) / dr over the decay.
+double of_the_fluence_in_a_ball(double decay, double r) {
+    const auto logarithm = [&](double x) { return std::log(std::sinh(decay * x) / x); };
+    const double h = 1e-4 * r;
+    return (logarithm(r + h) - logarithm(r - h)) / (2 * h * decay);
+}
+
+TEST(Steepness, IsThatOfTheFluenceInABall) {
+    for (const float decay : {0.5f, 3.0f, 20.0f}) {
+        for (const float depth : {0.0f, 0.3f, 1.2f, 1.99f}) {
+            EXPECT_NEAR(steepness(decay, 0.5f, depth), of_the_fluence_in_a_ball(decay, 2 - depth), 2e-3)
+                << decay << " " << depth;
+        }
+    }
+}
+
+TEST(Steepness, IsOneBeneathPlanesAndInHollowsAndNoneInTheMiddle) {
+    EXPECT_EQ(steepness(3, 0, 1), 1);
+    EXPECT_EQ(steepness(3, -2, 1), 1);
+    EXPECT_NEAR(steepness(1e6f, 0.5f, 0), 1, 1e-5f);
+    EXPECT_EQ(steepness(3, 0.5f, 2), 0);
+    EXPECT_EQ(steepness(3, 0.5f, 5), 0);
+    EXPECT_EQ(steepness(3, 0.5f, -1), steepness(3, 0.5f, 0));
 }
 
 }  // namespace

@@ -16,8 +16,17 @@ int cell_of(float x, float low, float high, int side) {
 
 }  // namespace
 
+float steepness(float decay, float curvature, float depth) {
+    if (!(curvature > 0)) {
+        return 1;
+    }
+    const float x = decay * std::max(0.0f, 1 / curvature - std::max(0.0f, depth));
+    return x > 0.1f ? 1 / std::tanh(x) - 1 / x : x / 3;
+}
+
 BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads)
     : box_(box),
+      decay_(decay),
       spacing_(length(box_.size()) / std::sqrt(static_cast<float>(points.size()))),
       points_(std::move(points)),
       cells_(side * side * side) {
@@ -92,7 +101,7 @@ const LitPoint& BoundaryField::closest_point(const Cell& cell, const Vec3& posit
 
 BoundaryField::View BoundaryField::at(const Vec3& position) const {
     const Cell& cell = cells_[cell_at(position)];
-    return {closest_point(cell, position), cell, position};
+    return {closest_point(cell, position), cell, position, decay_};
 }
 
 LayerPlace BoundaryField::View::layer() const {

@@ -14,6 +14,11 @@ struct SlabAim {
     float steepness = 1;  ///< decay over that of a wide plane, in [0, 1]
 };
 
+/// How fast light falls off inwards at a depth beneath a curved boundary, over its `decay` beneath a plane: in a ball
+/// lit evenly the fluence at a distance r from the centre is sinh(decay r) / r, which falls off L(decay r) times as
+/// fast, L(x) = coth x - 1/x. 1 in hollows.
+float steepness(float decay, float curvature, float depth);
+
 /// Tables over a grid around an object, made once from points of its boundary. They only guide: an object may be open
 /// or badly oriented.
 class BoundaryField {
@@ -39,6 +44,7 @@ private:
     float distance2_to(const BoundaryPoint& point, const Vec3& position) const;
 
     Box3 box_;
+    float decay_;    ///< beneath a plane
     float spacing_;  ///< of the points
     std::vector<LitPoint> points_;
     std::vector<Cell> cells_;
@@ -47,11 +53,14 @@ private:
 /// A place within the field.
 class BoundaryField::View {
 public:
-    View(const LitPoint& closest, const Cell& cell, const Vec3& position)
-        : closest_(closest), cell_(cell), depth_(dot(closest.point.position - position, closest.point.normal)) {}
+    View(const LitPoint& closest, const Cell& cell, const Vec3& position, float decay)
+        : closest_(closest),
+          cell_(cell),
+          decay_(decay),
+          depth_(dot(closest.point.position - position, closest.point.normal)) {}
 
-    /// The outward normal of the nearest piece of boundary.
-    SlabAim closest() const { return {closest_.point.normal, 1}; }
+    /// The outward normal of the nearest piece of boundary, and how steep it is for its curvature.
+    SlabAim closest() const { return {closest_.point.normal, steepness(decay_, closest_.curvature, depth_)}; }
     /// The layer between that piece and the boundary behind it.
     LayerPlace layer() const;
     /// The direction in which the light grows that diffuses inwards from all boundary points, each as a source of
@@ -65,6 +74,7 @@ public:
 private:
     const LitPoint& closest_;
     const Cell& cell_;
+    float decay_;
     float depth_;
 };
 

@@ -137,14 +137,16 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
                                  const BoundarySurface& boundary, int samples, Pcg32& random) {
     std::vector<LitPoint> result;
     const float diameter = length(bounds_of(points).size());
+    const std::vector<float> curvatures = mean_curvatures(points);
     float total = 0;
-    for (const BoundaryPoint& point : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const BoundaryPoint& point = points[i];
         const float thickness = chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
         LightAtPoint light(scene, point, boundary);
-        for (int i = 0; i < samples; ++i) {
+        for (int k = 0; k < samples; ++k) {
             light.add_sample(random);
         }
-        result.push_back({point, light.irradiance(samples), thickness, 0});
+        result.push_back({point, curvatures[i], light.irradiance(samples), thickness, 0});
         light.write_lamps(samples, result.back());
         total += result.back().irradiance;
     }

@@ -13,6 +13,7 @@ namespace wend {
 /// A point of the boundary with what a walk inside wants to know of it.
 struct LitPoint {
     BoundaryPoint point;
+    float curvature = 0;          ///< of the boundary, its mean (mean_curvatures)
     float irradiance = 0;         ///< of light from outside
     float thickness = 0;          ///< of the object, straight inwards
     float irradiance_behind = 0;  ///< where that way leaves the object

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace wend {
 namespace {
@@ -149,11 +150,16 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
             guide.layered = static_cast<int>(layered - strategies_.begin());
             guide.layers.resize(static_cast<std::size_t>(guide.channels()));
             const double ior = static_cast<double>(boundary.ior);
+            const std::vector<float> curvatures = mean_curvatures(points);
+            const float curvature =
+                std::accumulate(curvatures.begin(), curvatures.end(), 0.0f) / static_cast<float>(curvatures.size());
             parallel_for(guide.layers.size(), threads, [&](std::size_t c) {
                 const double extinction = medium->extinction()[static_cast<int>(c)];
                 const double albedo = static_cast<double>(medium->scattering[static_cast<int>(c)]) / extinction;
                 const double g = medium->phase.mean_cosine();
-                guide.layers[c] = LayerGuide(extinction, g, lit_layers(albedo, g, ior));
+                // By diffusion theory the square of the decay is in proportion to 1 - albedo.
+                const double flat = steepness(decay[static_cast<int>(c)], curvature, 0);
+                guide.layers[c] = LayerGuide(extinction, g, lit_layers(1 - flat * flat * (1 - albedo), g, ior));
             });
         }
         const auto lit = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::learned);

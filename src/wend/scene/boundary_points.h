@@ -18,6 +18,10 @@ struct BoundaryPoint {
 std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, MediumId medium, int count,
                                            std::uint64_t seed);
 
+/// At each point the mean curvature of the boundary around, estimated from the nearest points that face the same way: 1
+/// over the radius of a ball, negative in a hollow.
+std::vector<float> mean_curvatures(std::span<const BoundaryPoint> points);
+
 Box3 bounds_of(std::span<const BoundaryPoint> points);
 
 }  // namespace wend
