@@ -53,7 +53,9 @@ void walks(benchmark::State& state, const char* name) {
     const ClassicalDecisions decisions;
     const SubsurfaceGuides unguided;
     const LightChoices lights(loaded.scene);
-    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, lights, loaded.max_depth);
+    const ReflectionChoices reflections(loaded.scene.bounds());
+    const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, lights, reflections,
+                                                loaded.max_depth);
     std::uint32_t i = 0;
     std::uint64_t segments = 0;
     for (auto _ : state) {

@@ -50,7 +50,8 @@ TEST(LongWalk, AHundredThousandCollisionsLeaveAFewRecords) {
     const EndlessDecisions decisions;
     const SubsurfaceGuides unguided;
     const LightChoices lights(scene);
-    const PathTracer tracer(scene, decisions, unguided, lights, collisions);
+    const ReflectionChoices reflections(scene.bounds());
+    const PathTracer tracer(scene, decisions, unguided, lights, reflections, collisions);
     guide::PathLog log;
     guide::PathRecords records;
     for (std::uint32_t i = 0; i < 3; ++i) {

@@ -99,7 +99,8 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max
     const ClassicalDecisions decisions;
     const SubsurfaceGuides subsurface(scene, strategies, 0);
     const LightChoices lights(scene);
-    const PathTracer tracer(scene, decisions, subsurface, lights, max_depth);
+    const ReflectionChoices reflections(scene.bounds());
+    const PathTracer tracer(scene, decisions, subsurface, lights, reflections, max_depth);
     Moments moments;
     for (int i = 0; i < walks; ++i) {
         Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));

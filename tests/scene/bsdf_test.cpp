@@ -32,6 +32,8 @@ const std::vector<Model>& models() {
         {"dielectric_brushed", DielectricBsdf{1.33f, 0.5f, 0.25f}},
         {"dielectric_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.4f}},
         {"dielectric_smooth", DielectricBsdf{1.5f, 0, 0}},
+        {"dielectric_odds", DielectricBsdf{1.5f, 0.4f, 0.4f, 6}},
+        {"dielectric_smooth_odds", DielectricBsdf{1.5f, 0, 0, 0.1f}},
         {"coated", coated(Rgb(0.7f, 0.4f, 0.1f), 1.5f, 0.3f, 0.3f)},
         {"coated_smooth", coated(Rgb(0.7f, 0.4f, 0.1f), 1.5f, 0, 0)}};
     return all;
@@ -161,6 +163,44 @@ TEST(Dielectric, SmoothLosesNothingOnAnyPath) {
         const Moments share = energy(bsdf, wo, 2000)[0];
         EXPECT_NEAR(share.mean(), 1, 1e-5);
         EXPECT_LT(share.standard_error(), 1e-6);
+    }
+}
+
+TEST(Dielectric, OddsChangeHowOftenLightIsReflectedAndNothingElse) {
+    for (const float alpha : {0.0f, 0.3f}) {
+        for (const float odds : {1.0f / 8, 8.0f}) {
+            const DielectricBsdf plain{1.4f, alpha, alpha}, bsdf{1.4f, alpha, alpha, odds};
+            for (const Vec3& wo : incidences()) {
+                SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", odds " << odds << ", from " << wo);
+                Moments reflected, plainly, weight, plain_weight, kept, plainly_kept;
+                Pcg32 random(5);
+                for (int i = 0; i < 100000; ++i) {
+                    const auto s = sample(bsdf, wo, random), t = sample(plain, wo, random);
+                    const bool reflects = s && s->direction.z * wo.z > 0, plain_one = t && t->direction.z * wo.z > 0;
+                    reflected.add(reflects ? 1 : 0);
+                    plainly.add(plain_one ? 1 : 0);
+                    weight.add(reflects ? s->value.r / s->density : 0);
+                    plain_weight.add(plain_one ? t->value.r / t->density : 0);
+                    kept.add(s ? 1 / static_cast<double>(s->boost) : 0);
+                    plainly_kept.add(t ? 1 : 0);
+                    if (s && !s->specular && i % 100 == 0) {
+                        EXPECT_NEAR(s->density, s->boost * plain.density(wo, s->direction), 1e-4f * s->density);
+                        EXPECT_EQ(s->value, plain.evaluate(wo, s->direction));
+                    }
+                }
+                const auto error = [](const Moments& a, const Moments& b) {
+                    return 1e-5 + 4.5 * std::hypot(a.standard_error(), b.standard_error());
+                };
+                EXPECT_NEAR(weight.mean(), plain_weight.mean(), error(weight, plain_weight));
+                EXPECT_NEAR(kept.mean(), plainly_kept.mean(), error(kept, plainly_kept));
+                if (plainly.mean() < 0.9) {
+                    EXPECT_GT((reflected.mean() - plainly.mean()) * (odds - 1), 0);
+                }
+                // A quarter stays as it was.
+                EXPECT_GE(reflected.mean(), 0.24 * plainly.mean());
+                EXPECT_GE(1 - reflected.mean(), 0.24 * (1 - plainly.mean()));
+            }
+        }
     }
 }
 

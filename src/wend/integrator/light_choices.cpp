@@ -8,11 +8,7 @@
 namespace wend {
 namespace {
 
-constexpr int side = 12;
-/// In a volume, or the axis that is closest to a surface's normal and its direction.
-constexpr int kinds = 7;
-constexpr std::size_t cells = kinds * side * side * side;
-static_assert(cells <= 65536, "LightRecord::cell");
+static_assert(VertexCells::count <= 65536, "LightRecord::cell");
 constexpr std::size_t most_lights = 256;
 constexpr float scene_share = 0.25f;
 /// Connections in a cell that tell its lights apart.
@@ -20,48 +16,12 @@ constexpr double enough_connections = 8;
 /// How many connections the scene's opinion of a light is worth.
 constexpr double trust_in_scene = 2;
 
-int kind_of(const Vec3& normal) {
-    if (normal == Vec3(0, 0, 0)) {
-        return 0;
-    }
-    int axis = 0;
-    for (int i = 1; i < 3; ++i) {
-        axis = std::abs(normal[i]) > std::abs(normal[axis]) ? i : axis;
-    }
-    return 1 + 2 * axis + (normal[axis] < 0 ? 1 : 0);
-}
-
 }  // namespace
 
 LightChoices::LightChoices(const Scene& scene)
-    : scene_(scene), learns_(scene.lights().size() > 1 && scene.lights().size() <= most_lights) {
-}
-
-std::size_t LightChoices::index_of(const LightReceiver& receiver) const {
-    const Box3& box = scene_.bounds();
-    int cell = kind_of(receiver.normal);
-    for (int axis = 0; axis < 3; ++axis) {
-        const float size = box.max[axis] - box.min[axis];
-        const float u = size > 0 ? (receiver.position[axis] - box.min[axis]) / size : 0.0f;
-        // In this order a position that is not a number gives 0.
-        cell = cell * side + static_cast<int>(std::min(std::max(0.0f, u * side), side - 1.0f));
-    }
-    return static_cast<std::size_t>(cell);
-}
-
-LightReceiver LightChoices::centre_of(std::size_t cell) const {
-    const Box3& box = scene_.bounds();
-    auto rest = static_cast<int>(cell);
-    LightReceiver receiver{box.min};
-    for (int axis = 2; axis >= 0; --axis) {
-        const float step = (box.max[axis] - box.min[axis]) / side;
-        receiver.position[axis] += step * (static_cast<float>(rest % side) + 0.5f);
-        rest /= side;
-    }
-    if (rest > 0) {
-        receiver.normal[(rest - 1) / 2] = rest % 2 == 1 ? 1.0f : -1.0f;
-    }
-    return receiver;
+    : scene_(scene),
+      places_(scene.bounds()),
+      learns_(scene.lights().size() > 1 && scene.lights().size() <= most_lights) {
 }
 
 float LightChoices::by_scene(const LightReceiver& receiver, int light) const {
@@ -72,7 +32,7 @@ const float* LightChoices::cumulative(const LightReceiver& receiver) const {
     if (cells_.empty()) {
         return nullptr;
     }
-    const std::vector<float>& learned = cells_[index_of(receiver)].cumulative;
+    const std::vector<float>& learned = cells_[places_.at(receiver)].cumulative;
     return learned.empty() ? nullptr : learned.data();
 }
 
@@ -106,11 +66,11 @@ float LightChoices::probability(const LightReceiver& receiver, int light) const 
 }
 
 LightRecord LightChoices::record(const LightReceiver& receiver, int light, float brought) const {
-    return {static_cast<std::uint16_t>(index_of(receiver)), static_cast<std::uint16_t>(light), brought};
+    return {static_cast<std::uint16_t>(places_.at(receiver)), static_cast<std::uint16_t>(light), brought};
 }
 
 void LightChoices::add(std::span<const LightRecord> records) {
-    cells_.resize(cells);
+    cells_.resize(VertexCells::count);
     for (const LightRecord& record : records) {
         if (!std::isfinite(record.brought)) {
             continue;
@@ -141,7 +101,7 @@ void LightChoices::learn(std::size_t index) {
         return;
     }
     if (cell.prior.empty()) {
-        const LightReceiver centre = centre_of(index);
+        const LightReceiver centre = places_.centre_of(index);
         for (int light = 0; light < static_cast<int>(cell.tallies.size()); ++light) {
             cell.prior.push_back(by_scene(centre, light));
         }

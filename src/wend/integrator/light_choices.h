@@ -1,6 +1,7 @@
 // Which light a vertex is connected to, learned by place from what connections brought.
 #pragma once
 
+#include <wend/integrator/vertex_cells.h>
 #include <wend/scene/scene.h>
 
 #include <cstdint>
@@ -52,9 +53,6 @@ private:
         std::vector<float> cumulative;  ///< of what was learned; empty where that is too little
     };
 
-    std::size_t index_of(const LightReceiver& receiver) const;
-    /// In the middle of a cell.
-    LightReceiver centre_of(std::size_t cell) const;
     float by_scene(const LightReceiver& receiver, int light) const;
     void learn(std::size_t index);
     /// Of the lights up to each; null where too little is known.
@@ -64,6 +62,7 @@ private:
     }
 
     const Scene& scene_;
+    VertexCells places_;
     bool learns_;
     std::vector<Cell> cells_;  ///< none as long as nothing was added
 };

@@ -18,6 +18,7 @@ struct Tile {
     guide::PathRecords records;
     StayMoments stays;
     std::vector<LightRecord> lights;
+    std::vector<ReflectionRecord> reflections;
 };
 
 inline std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -26,7 +27,7 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
             tiles.push_back(
-                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}});
+                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}, {}});
         }
     }
     return tiles;
@@ -39,6 +40,7 @@ struct PassPlan {
     bool record;
     bool record_stays;
     bool record_lights;
+    bool record_reflections;
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
 };
@@ -48,8 +50,9 @@ template <class Decisions>
 class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
-         const SubsurfaceGuides& subsurface, const LightChoices& lights, const PassPlan& plan)
-        : tracer_(scene, decisions, subsurface, lights, settings.max_depth),
+         const SubsurfaceGuides& subsurface, const LightChoices& lights, const ReflectionChoices& reflections,
+         const PassPlan& plan)
+        : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth),
           subsurface_(subsurface),
           camera_(scene.camera()),
           film_(film),
@@ -77,9 +80,10 @@ private:
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
-        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler,
-                                          {plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
-                                           plan_.record_lights ? &tile.lights : nullptr});
+        WalkResult result = tracer_.trace(
+            ray, estimate(pixel), sampler,
+            {plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
+             plan_.record_lights ? &tile.lights : nullptr, plan_.record_reflections ? &tile.reflections : nullptr});
         for (const Stay& stay : std::exchange(stays, {})) {
             subsurface_.count(stay, tile.stays);
         }

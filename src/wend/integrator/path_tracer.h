@@ -8,6 +8,7 @@
 #include <wend/film/film.h>
 #include <wend/guide/path_log.h>
 #include <wend/integrator/light_choices.h>
+#include <wend/integrator/reflection_choices.h>
 #include <wend/integrator/subsurface.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
@@ -61,9 +62,10 @@ GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<F
 
 /// What a walk tells those that learn from it, if they are there.
 struct WalkLessons {
-    guide::PathLog* log = nullptr;               ///< is started anew
-    std::vector<Stay>* stays = nullptr;          ///< those in dense media are added
-    std::vector<LightRecord>* lights = nullptr;  ///< what connections brought is added
+    guide::PathLog* log = nullptr;                         ///< is started anew
+    std::vector<Stay>* stays = nullptr;                    ///< those in dense media are added
+    std::vector<LightRecord>* lights = nullptr;            ///< what connections brought is added
+    std::vector<ReflectionRecord>* reflections = nullptr;  ///< what was found behind boundaries is added
 };
 
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
@@ -72,8 +74,13 @@ class PathTracer {
 public:
     /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to.
     PathTracer(const Scene& scene, const Decisions& decisions, const SubsurfaceGuides& subsurface,
-               const LightChoices& lights, int max_depth)
-        : scene_(scene), decisions_(decisions), subsurface_(subsurface), lights_(lights), max_depth_(max_depth) {}
+               const LightChoices& lights, const ReflectionChoices& reflections, int max_depth)
+        : scene_(scene),
+          decisions_(decisions),
+          subsurface_(subsurface),
+          lights_(lights),
+          reflections_(reflections),
+          max_depth_(max_depth) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
     /// none.
@@ -86,6 +93,7 @@ private:
     const Decisions& decisions_;
     const SubsurfaceGuides& subsurface_;
     const LightChoices& lights_;
+    const ReflectionChoices& reflections_;
     int max_depth_;
 };
 

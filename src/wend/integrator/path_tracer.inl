@@ -7,6 +7,7 @@
 #include <wend/integrator/scattering.h>
 
 #include <algorithm>
+#include <concepts>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,12 +25,14 @@ public:
           log_(lessons.log),
           stays_(lessons.stays),
           lights_(lessons.lights),
+          reflections_(lessons.reflections),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
         if (log_) {
             log_->start();
         }
+        boundaries_.start();
         now_.ray = start;
         now_.medium = scene_.camera_medium();
         do {
@@ -37,6 +40,9 @@ public:
             }
             end_stay();
         } while (take_up_pending());
+        if (reflections_) {
+            boundaries_.finish(*reflections_);
+        }
         result_.sample.radiance = radiance_;
         return result_;
     }
@@ -67,6 +73,7 @@ private:
         Rgb pass_probability;
 
         guide::PathLog::Branch logged{};
+        int boundary = ReflectionLog::none;  ///< the last one that was passed
     };
 
     /// One flight to the next collision, surface or interface; false where the walk ends.
@@ -207,7 +214,10 @@ private:
 
     bool scatter_at(const Hit& hit) {
         meet();
-        const SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+        SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+        if (f.reflects_or_refracts()) {
+            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}));
+        }
         if (now_.depth == 0) {
             remember_first(f.albedo(), hit.shading.n);
         }
@@ -309,6 +319,9 @@ private:
         if (!s) {
             return false;
         }
+        if constexpr (std::same_as<F, SurfaceScattering>) {
+            note_reflection(f, *s);
+        }
         scatter_into(*s, position, in_volume);
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
@@ -343,6 +356,15 @@ private:
         }
         now_.travelled = 0;
         return true;
+    }
+
+    void note_reflection(const SurfaceScattering& f, const DirectionSample& s) {
+        if (reflections_ && f.reflects_or_refracts()) {
+            const Vec3 normal = faced(*hit_);
+            const ReflectionRecord record =
+                tracer_.reflections_.record({hit_->position, normal}, dot(s.direction, normal) > 0, 0);
+            now_.boundary = boundaries_.note(now_.boundary, record, mean_value(now_.throughput) / s.boost);
+        }
     }
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
@@ -541,6 +563,7 @@ private:
     }
     void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
         radiance_ += light;
+        boundaries_.bring(now_.boundary, mean_value(light));
         if (stays_ && now_.stay.medium != vacuum) {
             update_stay();
             now_.stay.bring(mean_value(light), slope.value_or(StaySlope{now_.stay.relative, 0}));
@@ -571,6 +594,8 @@ private:
     guide::PathLog* log_;
     std::vector<Stay>* stays_;
     std::vector<LightRecord>* lights_;
+    std::vector<ReflectionRecord>* reflections_;
+    ReflectionLog boundaries_;
 
     Branch now_;
     std::vector<Branch> pending_;

@@ -55,6 +55,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
 
     SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
     LightChoices lights(scene);
+    ReflectionChoices reflections(scene.bounds());
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
@@ -67,9 +68,10 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                       !preset.is_classical() && learning,
                       !subsurface.is_empty() && learning,
                       preset.direction && lights.learns() && learning,
+                      (preset.direction || !subsurface.is_empty()) && learning,
                       {}};
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene, film, settings, decisions, subsurface, lights, plan);
+            const Pass one(scene, film, settings, decisions, subsurface, lights, reflections, plan);
             parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
         };
         const GuidedDistance distance(
@@ -121,6 +123,12 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 lights.add(std::exchange(tile.lights, {}));
             }
             lights.learn(settings.threads);
+        }
+        if (plan.record_reflections) {
+            for (Tile& tile : tiles) {
+                reflections.add(std::exchange(tile.reflections, {}));
+            }
+            reflections.learn();
         }
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;

@@ -24,7 +24,7 @@ public:
         if (!s) {
             return std::nullopt;
         }
-        return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular};
+        return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular, s->boost};
     }
     AxialLobes lobes() const {
         const AxialLobes local = lobes_of(bsdf_, wo_);
@@ -33,6 +33,10 @@ public:
     bool is_specular() const {
         return std::visit([](const auto& b) { return b.is_specular(); }, bsdf_);
     }
+    /// Whether light goes on either side, as Fresnel's equations have it.
+    bool reflects_or_refracts() const { return std::holds_alternative<DielectricBsdf>(bsdf_); }
+    /// Draws reflections so many times more often (DielectricBsdf::odds).
+    void prefer_reflection(float odds) { std::get<DielectricBsdf>(bsdf_).odds = odds; }
     bool is_guidable() const { return is_pictured_by_lobes(bsdf_); }
     float index_ratio(const Vec3& w) const { return wend::index_ratio(bsdf_, wo_, shading_.to_local(w)); }
     Rgb albedo() const { return directional_albedo(bsdf_, wo_); }

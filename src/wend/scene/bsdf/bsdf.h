@@ -18,6 +18,7 @@ struct BsdfSample {
     Rgb value;          ///< BSDF times cosine (for specular: the coefficient times `density`)
     float density = 0;  ///< per steradian; a probability if specular
     bool specular = false;
+    float boost = 1;  ///< density over what it would be without DielectricBsdf::odds
 };
 
 /// Ideal diffuse reflection.
@@ -49,11 +50,18 @@ struct DielectricBsdf {
     float ior = 1.5f;
     float alpha_x = 0;
     float alpha_y = 0;
+    /// How many times more often than Fresnel's equations have it a reflection is drawn over a refraction; a quarter of
+    /// all samples is left to them.
+    float odds = 1;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const;
+
+private:
+    /// With which a reflection is drawn where that is Fresnel's.
+    float reflection_probability(float fresnel) const;
 };
 
 /// A diffuse base under a dielectric coat, smooth or rough. Light that enters is refracted in and out and reflected

@@ -34,6 +34,15 @@ std::optional<Facet> facet_between(const DielectricBsdf& b, const Vec3& wo, cons
 
 }  // namespace
 
+float DielectricBsdf::reflection_probability(float fresnel) const {
+    constexpr float fresnel_share = 0.25f;
+    const float reflected = fresnel * odds;
+    // Exactly Fresnel's where nothing is preferred, and where everything is reflected.
+    return odds == 1 || fresnel == 1
+               ? fresnel
+               : fresnel_share * fresnel + (1 - fresnel_share) * reflected / (reflected + 1 - fresnel);
+}
+
 bool DielectricBsdf::is_specular() const {
     return ior == 1 || Microfacets::is_smooth(alpha_x, alpha_y);
 }
@@ -70,11 +79,12 @@ float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
     const Microfacets facets(alpha_x, alpha_y);
     const Vec3& m = facet->normal;
     const float f = fresnel_dielectric(dot(wo, m), ior);
+    const float reflection = reflection_probability(f);
     if (facet->reflects) {
-        return f * facets.visible_density(wo, m) / (4 * abs_dot(wo, m));
+        return reflection * facets.visible_density(wo, m) / (4 * abs_dot(wo, m));
     }
     const float denominator = sqr(dot(wi, m) + dot(wo, m) / facet->index_ratio);
-    return (1 - f) * facets.visible_density(wo, m) * abs_dot(wi, m) / denominator;
+    return (1 - reflection) * facets.visible_density(wo, m) * abs_dot(wi, m) / denominator;
 }
 
 std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const Vec2& u2) const {
@@ -84,30 +94,33 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const 
     const bool specular = is_specular();
     const Vec3 m = specular ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
     const float f = fresnel_dielectric(dot(wo, m), ior);
-    if (u < f) {
+    const float reflection = reflection_probability(f);
+    if (u < reflection) {
+        const float boost = reflection / f;
         const Vec3 wi = m * (2 * dot(wo, m)) - wo;
         if (specular) {
-            return BsdfSample{wi, Rgb(f), f, true};
+            return BsdfSample{wi, Rgb(f), reflection, true, boost};
         }
         const float p = density(wo, wi);
         if (!(wo.z * wi.z > 0) || !(p > 0)) {
             return std::nullopt;
         }
-        return BsdfSample{wi, evaluate(wo, wi), p};
+        return BsdfSample{wi, evaluate(wo, wi), p, false, boost};
     }
     const auto refraction = refract(wo, m, ior);
     if (!refraction || wo.z * refraction->direction.z > 0 || refraction->direction.z == 0) {
         return std::nullopt;
     }
     const Vec3& wi = refraction->direction;
+    const float boost = (1 - reflection) / (1 - f);
     if (specular) {
-        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - f, true};
+        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - reflection, true, boost};
     }
     const float p = density(wo, wi);
     if (!(p > 0)) {
         return std::nullopt;
     }
-    return BsdfSample{wi, evaluate(wo, wi), p};
+    return BsdfSample{wi, evaluate(wo, wi), p, false, boost};
 }
 
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {

@@ -1,0 +1,139 @@
+// Choices between reflection and refraction that were learned: what they learn, and that pictures stay the same.
+#include <tests/support/scenes.h>
+
+#include <wend/integrator/reflection_choices.h>
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace wend {
+namespace {
+
+const Box3 room(Vec3(-1), Vec3(1));
+const LightReceiver here{{0.5f, 0.5f, 0.5f}, {0, 0, 1}}, there{{0.5f, 0.5f, 0.5f}, {0, 0, -1}};
+
+TEST(ReflectionChoices, AreFresnelsUntilSomethingIsKnown) {
+    ReflectionChoices choices(room);
+    EXPECT_EQ(choices.odds(here), 1);
+    choices.learn();
+    EXPECT_EQ(choices.odds(here), 1);
+    const std::vector<ReflectionRecord> dark(100, choices.record(here, true, 0));
+    choices.add(dark);
+    choices.learn();
+    EXPECT_EQ(choices.odds(here), 1);
+}
+
+TEST(ReflectionChoices, FollowTheRatioOfWhatWasBrought) {
+    ReflectionChoices choices(room);
+    std::vector<ReflectionRecord> records;
+    for (int i = 0; i < 10000; ++i) {
+        // Five on the one way, one on the other, as means.
+        records.push_back(choices.record(here, i % 4 == 0, i % 4 == 0 ? 5 : i % 2 == 0 ? 3.0f : 0.0f));
+        records.push_back(choices.record(there, i % 4 == 0, i % 4 == 0 ? 0.0f : 1));
+    }
+    records.push_back(choices.record(here, true, std::numeric_limits<float>::infinity()));
+    records.push_back(choices.record(here, true, std::numeric_limits<float>::quiet_NaN()));
+    choices.add(records);
+    EXPECT_EQ(choices.odds(here), 1) << "before the lesson";
+    choices.learn();
+    EXPECT_NEAR(choices.odds(here), 5, 0.1f);
+    // No way is ruled out.
+    EXPECT_GT(choices.odds(there), 1.0f / 65);
+    EXPECT_LT(choices.odds(there), 1.0f / 60);
+    EXPECT_EQ(choices.odds({{-0.5f, 0.5f, 0.5f}, {0, 0, 1}}), 1) << "elsewhere";
+}
+
+TEST(ReflectionChoices, FewRecordsSayLittle) {
+    ReflectionChoices choices(room);
+    const std::vector<ReflectionRecord> records = {choices.record(here, true, 100), choices.record(here, false, 1)};
+    choices.add(records);
+    choices.learn();
+    EXPECT_GT(choices.odds(here), 1);
+    EXPECT_LT(choices.odds(here), 1.5f);
+}
+
+TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
+    const ReflectionChoices choices(room);
+    ReflectionLog log;
+    log.start();
+    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 0.5f);
+    log.bring(first, 1);
+    const int left = log.note(first, choices.record(here, false, 0), 0.25f);
+    const int right = log.note(first, choices.record(there, true, 0), 2);
+    log.bring(left, 3);
+    log.bring(right, 8);
+    log.bring(ReflectionLog::none, 100);
+    std::vector<ReflectionRecord> records;
+    log.finish(records);
+    ASSERT_EQ(records.size(), 3u);
+    EXPECT_EQ(records[0].brought, 4);
+    EXPECT_TRUE(records[0].reflected);
+    EXPECT_EQ(records[1].brought, 12);
+    EXPECT_FALSE(records[1].reflected);
+    EXPECT_EQ(records[2].brought, 24);
+    log.finish(records);
+    EXPECT_EQ(records.size(), 3u) << "a walk is told once";
+}
+
+/// The mean of the picture and the sum of squared differences of pictures, over independent renders.
+struct Renders {
+    Moments mean;
+    double noise = 0;
+
+    Renders(const Scene& scene, const char* sampling, const char* subsurface, std::uint64_t first_seed) {
+        constexpr int resolution = 6;
+        Image last;
+        for (std::uint64_t i = 0; i < 8; ++i) {
+            Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+            RenderSettings settings;
+            settings.preset = parse_preset(sampling);
+            settings.subsurface = parse_subsurface(subsurface);
+            settings.samples = 4096;
+            // What a choice adds to the noise of one sample, not how well samples are spread over it.
+            settings.sampler = SamplerKind::independent;
+            settings.seed = first_seed + i;
+            settings.max_depth = 200;
+            render(scene, film, settings);
+            const Image image = film.beauty();
+            double sum = 0;
+            for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+                sum += luminance(image.pixels[k]);
+                noise += i > 0 ? std::pow(luminance(image.pixels[k] - last.pixels[k]), 2) : 0;
+            }
+            mean.add(sum / static_cast<double>(image.pixels.size()));
+            last = image;
+        }
+    }
+};
+
+class DarkGlass : public testing::TestWithParam<float> {};
+
+TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
+    // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
+    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, 6);
+    const MediumId murk = test::add_homogeneous(s, Rgb(6.0f), Rgb(10.0f), 0.3f);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam()), murk);
+    test::add_environment(s, Rgb(1.0f));
+    const Scene scene(std::move(s));
+    const Renders classical(scene, "classical", "classical", 1000);
+    for (const auto& [sampling, subsurface] : {std::pair("direction", "classical"), {"full", "auto"}}) {
+        SCOPED_TRACE(testing::Message() << sampling << ", " << subsurface);
+        const Renders guided(scene, sampling, subsurface, 2000);
+        const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
+        EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+            << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;
+        EXPECT_FALSE(agrees(1.01 * guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+            << "a bias of 1 % must be seen: " << error / classical.mean.mean();
+        EXPECT_LT(guided.noise, 0.7 * classical.noise) << classical.noise;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Roughness, DarkGlass, testing::Values(0.0f, 0.2f));
+
+}  // namespace
+}  // namespace wend
