@@ -1,9 +1,9 @@
 // Choices of lights that were learned: their probabilities, what they learn, and that pictures stay the same.
+#include <tests/support/repeated_renders.h>
 #include <tests/support/scenes.h>
 
 #include <wend/integrator/light_choices.h>
 #include <wend/stats/chi_square.h>
-#include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
@@ -141,39 +141,18 @@ TEST(LightChoices, AreLeftToTheSceneWhereThereAreTooManyOrOne) {
     }
 }
 
-/// The mean of the picture and the sum of squared differences of pictures, over independent renders.
-struct Renders {
-    Moments mean;
-    double noise = 0;
-
-    Renders(const Scene& scene, const char* sampling, std::uint64_t first_seed) {
-        Image last;
-        for (std::uint64_t i = 0; i < 8; ++i) {
-            Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-            RenderSettings settings;
-            settings.preset = parse_preset(sampling);
-            settings.samples = 512;
-            settings.seed = first_seed + i;
-            settings.max_depth = 20;
-            render(scene, film, settings);
-            const Image image = film.beauty();
-            double sum = 0;
-            for (std::size_t k = 0; k < image.pixels.size(); ++k) {
-                sum += luminance(image.pixels[k]);
-                noise += i > 0 ? std::pow(luminance(image.pixels[k] - last.pixels[k]), 2) : 0;
-            }
-            mean.add(sum / static_cast<double>(image.pixels.size()));
-            last = image;
-        }
-    }
-};
-
 TEST(LightChoices, GiveTheSamePictureWithLessNoise) {
     const Scene scene(lamps());
-    const Renders classical(scene, "classical", 1000);
+    RenderSettings settings;
+    settings.samples = 512;
+    settings.max_depth = 20;
+    settings.seed = 1000;
+    const test::RepeatedRenders classical(scene, settings, resolution);
+    settings.seed = 2000;
     for (const char* sampling : {"direction", "full"}) {
         SCOPED_TRACE(sampling);
-        const Renders guided(scene, sampling, 2000);
+        settings.preset = parse_preset(sampling);
+        const test::RepeatedRenders guided(scene, settings, resolution);
         const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
         EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
             << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;

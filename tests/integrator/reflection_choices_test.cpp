@@ -1,8 +1,8 @@
 // Choices between reflection and refraction that were learned: what they learn, and that pictures stay the same.
+#include <tests/support/repeated_renders.h>
 #include <tests/support/scenes.h>
 
 #include <wend/integrator/reflection_choices.h>
-#include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
@@ -80,50 +80,30 @@ TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
     EXPECT_EQ(records.size(), 3u) << "a walk is told once";
 }
 
-/// The mean of the picture and the sum of squared differences of pictures, over independent renders.
-struct Renders {
-    Moments mean;
-    double noise = 0;
-
-    Renders(const Scene& scene, const char* sampling, const char* subsurface, std::uint64_t first_seed) {
-        constexpr int resolution = 6;
-        Image last;
-        for (std::uint64_t i = 0; i < 8; ++i) {
-            Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-            RenderSettings settings;
-            settings.preset = parse_preset(sampling);
-            settings.subsurface = parse_subsurface(subsurface);
-            settings.samples = 4096;
-            // What a choice adds to the noise of one sample, not how well samples are spread over it.
-            settings.sampler = SamplerKind::independent;
-            settings.seed = first_seed + i;
-            settings.max_depth = 200;
-            render(scene, film, settings);
-            const Image image = film.beauty();
-            double sum = 0;
-            for (std::size_t k = 0; k < image.pixels.size(); ++k) {
-                sum += luminance(image.pixels[k]);
-                noise += i > 0 ? std::pow(luminance(image.pixels[k] - last.pixels[k]), 2) : 0;
-            }
-            mean.add(sum / static_cast<double>(image.pixels.size()));
-            last = image;
-        }
-    }
-};
+constexpr int resolution = 6;
 
 class DarkGlass : public testing::TestWithParam<float> {};
 
 TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
-    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, 6);
+    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, resolution);
     const MediumId murk = test::add_homogeneous(s, Rgb(6.0f), Rgb(10.0f), 0.3f);
     test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam()), murk);
     test::add_environment(s, Rgb(1.0f));
     const Scene scene(std::move(s));
-    const Renders classical(scene, "classical", "classical", 1000);
+    RenderSettings settings;
+    settings.samples = 4096;
+    settings.max_depth = 200;
+    // What a choice adds to the noise of one sample, not how well samples are spread over it.
+    settings.sampler = SamplerKind::independent;
+    settings.seed = 1000;
+    const test::RepeatedRenders classical(scene, settings, resolution);
+    settings.seed = 2000;
     for (const auto& [sampling, subsurface] : {std::pair("direction", "classical"), {"full", "auto"}}) {
         SCOPED_TRACE(testing::Message() << sampling << ", " << subsurface);
-        const Renders guided(scene, sampling, subsurface, 2000);
+        settings.preset = parse_preset(sampling);
+        settings.subsurface = parse_subsurface(subsurface);
+        const test::RepeatedRenders guided(scene, settings, resolution);
         const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
         EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
             << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;

@@ -3,6 +3,7 @@
 
 #include <wend/decision/channels.h>
 #include <wend/integrator/light_connection.h>
+#include <wend/integrator/light_met.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
 
@@ -26,6 +27,7 @@ public:
           stays_(lessons.stays),
           lights_(lessons.lights),
           reflections_(lessons.reflections),
+          met_(scene_, tracer.lights_),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
@@ -63,14 +65,7 @@ private:
         bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
-        float connected = 1;                ///< the last vertex: how often, as a mean
-
-        // The last vertex, as multiple importance sampling wants it.
-        LightReceiver receiver{};
-        bool specular = false;
-        float density = 0;
-        Rgb channels;
-        Rgb pass_probability;
+        LastVertex last;
 
         guide::PathLog::Branch logged{};
         int boundary = ReflectionLog::none;  ///< the last one that was passed
@@ -98,14 +93,14 @@ private:
             }
         }
         if (!hit) {
-            if (const Arriving arriving = environment(); !is_black(arriving.radiance)) {
+            if (const MetLight arriving = met_.beyond(now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
                 gather(arriving.radiance, slope_of(arriving));
             }
             return false;
         }
         now_.travelled += hit->distance;
         if (hit->light >= 0) {
-            if (const Arriving arriving = emission(*hit); !is_black(arriving.radiance)) {
+            if (const MetLight arriving = met_.at(*hit, now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
                 gather(arriving.radiance, slope_of(arriving));
             }
         }
@@ -126,17 +121,18 @@ private:
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
             const SlabFlight flight = now_.slab.fly(length, sampler_.uniform(), sampler_.random());
-            now_.pass_probability *=
+            now_.last.pass_probability *=
                 told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
         }
-        FlightStart start{now_.ray, length, now_.throughput, now_.boost, {}, now_.depth, keeps_of_glow()};
+        FlightStart start{
+            now_.ray, length, now_.throughput, now_.boost, {}, now_.depth, met_.in(now_.medium, now_.last)};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(hit);
         }
         const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
         if (!flight.scatters) {
-            now_.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
+            now_.last.pass_probability *= d_.distance.pass_probability(medium, now_.ray, length);
         }
         return flight;
     }
@@ -182,13 +178,13 @@ private:
     FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
         FlightEnd end;
         if (!hit) {
-            end.emitted = mean_value(environment().radiance);
+            end.emitted = mean_value(met_.beyond(now_.last, now_.ray.direction).radiance);
             return end;
         }
         end.kind = scene_.is_interface(*hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
         end.position = hit->position;
         end.normal = faced(*hit);
-        end.emitted = hit->light >= 0 ? mean_value(emission(*hit).radiance) : 0.0f;
+        end.emitted = hit->light >= 0 ? mean_value(met_.at(*hit, now_.last, now_.ray.direction).radiance) : 0.0f;
         return end;
     }
 
@@ -325,13 +321,13 @@ private:
         scatter_into(*s, position, in_volume);
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
-        now_.specular = s->specular;
         now_.preference = preference(in_volume);
-        now_.connected = connections(in_volume);
-        now_.density = s->density * now_.preference;
-        now_.receiver = {position, normal};
-        now_.pass_probability = Rgb(1.0f);
-        now_.channels = channel_probabilities(now_.throughput);
+        now_.last = {{position, normal},
+                     s->specular,
+                     s->density * now_.preference,
+                     connections(in_volume),
+                     channel_probabilities(now_.throughput),
+                     Rgb(1.0f)};
         if (in_volume && now_.slab.is_inside()) {
             now_.slab.turn(now_.ray.direction, s->direction);
         }
@@ -466,69 +462,8 @@ private:
         return found;
     }
 
-    /// Light that the walk ran into, weighted against the connection that could have found it.
-    float emission_weight(int light, const Vec3& hit, const Vec3& normal) const {
-        if (now_.depth == 0 || now_.specular) {
-            return 1;
-        }
-        const float other = now_.connected * tracer_.lights_.probability(now_.receiver, light) *
-                            light_density(scene_.lights()[static_cast<std::size_t>(light)], now_.receiver.position,
-                                          now_.ray.direction, hit, normal);
-        const float own = own_density();
-        return own > 0 ? own / (own + other) : 0.0f;
-    }
-
-    /// Of the walk's direction, where it is weighed against that of connections.
-    float own_density() const { return now_.density * dot(now_.channels, now_.pass_probability); }
-
-    /// What a flight through the medium may keep of its light.
-    GlowShare keeps_of_glow() const {
-        const int light = scene_.glow_light(now_.medium);
-        if (light < 0 || now_.depth == 0 || now_.specular) {
-            return {};
-        }
-        return {std::get<GlowLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
-                now_.receiver.position, own_density(),
-                now_.connected * tracer_.lights_.probability(now_.receiver, light)};
-    }
-
-    /// Light with its weight of multiple importance sampling.
-    struct Arriving {
-        Rgb radiance;
-        float by_connections = 0;  ///< the same, the part left to connections
-
-        void add(const Rgb& emitted, float weight) {
-            radiance += emitted * weight;
-            by_connections += mean_value(emitted) * weight * (1 - weight);
-        }
-    };
-
-    /// Of the surface that was hit.
-    Arriving emission(const Hit& hit) const {
-        Arriving arriving;
-        const Rgb emitted =
-            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -now_.ray.direction);
-        if (!is_black(emitted)) {
-            arriving.add(emitted, emission_weight(hit.light, hit.position, hit.normal));
-        }
-        return arriving;
-    }
-
-    /// From beyond the scene.
-    Arriving environment() const {
-        Arriving arriving;
-        for (const int light : scene_.infinite_lights()) {
-            const Rgb emitted =
-                environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], now_.ray.direction);
-            if (!is_black(emitted)) {
-                arriving.add(emitted, emission_weight(light, {}, {}));
-            }
-        }
-        return arriving;
-    }
-
     /// Only what was weighted with the preference of a stay changes with it.
-    std::optional<StaySlope> slope_of(const Arriving& arriving) {
+    std::optional<StaySlope> slope_of(const MetLight& arriving) {
         if (!stays_ || now_.preference == 1) {
             return std::nullopt;
         }
@@ -596,6 +531,7 @@ private:
     std::vector<LightRecord>* lights_;
     std::vector<ReflectionRecord>* reflections_;
     ReflectionLog boundaries_;
+    LightMet met_;
 
     Branch now_;
     std::vector<Branch> pending_;

@@ -1,0 +1,92 @@
+// Light that a walk runs into, weighted against the connections that could have found it.
+#pragma once
+
+#include <wend/decision/distance.h>
+#include <wend/integrator/light_choices.h>
+#include <wend/scene/scene.h>
+
+namespace wend {
+
+/// The last vertex of a walk and the way from there, as multiple importance sampling wants it.
+struct LastVertex {
+    LightReceiver receiver{};
+    /// Whether nothing was connected to lights there: before the first vertex, and after a mirror.
+    bool unconnected = true;
+    /// Of the direction drawn there, per steradian, times what it counts for against connections.
+    float density = 0;
+    /// How often it was connected, as a mean.
+    float connected = 1;
+    /// Probabilities of the walk's colour channels, and under each of them of flying as far as the walk has.
+    Rgb channels;
+    Rgb pass_probability;
+
+    float own_density() const { return density * dot(channels, pass_probability); }
+};
+
+/// Light with its weight of multiple importance sampling.
+struct MetLight {
+    Rgb radiance;
+    float by_connections = 0;  ///< the same, the part left to connections
+
+    void add(const Rgb& emitted, float weight) {
+        radiance += emitted * weight;
+        by_connections += mean_value(emitted) * weight * (1 - weight);
+    }
+};
+
+/// Answers for walks that go from a last vertex into a direction.
+class LightMet {
+public:
+    LightMet(const Scene& scene, const LightChoices& choices) : scene_(scene), choices_(choices) {}
+
+    /// Of a surface that shines.
+    MetLight at(const Hit& hit, const LastVertex& last, const Vec3& direction) const {
+        MetLight arriving;
+        const Rgb emitted =
+            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -direction);
+        if (!is_black(emitted)) {
+            arriving.add(emitted, weight(hit.light, last, direction, hit.position, hit.normal));
+        }
+        return arriving;
+    }
+
+    /// From beyond the scene.
+    MetLight beyond(const LastVertex& last, const Vec3& direction) const {
+        MetLight arriving;
+        for (const int light : scene_.infinite_lights()) {
+            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], direction);
+            if (!is_black(emitted)) {
+                arriving.add(emitted, weight(light, last, direction, {}, {}));
+            }
+        }
+        return arriving;
+    }
+
+    /// What a flight through a medium may keep of its light.
+    GlowShare in(MediumId medium, const LastVertex& last) const {
+        const int light = scene_.glow_light(medium);
+        if (light < 0 || last.unconnected) {
+            return {};
+        }
+        return {std::get<GlowLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
+                last.receiver.position, last.own_density(),
+                last.connected * choices_.probability(last.receiver, light)};
+    }
+
+private:
+    float weight(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
+        if (last.unconnected) {
+            return 1;
+        }
+        const float other = last.connected * choices_.probability(last.receiver, light) *
+                            light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position,
+                                          direction, hit, normal);
+        const float own = last.own_density();
+        return own > 0 ? own / (own + other) : 0.0f;
+    }
+
+    const Scene& scene_;
+    const LightChoices& choices_;
+};
+
+}  // namespace wend
