@@ -3,6 +3,9 @@
 
 #include <wend/integrator/render.h>
 #include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
@@ -31,5 +34,14 @@ struct RepeatedRenders {
         }
     }
 };
+
+/// Both means agree within four standard errors, which are small enough that a bias of 1 % would be seen.
+inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRenders& guided) {
+    const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
+    EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+        << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;
+    EXPECT_FALSE(agrees(1.01 * guided.mean.mean() - classical.mean.mean(), error, 0, 4))
+        << "a bias of 1 % must be seen: " << error / classical.mean.mean();
+}
 
 }  // namespace wend::test

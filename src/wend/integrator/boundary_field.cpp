@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace wend {
 namespace {
@@ -102,6 +103,12 @@ const LitPoint& BoundaryField::closest_point(const Cell& cell, const Vec3& posit
 BoundaryField::View BoundaryField::at(const Vec3& position) const {
     const Cell& cell = cells_[cell_at(position)];
     return {closest_point(cell, position), cell, position, decay_};
+}
+
+float BoundaryField::mean_curvature() const {
+    return std::accumulate(points_.begin(), points_.end(), 0.0f,
+                           [](float sum, const LitPoint& p) { return sum + p.curvature; }) /
+           static_cast<float>(points_.size());
 }
 
 LayerPlace BoundaryField::View::layer() const {

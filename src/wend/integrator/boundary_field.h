@@ -29,6 +29,8 @@ public:
     class View;
     /// What is known where a walk is; the field is referred to.
     View at(const Vec3& position) const;
+    /// Over the whole boundary, that of its points.
+    float mean_curvature() const;
 
 private:
     static constexpr int side = 24;

@@ -73,10 +73,8 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     constexpr Passage blocked{Rgb(0.0f), Rgb(0.0f)};
     Passage passage;
     Ray ray = shadow.ray;
-    // Short of a light that is a surface.
-    float rest = shadow.length == infinity ? farthest
-                 : shadow.medium == vacuum ? shadow.length * (1 - 1e-4f)
-                                           : shadow.length;
+    const float part = shadow.medium == vacuum ? 1 - 1e-4f : 1.0f;  // short of a light that is a surface
+    float rest = shadow.length == infinity ? farthest : shadow.length * part;
     if (scene.is_occluded(ray, rest)) {
         return blocked;
     }

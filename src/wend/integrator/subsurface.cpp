@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace wend {
 namespace {
@@ -150,9 +149,7 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
             guide.layered = static_cast<int>(layered - strategies_.begin());
             guide.layers.resize(static_cast<std::size_t>(guide.channels()));
             const double ior = static_cast<double>(boundary.ior);
-            const std::vector<float> curvatures = mean_curvatures(points);
-            const float curvature =
-                std::accumulate(curvatures.begin(), curvatures.end(), 0.0f) / static_cast<float>(curvatures.size());
+            const float curvature = field->mean_curvature();
             parallel_for(guide.layers.size(), threads, [&](std::size_t c) {
                 const double extinction = medium->extinction()[static_cast<int>(c)];
                 const double albedo = static_cast<double>(medium->scattering[static_cast<int>(c)]) / extinction;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace wend {
 namespace {
@@ -36,7 +37,7 @@ Glow::Glow(const Box3& box, const Transform& world_from_index, const std::functi
         sums.push_back(sums.back() + sum / (points * points * points));
     }
     power_ = static_cast<float>(sums.back() * volume);
-    if (!(power_ > 0 && std::isfinite(power_))) {
+    if (!(power_ > 0 && std::isfinite(power_) && cell_volume_ >= std::numeric_limits<float>::min())) {
         power_ = 0;
         return;
     }
