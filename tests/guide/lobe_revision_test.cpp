@@ -115,6 +115,33 @@ TEST(ReviseLobes, MergesLobesThatShareOneSource) {
     EXPECT_LT(misfit(learned.sums[0], learned.model.mixture.lobe(0).vmf).total(), 0.02);
 }
 
+TEST(ReviseLobes, KeepsWhatIsKnownOfALobeThatWasSplit) {
+    // Of a lobe's earlier records only the weight is known once it was split; then it is merged.
+    Pcg32 random(5);
+    std::vector<Observation> observations;
+    for (int i = 0; i < 4000; ++i) {
+        observations.push_back({Vmf{mean, 100}.sample(random.uniform2()), Vec3(0, 0, 0), 0, 1, 1.5f, 0.5f});
+    }
+    const LobeModel model{two({normalize(mean + Vec3(0.05f, 0, 0)), 100}, {normalize(mean - Vec3(0.05f, 0, 0)), 100}),
+                          {}};
+    std::array<LobeSums, max_lobes> earlier = expectation(model, observations, 1);
+    LearnedLobes learned{model, earlier};
+    for (int i = 0; i < 2; ++i) {
+        learned.sums[i] += earlier[i];
+    }
+    earlier[0] = {};
+    earlier[0].weight = 2000;
+    ASSERT_TRUE(revise_lobes(learned, earlier, max_lobes));
+    ASSERT_EQ(learned.model.mixture.size(), 1);
+    const LobeSums& known = earlier[0];
+    EXPECT_NEAR(known.weight, 4000, 200);
+    EXPECT_NEAR(length(known.direction) / known.weight, vmf_mean_cosine(100.0f), 2e-3f);
+    EXPECT_NEAR(known.red / known.weight, 1.5f, 1e-3f);
+    EXPECT_NEAR(known.blue / known.weight, 0.5f, 1e-3f);
+    EXPECT_GT(effective_records(known), 1500);
+    EXPECT_LT(effective_records(known), 8000) << "not more than if all were known";
+}
+
 /// Observations at random places whose number or weight follows the place.
 template <class Weight>
 SplitEvidence evidence_of(const Weight& weight) {

@@ -16,14 +16,6 @@
 namespace wend {
 namespace {
 
-void add_lamp(SceneDescription& s, const Vec3& p, float size, const Rgb& radiance, int material) {
-    Surface lamp{TriangleMesh{{p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size)}, {}, {}, {0, 1, 2}}, material};
-    lamp.first_light = static_cast<int>(s.lights.size());
-    s.lights.push_back(make_triangle_light(p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size), true, radiance, true));
-    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
-    s.surfaces.push_back(std::move(lamp));
-}
-
 constexpr int resolution = 16;
 constexpr int hidden = 1, first_plain = 0, sky = 4;
 
@@ -35,10 +27,10 @@ SceneDescription lamps() {
     test::add_parallelogram(s, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, grey);
     test::add_parallelogram(s, {-2, 0, 1.5f}, {4, 0, 0}, {0, 1.5f, 0}, grey);
     test::add_parallelogram(s, {-1.2f, 1.9f, -1.2f}, {2.4f, 0, 0}, {0, 0, 2.4f}, grey);
-    add_lamp(s, {-1.5f, 1.2f, 0.5f}, 0.3f, {8, 4, 2}, grey);
-    add_lamp(s, {-0.3f, 2, -0.3f}, 0.6f, Rgb(60.0f), grey);
-    add_lamp(s, {1.2f, 1.5f, 0}, 0.3f, {2, 4, 8}, grey);
-    add_lamp(s, {1.4f, 1, -1}, 0.2f, Rgb(5.0f), grey);
+    test::add_lamp(s, {-1.5f, 1.2f, 0.5f}, 0.3f, {8, 4, 2}, grey);
+    test::add_lamp(s, {-0.3f, 2, -0.3f}, 0.6f, Rgb(60.0f), grey);
+    test::add_lamp(s, {1.2f, 1.5f, 0}, 0.3f, {2, 4, 8}, grey);
+    test::add_lamp(s, {1.4f, 1, -1}, 0.2f, Rgb(5.0f), grey);
     test::add_environment(s, Rgb(0.05f));
     return s;
 }

@@ -90,6 +90,14 @@ MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& a
     return static_cast<MediumId>(scene.media.size()) - 1;
 }
 
+void add_lamp(SceneDescription& s, const Vec3& p, float size, const Rgb& radiance, int material) {
+    Surface lamp{TriangleMesh{{p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size)}, {}, {}, {0, 1, 2}}, material};
+    lamp.first_light = static_cast<int>(s.lights.size());
+    s.lights.push_back(make_triangle_light(p, p + Vec3(size, 0, 0), p + Vec3(0, 0, size), true, radiance, true));
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(lamp));
+}
+
 void add_environment(SceneDescription& scene, const Rgb& radiance) {
     scene.lights.push_back(UniformInfiniteLight{radiance});
 }

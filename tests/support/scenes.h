@@ -34,6 +34,9 @@ MediumId add_homogeneous(SceneDescription& scene, const Rgb& absorption, const R
 MediumId add_uniform_grid(SceneDescription& scene, const Box3& box, const Rgb& absorption, const Rgb& scattering,
                           float g = 0);
 
+/// A right-angled triangle that shines on both sides, its legs along x and z from a corner.
+void add_lamp(SceneDescription& scene, const Vec3& corner, float size, const Rgb& radiance, int material);
+
 void add_environment(SceneDescription& scene, const Rgb& radiance);
 
 /// A mean with its standard error.

@@ -12,13 +12,15 @@ double total_weight(const std::array<LobeSums, max_lobes>& sums) {
 }
 
 /// All sums, of earlier records and new ones. Where only the weight of earlier ones is known, as of a lobe that was
-/// split, they are taken to be like the new ones.
+/// split, they are taken to be like the new ones, and forgotten if there are none.
 std::array<LobeSums, max_lobes> continued(const std::array<LobeSums, max_lobes>& earlier,
                                           std::array<LobeSums, max_lobes> sums) {
     for (int i = 0; i < max_lobes; ++i) {
-        if (earlier[i].weight > 0 && earlier[i].weight_square == 0 && sums[i].weight > 0) {
-            const double factor = 1 + static_cast<double>(earlier[i].weight) / sums[i].weight;
-            sums[i] = sums[i].scaled(factor, factor * factor);
+        if (earlier[i].weight > 0 && earlier[i].weight_square == 0) {
+            if (sums[i].weight > 0) {
+                const double factor = 1 + static_cast<double>(earlier[i].weight) / sums[i].weight;
+                sums[i] = sums[i].scaled(factor, factor * factor);
+            }
         } else {
             sums[i] += earlier[i];
         }

@@ -74,6 +74,15 @@ LobeSums joined(const LobeSums& a, const Vec3& mean_a, const LobeSums& b, const 
     return sum;
 }
 
+/// Of a lobe that was split only the weight of earlier records is known: they are taken to be like all of its records.
+LobeSums shaped_like(const LobeSums& all, const LobeSums& earlier) {
+    if (!(earlier.weight > 0 && earlier.weight_square == 0)) {
+        return earlier;
+    }
+    const double part = all.weight > 0 ? std::min(1.0, static_cast<double>(earlier.weight) / all.weight) : 0.0;
+    return all.scaled(part, part * (2 - part));
+}
+
 /// Lobes being revised.
 class Revision {
 public:
@@ -154,6 +163,9 @@ private:
 
     void merge(int a, int b) {
         const WeightedVmf one = merged(lobes_[a], lobes_[b]);
+        for (const int i : {a, b}) {
+            earlier_[i] = shaped_like(learned_.sums[i], earlier_[i]);
+        }
         for (auto* sums : {&learned_.sums, &earlier_}) {
             (*sums)[a] = joined((*sums)[a], lobes_[a].vmf.mean, (*sums)[b], lobes_[b].vmf.mean, one.vmf.mean);
         }

@@ -62,6 +62,12 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     }
 }
 
+void PathRecords::add_hints(std::span<const Hint> hints, std::size_t most) {
+    for (const Hint& hint : hints.first(std::min(most, hints.size()))) {
+        (hint.in_volume ? volume_ : surface_).push_back(hint.record);
+    }
+}
+
 void PathRecords::append(const PathRecords& other) {
     const auto extend = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
     extend(surface_, other.surface_);

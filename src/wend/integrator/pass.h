@@ -98,6 +98,7 @@ private:
             // More vertices of one walk say little that is new: they are correlated.
             constexpr std::size_t most_records = 64;
             tile.records.add(log.vertices(), most_records);
+            tile.records.add_hints(log.hints(), most_records);
         }
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);

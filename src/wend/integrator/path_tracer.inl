@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/decision/channels.h>
+#include <wend/integrator/glimpse.h>
 #include <wend/integrator/light_connection.h>
 #include <wend/integrator/light_met.h>
 #include <wend/integrator/path_tracer.h>
@@ -434,9 +435,12 @@ private:
             slab = now_.slab;
             slab.turn(now_.ray.direction, light.direction);
         }
-        const Passage passage =
-            pass(scene_, d_.distance, shadow_ray({position, normal}, light), medium, slab, sampler_.random());
+        const ShadowRay shadow = shadow_ray({position, normal}, light);
+        const Passage passage = pass(scene_, d_.distance, shadow, medium, slab, sampler_.random());
         if (is_black(passage.transmittance)) {
+            if (log_ && !slab.is_inside()) {
+                look_through_glass(chosen, shadow, medium, position, in_volume);
+            }
             return {};
         }
         const float density = times * chosen.density();
@@ -460,6 +464,21 @@ private:
             }
         }
         return found;
+    }
+
+    /// Tells the log of a light that no connection reaches.
+    void look_through_glass(const ChosenSample& chosen, const ShadowRay& shadow, MediumId medium, const Vec3& position,
+                            bool in_volume) {
+        constexpr float often = 0.25f;
+        if (chosen.light.point_like || chosen.light.medium != vacuum || !(sampler_.random().uniform() < often)) {
+            return;
+        }
+        if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
+            const Rgb radiance = chosen.light.radiance * seen->transmittance;
+            log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(),
+                         chosen.light.distance, 0, 0, 0, radiance},
+                        in_volume});
+        }
     }
 
     /// Only what was weighted with the preference of a stay changes with it.
