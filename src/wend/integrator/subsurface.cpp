@@ -129,7 +129,7 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         Pcg32 random(id);
         const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
         const float depth =
-            mean_chord(scene, static_cast<MediumId>(id), points, random) * max_value(medium->extinction());
+            mean_chord(scene, static_cast<MediumId>(id), points, random) * mean_value(medium->extinction());
         if (points.empty() || !(depth >= least_depth)) {
             continue;
         }
