@@ -82,8 +82,8 @@ TEST_P(RealScene, RendersAboutAsBrightAsALongerRender) {
     }
     for (const char* sampling : {"classical", "direction"}) {
         const double mean = render_mean(file, expected.resolution, "8", sampling);
-        EXPECT_GT(mean, 0.6 * expected.mean) << sampling;
-        EXPECT_LT(mean, 1.6 * expected.mean) << sampling;
+        EXPECT_GT(mean, 0.75 * expected.mean) << sampling;
+        EXPECT_LT(mean, 1.2 * expected.mean) << sampling;
     }
 }
 

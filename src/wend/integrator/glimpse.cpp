@@ -21,8 +21,7 @@ struct Refracted {
     Ray last;  ///< after the last boundary
     Rgb transmittance{1.0f};
     int crossings = 0;
-    bool arrives = false;  ///< at a light, or at nothing
-    bool at_light = false;
+    enum class End { blocked, light, nothing } end = End::blocked;
 };
 
 Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& random) {
@@ -37,8 +36,7 @@ Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& r
             return way;
         }
         if (!hit || hit->light >= 0) {
-            way.arrives = true;
-            way.at_light = hit.has_value();
+            way.end = hit ? Refracted::End::light : Refracted::End::nothing;
             return way;
         }
         Vec3 beyond = way.last.direction;
@@ -71,8 +69,8 @@ std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distanc
         if (way.crossings == 0) {
             return std::nullopt;
         }
-        const bool found =
-            is_far ? way.arrives && !way.at_light && dot(way.last.direction, target) > close_enough : way.at_light;
+        const bool found = is_far ? way.end == Refracted::End::nothing && dot(way.last.direction, target) > close_enough
+                                  : way.end == Refracted::End::light;
         if (found) {
             return Glimpse{direction, way.transmittance};
         }
