@@ -7,7 +7,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wend)
 install(TARGETS wend_guide EXPORT wend-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 foreach(room IN LISTS wend_guide_rooms)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wend/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library
-    FILES_MATCHING PATTERN "*.h")
+    FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE)
 endforeach()
 install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)
 

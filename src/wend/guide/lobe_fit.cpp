@@ -2,8 +2,7 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/frame.h>
-#include <wend/core/vector_clones.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/guide/kernels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,152 +13,44 @@ namespace {
 /// Sums of this many observations are added to the total: rounding errors grow with the number of blocks only.
 constexpr std::size_t block_size = 1024;
 
-/// Lanes that are read as soon as they were written must not lie in two cache lines.
-constexpr std::size_t cache_line = 64;
-
-/// The model in lanes.
-struct alignas(cache_line) LobeLanes {
-    Lanes x, y, z, u_x, u_y, u_z, v_x, v_y, v_z, half_kappa, log_amplitude, inverse_distance;
-    int blocks;
-
-    explicit LobeLanes(const LobeModel& model)
-        : inverse_distance(model.inverse_distance), blocks(blocks_for(model.mixture.size())) {
-        constexpr float log_of_nothing = -1e30f;
-        std::fill(std::begin(log_amplitude.value), std::end(log_amplitude.value), log_of_nothing);
-        for (int i = 0; i < model.mixture.size(); ++i) {
-            const auto [weight, vmf] = model.mixture.lobe(i);
-            x[i] = vmf.mean.x;
-            y[i] = vmf.mean.y;
-            z[i] = vmf.mean.z;
-            const Frame frame = Frame::from_z(vmf.mean);
-            u_x[i] = frame.s.x;
-            u_y[i] = frame.s.y;
-            u_z[i] = frame.s.z;
-            v_x[i] = frame.t.x;
-            v_y[i] = frame.t.y;
-            v_z[i] = frame.t.z;
-            half_kappa[i] = 0.5f * vmf.kappa;
-            log_amplitude[i] = weight > 0 ? std::log(weight) + std::log(vmf_peak(vmf.kappa)) : log_of_nothing;
-        }
+LobeLanes lanes_of(const LobeModel& model) {
+    constexpr float log_of_nothing = -1e30f;
+    LobeLanes lanes{};
+    lanes.inverse_distance = model.inverse_distance;
+    lanes.blocks = blocks_for(model.mixture.size());
+    std::fill(std::begin(lanes.log_amplitude.value), std::end(lanes.log_amplitude.value), log_of_nothing);
+    for (int i = 0; i < model.mixture.size(); ++i) {
+        const auto [weight, vmf] = model.mixture.lobe(i);
+        lanes.x[i] = vmf.mean.x;
+        lanes.y[i] = vmf.mean.y;
+        lanes.z[i] = vmf.mean.z;
+        const Frame frame = Frame::from_z(vmf.mean);
+        lanes.u_x[i] = frame.s.x;
+        lanes.u_y[i] = frame.s.y;
+        lanes.u_z[i] = frame.s.z;
+        lanes.v_x[i] = frame.t.x;
+        lanes.v_y[i] = frame.t.y;
+        lanes.v_z[i] = frame.t.z;
+        lanes.half_kappa[i] = 0.5f * vmf.kappa;
+        lanes.log_amplitude[i] = weight > 0 ? std::log(weight) + std::log(vmf_peak(vmf.kappa)) : log_of_nothing;
     }
-};
+    return lanes;
+}
 
-/// The sums of LobeSums in lanes.
-struct alignas(cache_line) SumLanes {
-    Lanes weight, weight_square, x, y, z, offset_x, offset_y, offset_z, inverse_distance, inverse_distance_square, turn,
-        spread, straight, oblique, beyond_square, red, blue;
-
-    void add_to(std::array<LobeSums, max_lobes>& sums, double unit) const {
-        for (int i = 0; i < max_lobes; ++i) {
-            const LobeSums own{weight[i],
-                               weight_square[i],
-                               {x[i], y[i], z[i]},
-                               {offset_x[i], offset_y[i], offset_z[i]},
-                               inverse_distance[i],
-                               inverse_distance_square[i],
-                               turn[i],
-                               spread[i],
-                               straight[i],
-                               oblique[i],
-                               beyond_square[i],
-                               red[i],
-                               blue[i]};
-            sums[i] += own.scaled(unit, unit * unit);
-        }
-    }
-};
-
-/// An observation as each lobe sees it.
-struct alignas(cache_line) SeenByLobes {
-    /// Re-aimed at the reference point, and its squared distance from the lobe's mean.
-    Lanes x{Unset{}}, y{Unset{}}, z{Unset{}}, beyond{Unset{}};
-    /// The logarithm of the lobe's density there; then the density over the largest one's.
-    Lanes density;
-    /// The observation's weight over the sum of these.
-    float scale;
-};
-
-/// Shares of a record below this count as none: their squares would be too small to be normal numbers, which processors
-/// are slow at.
-constexpr float negligible = 1e-15f;
-
-WEND_VECTOR_CLONES SumLanes sums_of(const LobeLanes& lobes, std::span<const Observation> observations) {
-    SumLanes sums;
-    // A few at a time, step by step: a single observation is one long chain of dependent operations, which leaves most
-    // of a processor waiting.
-    constexpr std::size_t group_size = 8;
-    std::array<SeenByLobes, group_size> seen;
-    for (; !observations.empty(); observations = observations.subspan(std::min(group_size, observations.size()))) {
-        const auto group = observations.first(std::min(group_size, observations.size()));
-        for (std::size_t k = 0; k < group.size(); ++k) {
-            SeenByLobes& s = seen[k];
-            const Vec3 w = group[k].direction, t = group[k].offset;
-            const float along = dot(w, t);
-            const float across = std::max(0.0f, length_squared(t) - along * along);
-            for_lanes(lobes.blocks, [&](int i) {
-                // The inverse of VmfMixture::re_aimed: where the ray meets the sphere of the lobe's distance, seen from
-                // the reference point.
-                const float b = lobes.inverse_distance[i];
-                const float inside = 1 - b * b * across;
-                const float distance = b * along + std::sqrt(inside > 0 ? inside : 0.0f);
-                s.x[i] = distance * w.x - b * t.x;
-                s.y[i] = distance * w.y - b * t.y;
-                s.z[i] = distance * w.z - b * t.z;
-                const float dx = s.x[i] - lobes.x[i], dy = s.y[i] - lobes.y[i], dz = s.z[i] - lobes.z[i];
-                s.beyond[i] = dx * dx + dy * dy + dz * dz;
-                s.density[i] = lobes.log_amplitude[i] - lobes.half_kappa[i] * s.beyond[i];
-            });
-        }
-        for (std::size_t k = 0; k < group.size(); ++k) {
-            SeenByLobes& s = seen[k];
-            const float largest = largest_lane(lobes.blocks, s.density);
-            for_lanes(lobes.blocks, [&](int i) {
-                const float share = fast_exp(s.density[i] - largest);
-                s.density[i] = share > negligible ? share : 0.0f;
-            });
-            s.scale = group[k].weight / sum_lanes(lobes.blocks, s.density);
-        }
-        for (std::size_t k = 0; k < group.size(); ++k) {
-            const SeenByLobes& s = seen[k];
-            const Observation& o = group[k];
-            const Vec3 t = o.offset;
-            const float offset_squared = length_squared(t);
-            for_lanes(lobes.blocks, [&](int i) {
-                const float weight = s.density[i] * s.scale;
-                const float weighted_inverse = weight * o.inverse_distance;
-                sums.weight[i] += weight;
-                sums.weight_square[i] += weight * weight;
-                sums.x[i] += weight * s.x[i];
-                sums.y[i] += weight * s.y[i];
-                sums.z[i] += weight * s.z[i];
-                sums.offset_x[i] += weight * t.x;
-                sums.offset_y[i] += weight * t.y;
-                sums.offset_z[i] += weight * t.z;
-                sums.inverse_distance[i] += weighted_inverse;
-                sums.inverse_distance_square[i] += weighted_inverse * o.inverse_distance;
-                // What is left of the turning after re-aiming, and what re-aiming has taken away.
-                const float mean_offset = t.x * lobes.x[i] + t.y * lobes.y[i] + t.z * lobes.z[i];
-                const float direction_offset = t.x * s.x[i] + t.y * s.y[i] + t.z * s.z[i];
-                const float mean_direction = s.x[i] * lobes.x[i] + s.y[i] * lobes.y[i] + s.z[i] * lobes.z[i];
-                const float spread = weight * (offset_squared - mean_offset * mean_offset);
-                sums.turn[i] +=
-                    weight * (direction_offset - mean_offset * mean_direction) + lobes.inverse_distance[i] * spread;
-                sums.spread[i] += spread;
-                const float u = s.x[i] * lobes.u_x[i] + s.y[i] * lobes.u_y[i] + s.z[i] * lobes.u_z[i];
-                const float v = s.x[i] * lobes.v_x[i] + s.y[i] * lobes.v_y[i] + s.z[i] * lobes.v_z[i];
-                sums.straight[i] += weight * (u * u - v * v);
-                sums.oblique[i] += weight * (2 * u * v);
-                // 1 - cos is half the squared chord.
-                sums.beyond_square[i] += 0.25f * weight * (s.beyond[i] * s.beyond[i]);
-            });
-            // Apart from the others: a loop over too many arrays is not vectorized.
-            for_lanes(lobes.blocks, [&, red = o.red * s.scale, blue = o.blue * s.scale](int i) {
-                sums.red[i] += s.density[i] * red;
-                sums.blue[i] += s.density[i] * blue;
-            });
-        }
-    }
-    return sums;
+LobeSums sums_of(const SumLanes& lanes, int i) {
+    return {lanes.weight[i],
+            lanes.weight_square[i],
+            {lanes.x[i], lanes.y[i], lanes.z[i]},
+            {lanes.offset_x[i], lanes.offset_y[i], lanes.offset_z[i]},
+            lanes.inverse_distance[i],
+            lanes.inverse_distance_square[i],
+            lanes.turn[i],
+            lanes.spread[i],
+            lanes.straight[i],
+            lanes.oblique[i],
+            lanes.beyond_square[i],
+            lanes.red[i],
+            lanes.blue[i]};
 }
 
 /// 1 up to `good`, 0 from `bad`, linear between.
@@ -220,11 +111,15 @@ LobeModel initial_lobes(int lobes) {
 
 std::array<LobeSums, max_lobes> expectation(const LobeModel& model, std::span<const Observation> observations,
                                             double weight_unit) {
-    const LobeLanes lobes(model);
+    const LobeLanes lobes = lanes_of(model);
     std::array<LobeSums, max_lobes> sums{};
     while (!observations.empty()) {
         const auto block = observations.first(std::min(block_size, observations.size()));
-        sums_of(lobes, block).add_to(sums, weight_unit);
+        SumLanes lanes;
+        kernels().add_observations(lobes, block, lanes);
+        for (int i = 0; i < max_lobes; ++i) {
+            sums[i] += sums_of(lanes, i).scaled(weight_unit, weight_unit * weight_unit);
+        }
         observations = observations.subspan(block.size());
     }
     return sums;

@@ -1,7 +1,7 @@
 // Weighted expectation maximization of one cell's lobes (docs/theory/learned_field.md).
 #pragma once
 
-#include <wend/core/vector.h>
+#include <wend/guide/lobe_lanes.h>
 #include <wend/guide/mixture.h>
 #include <wend/guide/statistics.h>
 
@@ -14,18 +14,6 @@ namespace wend::guide {
 struct LobeModel {
     VmfMixture mixture;
     Lanes inverse_distance;
-};
-
-/// A record as a cell sees it.
-struct Observation {
-    Vec3 direction;
-    /// From the record's position to the cell's reference point.
-    Vec3 offset;
-    float inverse_distance;
-    /// Relative to the mean weight of the cell's observations.
-    float weight;
-    /// Radiance in the first and the last colour channel over the mean of all three.
-    float red = 1, blue = 1;
 };
 
 /// Beliefs before any record, in numbers of records.

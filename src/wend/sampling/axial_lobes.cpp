@@ -1,7 +1,7 @@
 #include <wend/sampling/axial_lobes.h>
 
 #include <wend/core/contracts.h>
-#include <wend/core/vector_clones.h>
+#include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 #include <wend/sampling/vmf.h>
 
@@ -39,8 +39,13 @@ AxialLobes AxialLobes::around(const Vec3& axis) const {
     return result;
 }
 
-WEND_VECTOR_CLONES float AxialLobes::density(const Vec3& direction) const {
-    return sum_densities(direction);
+float AxialLobes::density(const Vec3& direction) const {
+    const float before = 0.5f * length_squared(direction - axis_), behind = 0.5f * length_squared(direction + axis_);
+    float sum = 0;
+    for (int j = 0; j < size_; ++j) {
+        sum += amplitude_[j] * fast_exp(kappa_[j] * (kappa_[j] < 0 ? behind : -before));
+    }
+    return sum;
 }
 
 Vec3 AxialLobes::sample(Vec2 u) const {

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/numeric/fast_exp2.h>
 
 #include <cstring>
-#include <numbers>
 #include <span>
 
 namespace wend {
@@ -55,32 +53,18 @@ public:
     float kappa(int j) const { return kappa_[j]; }
     /// Weight of a lobe times its density at its mean, in 1/sr.
     float amplitude(int j) const { return amplitude_[j]; }
+    /// The same for whoever goes over whole blocks: `lanes` numbers, of which those of lobes that are not there are 0.
+    const float* kappas() const { return kappa_; }
+    const float* amplitudes() const { return amplitude_; }
+    int lanes() const { return (size_ + block - 1) / block * block; }
 
     /// Density at a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
-    /// Its body, for functions that are compiled for several vector widths.
-    [[gnu::always_inline]] float sum_densities(const Vec3& direction) const {
-        const float before = 0.5f * std::numbers::log2e_v<float> * length_squared(direction - axis_),
-                    behind = 0.5f * std::numbers::log2e_v<float> * length_squared(direction + axis_);
-        if (size_ == 1) {
-            return amplitude_[0] * fast_exp2(kappa_[0] * (kappa_[0] < 0 ? behind : -before));
-        }
-        float part[block] = {};
-        for (int first = 0; first < size_; first += block) {
-            for (int j = 0; j < block; ++j) {
-                const float kappa = kappa_[first + j];
-                part[j] += amplitude_[first + j] * fast_exp2(kappa * (kappa < 0 ? behind : -before));
-            }
-        }
-        return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
-    }
-
     /// A direction distributed by the density, from a point of [0,1)².
     Vec3 sample(Vec2 u) const;
 
 private:
-    /// Vector instructions want inner loops of constant length: a block's lobes that are not there have amplitude 0,
-    /// and beyond the last block that is used nothing need be set.
+    /// Beyond the last block that is used nothing need be set.
     static constexpr int block = 8;
     static_assert(capacity % block == 0);
 
