@@ -16,6 +16,8 @@ namespace wend::guide::HWY_NAMESPACE {
 
 using namespace wend::HWY_NAMESPACE;
 
+static_assert(lanes_per_block == floats_per_block);
+
 /// The lanes from i on.
 HWY_INLINE Floats at(const Lanes& lanes, int i) {
     return Floats::load(lanes.value + i);
