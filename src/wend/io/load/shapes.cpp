@@ -1,4 +1,5 @@
 #include <wend/io/load/shapes.h>
+#include <wend/io/load/subdivision.h>
 #include <wend/io/ply.h>
 
 #include <fmt/format.h>
@@ -9,14 +10,6 @@
 
 namespace wend {
 namespace {
-
-/// Vertices and faces as a file gives them, in the shape's own space.
-struct RawMesh {
-    std::vector<Vec3> positions;
-    std::vector<Vec3> normals;
-    std::vector<Vec2> uvs;
-    std::vector<std::uint32_t> indices;
-};
 
 template <class Vector>
 std::vector<Vector> take_vectors(pbrt::ParameterSet& p, std::string_view name, pbrt::ParameterType type) {
@@ -42,20 +35,16 @@ void require_one_a_vertex(LoadContext& context, const pbrt::ShapeEntity& shape, 
     }
 }
 
-/// The parameters P, N, uv and indices, `corners` of these a face. Without indices the vertices are a single face.
-RawMesh take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners) {
+/// The parameters P and indices, `corners` of these a face. Without indices the vertices are a single face.
+TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners) {
     pbrt::ParameterSet& p = shape.parameters;
     const pbrt::Location positions_place = p.place_of("P");
     const pbrt::Location indices_place = p.place_of("indices");
-    RawMesh mesh;
+    TriangleMeshData mesh;
     mesh.positions = take_vectors<Vec3>(p, "P", pbrt::ParameterType::point3);
     if (mesh.positions.empty()) {
         throw InputError(positions_place, fmt::format("Shape \"{}\" needs the parameter \"point3 P\"", shape.type));
     }
-    mesh.normals = take_vectors<Vec3>(p, "N", pbrt::ParameterType::normal3);
-    mesh.uvs = take_vectors<Vec2>(p, "uv", pbrt::ParameterType::point2);
-    require_one_a_vertex(context, shape, mesh.normals, mesh.positions.size(), "N");
-    require_one_a_vertex(context, shape, mesh.uvs, mesh.positions.size(), "uv");
     const std::vector<int> indices = p.take_ints("indices");
     if (indices.empty()) {
         if (mesh.positions.size() != corners) {
@@ -81,8 +70,18 @@ RawMesh take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t co
     return mesh;
 }
 
+/// take_faces(), and the parameters N and uv.
+TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners) {
+    TriangleMeshData mesh = take_faces(shape, corners);
+    mesh.normals = take_vectors<Vec3>(shape.parameters, "N", pbrt::ParameterType::normal3);
+    mesh.uvs = take_vectors<Vec2>(shape.parameters, "uv", pbrt::ParameterType::point2);
+    require_one_a_vertex(context, shape, mesh.normals, mesh.positions.size(), "N");
+    require_one_a_vertex(context, shape, mesh.uvs, mesh.positions.size(), "uv");
+    return mesh;
+}
+
 /// To the world; normals that are given turn with ReverseOrientation.
-TriangleMesh place(const pbrt::ShapeEntity& shape, RawMesh raw) {
+TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
     TriangleMesh mesh;
     mesh.positions = std::move(raw.positions);
     mesh.normals = std::move(raw.normals);
@@ -109,20 +108,19 @@ Shape load_triangle_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
 }
 
 Shape load_ply_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
-    TriangleMeshData data = read_ply(required_file(context, shape, "filename"));
+    TriangleMeshData mesh = read_ply(required_file(context, shape, "filename"));
     if (shape.parameters.get_texture("displacement")) {
         context.warnings.add(shape.parameters.place_of("displacement"), "the displacement of a \"plymesh\" is ignored");
     }
-    return place(shape,
-                 {std::move(data.positions), std::move(data.normals), std::move(data.uvs), std::move(data.indices)});
+    return place(shape, std::move(mesh));
 }
 
 /// Each patch becomes two triangles with vertices of their own, so that it has texture coordinates of its own.
 Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     context.warnings.add(shape.place,
                          "Shape \"bilinearmesh\" is not implemented: two triangles a patch take its place");
-    const RawMesh patches = take_mesh(context, shape, 4);
-    RawMesh mesh;
+    const TriangleMeshData patches = take_mesh(context, shape, 4);
+    TriangleMeshData mesh;
     for (std::size_t i = 0; i < patches.indices.size(); i += 4) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -143,10 +141,22 @@ Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     return place(shape, std::move(mesh));
 }
 
-Shape load_subdivision_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
-    context.warnings.add(shape.place, "Shape \"loopsubdiv\" is not implemented: its control mesh takes its place");
-    static_cast<void>(shape.parameters.get_int("levels", 3));
-    return place(shape, take_mesh(context, shape, 3));
+Shape load_subdivision_surface(LoadContext&, pbrt::ShapeEntity& shape) {
+    const int levels = shape.parameters.get_int("levels", 3);
+    const pbrt::Location levels_place = shape.parameters.place_of("levels");
+    const TriangleMeshData control = take_faces(shape, 3);
+    constexpr double most_triangles = 1 << 26;
+    const double triangles = static_cast<double>(control.indices.size() / 3) * std::pow(4.0, levels);
+    if (levels < 0 || triangles > most_triangles) {
+        throw InputError(levels_place, fmt::format("\"levels\" is {}: it must not be negative, and lead to {:.0f} "
+                                                   "triangles at most",
+                                                   levels, most_triangles));
+    }
+    std::optional<TriangleMeshData> limit = subdivide(control.positions, control.indices, levels);
+    if (!limit) {
+        throw InputError(shape.place, "no triangle of the \"loopsubdiv\" has three different vertices");
+    }
+    return place(shape, *std::move(limit));
 }
 
 float load_sweep(const pbrt::ParameterSet& p) {
@@ -172,7 +182,7 @@ Shape load_cylinder(LoadContext& context, pbrt::ShapeEntity& shape) {
     const float sweep = load_sweep(p);
     // Normals that are given turn with ReverseOrientation alone; those of quadrics with mirroring as well.
     const float side = shape.world_from_object.swaps_handedness() ? -1.0f : 1.0f;
-    RawMesh mesh;
+    TriangleMeshData mesh;
     for (int i = 0; i <= segments; ++i) {
         const float u = static_cast<float>(i) / segments;
         const Vec3 outwards(std::cos(u * sweep), std::sin(u * sweep), 0);

@@ -1,0 +1,11 @@
+# OpenSubdiv's processor library. Debian's own OpenSubdivConfig names static libraries that its package does not hold.
+find_path(OpenSubdiv_INCLUDE opensubdiv/far/primvarRefiner.h)
+find_library(OpenSubdiv_LIBRARY osdCPU)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenSubdivLibrary REQUIRED_VARS OpenSubdiv_LIBRARY OpenSubdiv_INCLUDE)
+if(OpenSubdivLibrary_FOUND AND NOT TARGET OpenSubdivLibrary::OpenSubdiv)
+  add_library(OpenSubdivLibrary::OpenSubdiv INTERFACE IMPORTED)
+  target_include_directories(OpenSubdivLibrary::OpenSubdiv SYSTEM INTERFACE ${OpenSubdiv_INCLUDE})
+  target_link_libraries(OpenSubdivLibrary::OpenSubdiv INTERFACE ${OpenSubdiv_LIBRARY})
+endif()
+mark_as_advanced(OpenSubdiv_INCLUDE OpenSubdiv_LIBRARY)

@@ -1,0 +1,143 @@
+#include <wend/io/load/subdivision.h>
+
+#include "load_support.h"
+#include "pbrt_support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+
+namespace wend {
+namespace {
+
+using pbrt::contains;
+using pbrt::message_of;
+using test::load_text;
+using test::warnings_with;
+
+struct Control {
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> indices;
+};
+
+const Control tetrahedron{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}};
+const Control octahedron{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                         {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
+
+TriangleMeshData limit_of(const Control& control, int levels) {
+    const auto mesh = subdivide(control.positions, control.indices, levels);
+    EXPECT_TRUE(mesh);
+    return mesh.value_or(TriangleMeshData{});
+}
+
+float distance_to_nearest(const TriangleMeshData& mesh, const Vec3& point) {
+    float nearest = std::numeric_limits<float>::max();
+    for (const Vec3& p : mesh.positions) {
+        nearest = std::min(nearest, length(p - point));
+    }
+    return nearest;
+}
+
+TEST(Subdivision, VerticesLieOnTheLimitSurfaceAtEveryLevel) {
+    // Loop's weights of the limit: 1 / (n + 3 / (8 beta)) for each of n neighbours, beta = (5/8 - (3/8 + cos(2 pi / n)
+    // / 4)^2) / n. Neighbours add up to -v in the tetrahedron, where beta is 3/16, and to zero in the octahedron.
+    const double beta = (0.625 - 0.375 * 0.375) / 4;
+    const auto on_octahedron = static_cast<float>(1 - 4 / (4 + 3 / (8 * beta)));
+    for (const int levels : {0, 1, 3}) {
+        const TriangleMeshData round = limit_of(tetrahedron, levels);
+        EXPECT_EQ(round.indices.size(), 3u * 4u << 2 * levels);
+        for (const Vec3& v : tetrahedron.positions) {
+            EXPECT_LT(distance_to_nearest(round, v * 0.2f), 1e-6f);
+        }
+        const TriangleMeshData rounder = limit_of(octahedron, levels);
+        for (const Vec3& v : octahedron.positions) {
+            EXPECT_LT(distance_to_nearest(rounder, v * on_octahedron), 1e-6f);
+        }
+    }
+}
+
+TEST(Subdivision, KeepsOrientationAndStaysClosed) {
+    const TriangleMeshData mesh = limit_of(octahedron, 3);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corner = &mesh.indices[i];
+        const Vec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]], c = mesh.positions[corner[2]];
+        EXPECT_GT(dot(cross(b - a, c - a), a + b + c), 0);
+        for (int k = 0; k < 3; ++k) {
+            ++edges[{corner[k], corner[(k + 1) % 3]}];
+        }
+    }
+    for (const auto& [edge, count] : edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_GT(dot(normalize(mesh.normals[i]), normalize(mesh.positions[i])), 0.9f);
+    }
+    // By symmetry.
+    const auto top = std::ranges::max_element(mesh.positions, {}, [](const Vec3& p) { return p.z; });
+    EXPECT_NEAR(normalize(mesh.normals[static_cast<std::size_t>(top - mesh.positions.begin())]).z, 1, 1e-6f);
+}
+
+TEST(Subdivision, BoundariesTendToSplines) {
+    const Control triangle{{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}}, {0, 1, 2}};
+    for (const int levels : {0, 2}) {
+        const TriangleMeshData mesh = limit_of(triangle, levels);
+        EXPECT_EQ(mesh.indices.size(), 3u << 2 * levels);
+        // 2/3 of the vertex, 1/6 of each neighbour on the boundary.
+        EXPECT_LT(distance_to_nearest(mesh, {1, 1, 0}), 1e-5f);
+        EXPECT_LT(distance_to_nearest(mesh, {4, 1, 0}), 1e-5f);
+        for (const Vec3& n : mesh.normals) {
+            EXPECT_GT(n.z, 0);
+        }
+    }
+}
+
+TEST(Subdivision, TakesMeshesThatAreNoSurface) {
+    Control fan = tetrahedron;
+    fan.positions.push_back({5, 5, 5});               // belongs to no triangle
+    fan.positions.push_back({2, -2, 2});              // of a third triangle at an edge
+    for (const std::uint32_t index : {0u, 1u, 5u,     // that
+                                      0u, 1u, 5u,     // twice
+                                      3u, 3u, 2u}) {  // no triangle
+        fan.indices.push_back(index);
+    }
+    for (const int levels : {0, 2}) {
+        const TriangleMeshData mesh = limit_of(fan, levels);
+        EXPECT_EQ(mesh.indices.size(), 3u * 6u << 2 * levels);
+        for (const Vec3& p : mesh.positions) {
+            EXPECT_TRUE(is_finite(p));
+        }
+    }
+    EXPECT_FALSE(subdivide(fan.positions, std::vector<std::uint32_t>{1, 1, 2}, 2));
+    EXPECT_FALSE(subdivide({}, {}, 2));
+}
+
+std::string loop_shape(const std::string& levels, const std::string& indices = "0 1 2") {
+    return "Shape \"loopsubdiv\" " + (levels.empty() ? "" : "\"integer levels\" " + levels) +
+           " \"point3 P\" [ 0 0 0  6 0 0  0 6 0 ] \"integer indices\" [ " + indices + " ]";
+}
+
+TEST(Subdivision, IsAShapeOfScenes) {
+    const LoadedScene loaded = load_text("Translate 0 0 7 " + loop_shape("") + loop_shape("1"));
+    const auto& standard = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    EXPECT_EQ(standard.triangle_count(), 64u);
+    EXPECT_FLOAT_EQ(standard.positions[0].z, 7);
+    EXPECT_FLOAT_EQ(standard.normals[0].z, 1);
+    EXPECT_EQ(std::get<TriangleMesh>(loaded.scene.surfaces[1].shape).triangle_count(), 4u);
+    EXPECT_EQ(warnings_with(loaded, "loopsubdiv"), 0);
+}
+
+TEST(Subdivision, RefusesWhatLeadsToNoMesh) {
+    const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
+    EXPECT_PRED2(contains, message(loop_shape("-1")), "\"levels\" is -1");
+    EXPECT_PRED2(contains, message(loop_shape("2000000000")), "\"levels\" is 2000000000");
+    EXPECT_PRED2(contains, message(loop_shape("1", "0 0 2")), "three different vertices");
+    EXPECT_PRED2(contains, message(loop_shape("1", "0 1 3")), "index 3 is out of range");
+}
+
+}  // namespace
+}  // namespace wend
