@@ -29,7 +29,9 @@ struct SlabGuide {
     std::vector<LayerGuide> layers;
     int layered = -1;  ///< that strategy
     int lit = -1;      ///< a strategy that heads for lamps outside as well as along its mode; none if negative
-    Shares share{1};   ///< where no others are given
+    /// Whether walks can be connected to lamps where they meet the boundary, as they can if it is rough.
+    bool connects_at_boundary = false;
+    Shares share{1};  ///< where no others are given
 
     int channels() const { return static_cast<int>(modes.size()); }
     /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace wend {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr float least_expectation = 0.1f;
 /// No walk of so little throughput is still where a strategy that is right would have it.
 constexpr float least_throughput = 1e-3f;
+/// How often a lamp is connected to at the boundary, over the part of the scattered light that comes straight from it.
+constexpr float connections_to_lamps = 32;
 
 float extinction_of(const SlabGuide& guide, int channel) {
     return guide.medium.absorption[channel] + guide.medium.scattering[channel];
@@ -107,6 +110,39 @@ SlabWalk::Directions::Directions(const SlabWalk& walk, const Vec3& before, Pcg32
     walk.for_layers([&](std::size_t, int c) {
         layered_[static_cast<std::size_t>(c)] = LayerGuide::Directions(walk.layers(c), walk.place_, before);
     });
+    if (walk.lit_ >= 0 && walk.guide_->connects_at_boundary) {
+        const float often = connections_to_lamps / static_cast<float>(walk.guide_->channels());
+        float sum = 0;
+        for (std::size_t j = 0; j < connected_.size(); ++j) {
+            connected_[j] = often * (shares_[0][j] + shares_[1][j] + shares_[2][j]);
+            sum += connected_[j];
+        }
+        for (float& probability : connected_) {
+            probability /= std::max(1.0f, sum);
+        }
+    }
+}
+
+std::optional<Vec3> SlabWalk::Directions::sample_lamps() const {
+    if (!walk_.guide_->connects_at_boundary) {
+        return std::nullopt;
+    }
+    float u = random_.uniform();
+    for (std::size_t j = 0; j < connected_.size(); ++j) {
+        if (u < connected_[j]) {
+            return walk_.lamps_.lobe(j).sample(random_.uniform2());
+        }
+        u -= connected_[j];
+    }
+    return std::nullopt;
+}
+
+float SlabWalk::Directions::lamp_density(const Vec3& w) const {
+    if (walk_.lit_ < 0 || !walk_.guide_->connects_at_boundary) {
+        return 0;
+    }
+    const LampGuide::PerLamp lobes = walk_.lamps_.densities(w);
+    return std::inner_product(lobes.begin(), lobes.end(), connected_.begin(), 0.0f);
 }
 
 float SlabWalk::Directions::density(const Vec3& w) const {
@@ -212,22 +248,23 @@ void SlabWalk::normalize(float total) {
     }
 }
 
-SlabFlight SlabWalk::fly(float length, float u, Pcg32& random) {
+float SlabWalk::draw_distance(float u, Pcg32& random) const {
     const std::size_t technique = choose(u);
-    const int channels = guide_->channels();
-    const int slot = static_cast<int>(technique) / channels - 1;
+    const auto channels = static_cast<std::size_t>(guide_->channels());
+    const int slot = static_cast<int>(technique / channels) - 1;
+    const std::size_t channel = technique % channels;
+    if (slot >= 0 && is_layered(slot)) {
+        return static_cast<float>(layers(static_cast<int>(channel)).sample_distance(place_, heading_, random));
+    }
+    const float direct = slot >= 0 && is_lit(slot) ? direct_[channel] : 0.0f;
+    return rate_[technique] > 0 && u >= direct ? to_exponential((u - direct) / (1 - direct), rate_[technique])
+                                               : infinity;
+}
+
+SlabFlight SlabWalk::fly(float length, float drawn) {
     SlabFlight result;
     Flight& flight = result.flight;
-    float t = infinity;
-    if (slot >= 0 && is_layered(slot)) {
-        t = static_cast<float>(
-            layers(static_cast<int>(technique) % channels).sample_distance(place_, heading_, random));
-    } else if (const float direct =
-                   slot >= 0 && is_lit(slot) ? direct_[technique % static_cast<std::size_t>(channels)] : 0.0f;
-               rate_[technique] > 0 && u >= direct) {
-        t = to_exponential((u - direct) / (1 - direct), rate_[technique]);
-    }
-    flight.scatters = t < length;
+    flight.scatters = drawn < length;
     if (!flight.scatters) {
         flight.distance = length;
         result.pass_probability = pass(length);
@@ -236,10 +273,10 @@ SlabFlight SlabWalk::fly(float length, float u, Pcg32& random) {
                             : Rgb(0.0f);
         return result;
     }
-    flight.distance = t;
-    const float density = weigh_flight(t, true);
+    flight.distance = drawn;
+    const float density = weigh_flight(drawn, true);
     flight.weight = density >= std::numeric_limits<float>::min()
-                        ? guide_->medium.scattering * transmittance(guide_->medium, t) * (1 / density)
+                        ? guide_->medium.scattering * transmittance(guide_->medium, drawn) * (1 / density)
                         : Rgb(0.0f);
     return result;
 }

@@ -61,6 +61,12 @@ public:
         float density(const Vec3& w) const;
         std::optional<Rgb> in_scattered() const { return std::nullopt; }
 
+        /// A direction out to a lamp, for a connection to it at the boundary: the more often the more of the light that
+        /// is scattered here comes straight from lamps.
+        std::optional<Vec3> sample_lamps() const;
+        /// Its density, times the probability that there is one.
+        float lamp_density(const Vec3& w) const;
+
     private:
         const SlabWalk& walk_;
         Vec3 before_;
@@ -69,6 +75,7 @@ public:
         std::array<float, 3 * (1 + SlabGuide::most_strategies)> relative_;  // posterior over S(before)
         LampGuide::PerLamp lamps_{};                                        // posterior of directions in each lobe
         std::array<LampGuide::PerLamp, 3> shares_{};                        // by channel, of each lamp in the strategy
+        LampGuide::PerLamp connected_{};                                    // probability of a connection to each lamp
     };
 
     /// The walk after it went from `before` into w at a collision.
@@ -76,8 +83,12 @@ public:
     /// Whether the direction now is one that turn() chose.
     bool has_turned() const { return has_turned_; }
 
+    /// How far the next flight would go if nothing were in its way; u in [0,1). No further need a ray be traced.
+    float draw_distance(float u, Pcg32& random) const;
+    /// That flight where the medium goes on for `length`, of which it matters only whether it is more than `drawn`.
+    SlabFlight fly(float length, float drawn);
     /// The next flight; u in [0,1).
-    SlabFlight fly(float length, float u, Pcg32& random);
+    SlabFlight fly(float length, float u, Pcg32& random) { return fly(length, draw_distance(u, random)); }
     /// The probability of flying through a segment; the walk goes on behind it.
     float pass(float length);
 

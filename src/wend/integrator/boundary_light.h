@@ -3,6 +3,7 @@
 
 #include <wend/decision/lamp_guide.h>
 #include <wend/scene/boundary_points.h>
+#include <wend/scene/bsdf/bsdf.h>
 #include <wend/scene/scene.h>
 
 #include <span>
@@ -27,8 +28,7 @@ struct BoundarySurface {
     float ior = 1;    ///< of the inside over the outside
     float alpha = 0;  ///< roughness of the microfacets
 
-    /// The concentration of a vMF lobe that blurs directions inside as the roughness does.
-    float blur() const;
+    DielectricBsdf bsdf() const { return {ior, alpha, alpha}; }
 };
 
 /// Points with the irradiance by lights outside, directly, as a scalar; never quite 0, for the light that comes

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <wend/decision/channels.h>
-#include <wend/integrator/glimpse.h>
 #include <wend/integrator/light_connection.h>
 #include <wend/integrator/light_met.h>
 #include <wend/integrator/path_tracer.h>
@@ -66,6 +65,12 @@ private:
         bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
+        /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
+        /// the direction that was drawn.
+        float lamps_ahead = 0;
+        /// How often the surface vertex at hand was connected from the collision before, as a mean.
+        float connected_before = 0;
+        SlabGuide::Shares at_collision{};  ///< relative densities there
         LastVertex last;
 
         guide::PathLog::Branch logged{};
@@ -75,11 +80,13 @@ private:
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
-        const std::optional<Hit> hit = scene_.intersect(now_.ray);
-        const float length = hit ? hit->distance : farthest;
+        // In a stay most flights end long before the boundary: no ray is traced further than they go.
+        const float drawn =
+            now_.slab.is_inside() ? now_.slab.draw_distance(sampler_.uniform(), sampler_.random()) : infinity;
+        const std::optional<Hit> hit = scene_.intersect(now_.ray, drawn);
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
-            const Flight flight = fly(medium, length, hit);
+            const Flight flight = fly(medium, hit, drawn);
             if (!is_black(flight.emitted)) {
                 glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
             }
@@ -109,19 +116,21 @@ private:
             const MediumId from =
                 std::exchange(now_.medium, scene_.medium_beyond(*hit, now_.ray.direction, now_.medium));
             now_.ray = spawn_ray(hit->position, hit->normal, now_.ray.direction);
+            now_.lamps_ahead = 0;
             enter_medium(*hit, from);
             return ++now_.interfaces < most_interfaces;
         }
         return scatter_at(*hit);
     }
 
-    /// The next flight, up to the hit; if it passes the segment, that is counted in.
-    Flight fly(const Medium& medium, float length, const std::optional<Hit>& hit) {
+    /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
+    Flight fly(const Medium& medium, const std::optional<Hit>& hit, float drawn) {
+        const float length = hit ? hit->distance : farthest;
         now_.stay.flights += now_.medium == now_.stay.medium ? 1 : 0;
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
-            const SlabFlight flight = now_.slab.fly(length, sampler_.uniform(), sampler_.random());
+            const SlabFlight flight = now_.slab.fly(length, drawn);
             now_.last.pass_probability *=
                 told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
@@ -205,16 +214,17 @@ private:
         if (log_) {
             log_->collide(mean_value(extinction_at(medium, position)));
         }
+        now_.connected_before = 0;
         const VolumeScattering f(phase_function(medium), now_.ray.direction);
         return scatter(f, position, {0, 0, 0}, true);
     }
 
     bool scatter_at(const Hit& hit) {
         meet();
-        SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
-        if (f.reflects_or_refracts()) {
-            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}));
-        }
+        const SurfaceScattering f = scattering_at(hit);
+        now_.connected_before =
+            now_.lamps_ahead > 0 ? connections_at_boundary * now_.lamps_ahead / mean_value(now_.last.pass_probability)
+                                 : 0.0f;
         if (now_.depth == 0) {
             remember_first(f.albedo(), hit.shading.n);
         }
@@ -228,14 +238,25 @@ private:
         return scatter(f, hit.position, hit.normal, false);
     }
 
+    SurfaceScattering scattering_at(const Hit& hit) const {
+        SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+        if (f.reflects_or_refracts()) {
+            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}));
+        }
+        return f;
+    }
+
     /// Connects a vertex to lights, draws a direction, and decides on survival. `normal` is zero in a volume.
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
         if (in_volume && now_.slab.is_inside()) {
             tracer_.subsurface_.aim(now_.medium, position, now_.slab);
             const SlabWalk slab = now_.slab;
-            return scatter(f, SlabWalk::Directions(slab, now_.ray.direction, sampler_.random()), position, normal,
-                           true);
+            const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
+            if constexpr (std::same_as<F, VolumeScattering>) {
+                connect_at_boundary(f, directions, position);
+            }
+            return scatter(f, directions, position, normal, true);
         }
         if (in_volume && now_.is_trial) {
             return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
@@ -320,17 +341,21 @@ private:
             note_reflection(f, *s);
         }
         scatter_into(*s, position, in_volume);
+        const Vec3 before = now_.ray.direction;
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.preference = preference(in_volume);
         now_.last = {{position, normal},
                      s->specular,
                      s->density * now_.preference,
-                     connections(in_volume),
+                     connections(in_volume) + now_.connected_before,
                      channel_probabilities(now_.throughput),
                      Rgb(1.0f)};
-        if (in_volume && now_.slab.is_inside()) {
-            now_.slab.turn(now_.ray.direction, s->direction);
+        now_.lamps_ahead = 0;
+        if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
+            now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
+            now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+            now_.slab.turn(before, s->direction);
         }
         if (!judged) {
             const float survival = survival_probability();
@@ -390,96 +415,15 @@ private:
 
     template <class F, class Directions>
     void connect_to_lights(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                           bool in_volume) {
-        const float often = connections(in_volume);
-        const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
-        if (is_left_out && !scene_.has_point_like_lights()) {
-            return;
-        }
-        const int n = std::max(1, static_cast<int>(often));
-        const float u = sampler_.uniform();
-        for (int i = 0; i < n; ++i) {
-            // Several go through the lights in their order.
-            const auto chosen = choose_light(
-                scene_, tracer_.lights_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
-                i == 0 ? sampler_.uniform2() : sampler_.random().uniform2(), sampler_.random());
-            if (!chosen || (is_left_out && !chosen->light.point_like)) {
-                continue;
-            }
-            // What only connections find is never left out.
-            const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
-            const Connection found = connect(*chosen, times, f, directions, position, normal, in_volume);
-            const Rgb brought = found.scattering * found.light;
-            gather(brought, found.slope);
-            if (lights_) {
-                lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
-                                                          mean_value(brought) * times * chosen->probability));
-            }
-            if (log_) {
-                log_->connect(found.to_light, mean_value(found.light), brought);
-            }
-        }
-    }
-
+                           bool in_volume);
+    /// Flies out from a collision in a stay to a lamp that is known there, and connects the boundary to lights.
+    void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vec3& position);
     template <class F, class Directions>
     Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
-                       const Vec3& position, const Vec3& normal, bool in_volume) {
-        const LightSample& light = chosen.light;
-        const Rgb value = f.evaluate(light.direction);
-        if (is_black(value)) {
-            return {};
-        }
-        const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
-        SlabWalk slab;
-        if (in_volume && now_.slab.is_inside()) {
-            slab = now_.slab;
-            slab.turn(now_.ray.direction, light.direction);
-        }
-        const ShadowRay shadow = shadow_ray({position, normal}, light);
-        const Passage passage = pass(scene_, d_.distance, shadow, medium, slab, sampler_.random());
-        if (is_black(passage.transmittance)) {
-            if (log_ && !slab.is_inside()) {
-                look_through_glass(chosen, shadow, medium, position, in_volume);
-            }
-            return {};
-        }
-        const float density = times * chosen.density();
-        float weight = 1;
-        if (!light.point_like) {
-            const Rgb channels = channel_probabilities(now_.throughput * value);
-            const float other =
-                preference(in_volume) * directions.density(light.direction) * dot(channels, passage.probability);
-            weight = density / (density + other);
-        }
-        Connection found{light.direction, light.radiance * passage.transmittance * (weight / density), value,
-                         std::nullopt};
-        if (stays_ && in_volume && now_.medium == now_.stay.medium) {
-            now_.stay.connected = true;
-        }
-        if (stays_ && in_volume && now_.slab.is_inside()) {
-            found.slope = StaySlope{now_.slab.relative_densities(), weight - 1};
-            const SlabGuide::Shares beyond = slab.relative_densities();
-            for (std::size_t i = 0; i < beyond.size(); ++i) {
-                found.slope->shares[i] = weight * found.slope->shares[i] + (1 - weight) * beyond[i];
-            }
-        }
-        return found;
-    }
-
+                       const Vec3& position, const Vec3& normal, bool in_volume);
     /// Tells the log of a light that no connection reaches.
     void look_through_glass(const ChosenSample& chosen, const ShadowRay& shadow, MediumId medium, const Vec3& position,
-                            bool in_volume) {
-        constexpr float often = 0.25f;
-        if (chosen.light.point_like || chosen.light.medium != vacuum || !(sampler_.random().uniform() < often)) {
-            return;
-        }
-        if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
-            const Rgb radiance = chosen.light.radiance * seen->transmittance;
-            log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(),
-                         chosen.light.distance, 0, 0, 0, radiance},
-                        in_volume});
-        }
-    }
+                            bool in_volume);
 
     /// Only what was weighted with the preference of a stay changes with it.
     std::optional<StaySlope> slope_of(const MetLight& arriving) {
@@ -540,6 +484,8 @@ private:
     }
 
     static constexpr int max_pending = 64;
+    /// For each flight out to a lamp.
+    static constexpr int connections_at_boundary = 2;
 
     const PathTracer& tracer_;
     const Scene& scene_;
@@ -560,6 +506,12 @@ private:
 
     WalkResult result_;
 };
+
+}  // namespace wend
+
+#include <wend/integrator/walk_connections.inl>
+
+namespace wend {
 
 template <class Decisions>
 WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler,

@@ -161,6 +161,7 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         }
         const auto lit = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::learned);
         guide.lit = lit != strategies_.end() ? static_cast<int>(lit - strategies_.begin()) : -1;
+        guide.connects_at_boundary = !boundary.bsdf().is_specular();
         StayPlans plans(box, guide.share);
         media_[id] = std::make_unique<Dense>(
             Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(*medium, boundary)});

@@ -1,0 +1,171 @@
+// How the walk of integrator/path_tracer.inl, which includes this, connects its vertices to lights.
+#pragma once
+
+#include <wend/integrator/glimpse.h>
+#include <wend/integrator/light_connection.h>
+#include <wend/integrator/path_tracer.h>
+#include <wend/integrator/scattering.h>
+#include <wend/medium/transmittance.h>
+
+namespace wend {
+
+template <class Decisions>
+template <class F, class Directions>
+void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions& directions, const Vec3& position,
+                                                    const Vec3& normal, bool in_volume) {
+    const float often = connections(in_volume);
+    const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
+    if (is_left_out && !scene_.has_point_like_lights()) {
+        return;
+    }
+    const int n = std::max(1, static_cast<int>(often));
+    const float u = sampler_.uniform();
+    for (int i = 0; i < n; ++i) {
+        // Several go through the lights in their order.
+        const auto chosen = choose_light(
+            scene_, tracer_.lights_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
+            i == 0 ? sampler_.uniform2() : sampler_.random().uniform2(), sampler_.random());
+        if (!chosen || (is_left_out && !chosen->light.point_like)) {
+            continue;
+        }
+        // What only connections find is never left out.
+        const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
+        const Connection found = connect(*chosen, times, f, directions, position, normal, in_volume);
+        const Rgb brought = found.scattering * found.light;
+        gather(brought, found.slope);
+        if (lights_) {
+            lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
+                                                      mean_value(brought) * times * chosen->probability));
+        }
+        if (log_) {
+            log_->connect(found.to_light, mean_value(found.light), brought);
+        }
+    }
+}
+
+// What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
+// a path either way has the same value, and the balance heuristic counts `connected_before` on both.
+template <class Decisions>
+void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
+                                                      const Vec3& position) {
+    const std::optional<Vec3> w = directions.sample_lamps();
+    const float density = w ? directions.density(*w) : 0.0f;
+    if (!(density > 0)) {
+        return;
+    }
+    const Ray ray{position, *w};
+    const std::optional<Hit> hit = scene_.intersect(ray);
+    if (!hit || scene_.is_interface(*hit)) {
+        return;
+    }
+    const Branch here = now_;
+    const Hit* const surface = std::exchange(hit_, &*hit);
+    const Rgb phase = f.evaluate(*w);
+    now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+    now_.slab.turn(now_.ray.direction, *w);
+    now_.ray = ray;
+    const float passing = now_.slab.pass(hit->distance);
+    const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
+    now_.throughput *= arriving;
+    now_.connected_before = connections_at_boundary * directions.lamp_density(*w) / (density * passing);
+    const SurfaceScattering boundary = scattering_at(*hit);
+    Rgb brought;
+    if (is_finite(arriving) && !boundary.is_specular()) {
+        constexpr int n = connections_at_boundary;
+        const auto around = d_.direction.at(hit->position, false, boundary, now_.boost);
+        const float u = sampler_.random().uniform();
+        for (int i = 0; i < n; ++i) {
+            const auto chosen =
+                choose_light(scene_, tracer_.lights_, {hit->position, hit->normal}, (static_cast<float>(i) + u) / n,
+                             sampler_.random().uniform2(), sampler_.random());
+            if (!chosen) {
+                continue;
+            }
+            const Connection found =
+                connect(*chosen, connections(false), boundary, around, hit->position, hit->normal, false);
+            const Rgb light = found.scattering * found.light;
+            bring(now_.throughput * light, found.slope);
+            brought += arriving * light;
+        }
+    }
+    const Stay stay = now_.stay;
+    now_ = here;
+    now_.stay = stay;
+    hit_ = surface;
+    if (log_) {
+        log_->gather(brought);
+        log_->connect(*w, mean_value(brought) / mean_value(phase), brought);
+    }
+}
+
+template <class Decisions>
+template <class F, class Directions>
+auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
+                                          const Directions& directions, const Vec3& position, const Vec3& normal,
+                                          bool in_volume) -> Connection {
+    const LightSample& light = chosen.light;
+    const Rgb value = f.evaluate(light.direction);
+    if (is_black(value)) {
+        return {};
+    }
+    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    SlabWalk slab;
+    if (in_volume && now_.slab.is_inside()) {
+        slab = now_.slab;
+        slab.turn(now_.ray.direction, light.direction);
+    }
+    const ShadowRay shadow = shadow_ray({position, normal}, light);
+    const Passage passage = pass(scene_, d_.distance, shadow, medium, slab, sampler_.random());
+    if (is_black(passage.transmittance)) {
+        if (log_ && !slab.is_inside()) {
+            look_through_glass(chosen, shadow, medium, position, in_volume);
+        }
+        return {};
+    }
+    const float density = (times + now_.connected_before) * chosen.density();
+    float other = 0;
+    if (!light.point_like) {
+        const Rgb channels = channel_probabilities(now_.throughput * value);
+        other = preference(in_volume) * directions.density(light.direction) * dot(channels, passage.probability);
+    }
+    Connection found{light.direction, light.radiance * passage.transmittance * (1 / (density + other)), value,
+                     std::nullopt};
+    if (!stays_) {
+        return found;
+    }
+    const auto mix = [](const SlabGuide::Shares& a, const SlabGuide::Shares& b, float share_of_a) {
+        SlabGuide::Shares result;
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] = share_of_a * a[i] + (1 - share_of_a) * b[i];
+        }
+        return result;
+    };
+    if (in_volume && now_.medium == now_.stay.medium) {
+        now_.stay.connected = true;
+    }
+    if (in_volume && now_.slab.is_inside()) {
+        const float weight = density / (density + other);
+        found.slope = StaySlope{mix(now_.slab.relative_densities(), slab.relative_densities(), weight), weight - 1};
+    } else if (now_.connected_before > 0) {
+        const float before = now_.connected_before * chosen.density() / (density + other);
+        found.slope = StaySlope{mix(now_.at_collision, now_.slab.relative_densities(), before), 0};
+    }
+    return found;
+}
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::look_through_glass(const ChosenSample& chosen, const ShadowRay& shadow,
+                                                     MediumId medium, const Vec3& position, bool in_volume) {
+    constexpr float often = 0.25f;
+    if (chosen.light.point_like || chosen.light.medium != vacuum || !(sampler_.random().uniform() < often)) {
+        return;
+    }
+    if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
+        const Rgb radiance = chosen.light.radiance * seen->transmittance;
+        log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(), chosen.light.distance,
+                     0, 0, 0, radiance},
+                    in_volume});
+    }
+}
+
+}  // namespace wend
