@@ -174,6 +174,28 @@ INSTANTIATE_TEST_SUITE_P(MeanCosines, SlabStay, testing::Values(0.0f, 0.8f, -0.5
 INSTANTIATE_TEST_SUITE_P(MeanCosines, SlabMixture,
                          testing::Combine(testing::Values(0.0f, 0.8f, -0.5f), testing::Bool()));
 
+TEST_P(SlabStay, ConnectionsToLampsFollowTheirDensity) {
+    SlabGuide guide = chromatic_guide(GetParam(), true);
+    for (const float depth : {0.05f, 0.4f, 1.0f}) {
+        guide.connects_at_boundary = true;
+        SlabWalk walk = begin(guide);
+        Pcg32 random(1);
+        walk.aim(LampView{lamps, depth, {0.3f, 0.2f, 0.1f}});
+        const SlabWalk::Directions directions(walk, arrival, random);
+        const auto sample = [&](Pcg32&) { return directions.sample_lamps(); };
+        const auto density = [&](const Vec3& w) { return static_cast<double>(directions.lamp_density(w)); };
+        EXPECT_TRUE(test::follows_density(test::test_direction_sampler(sample, density),
+                                          "slab_lamps_" + std::to_string(depth) + "_" + std::to_string(GetParam()), 9));
+        const auto wrong = [&](const Vec3& w) { return 1.2 * density(w); };
+        EXPECT_LT(test::test_direction_sampler(sample, wrong).result.p_value, 1e-6);
+
+        guide.connects_at_boundary = false;
+        const SlabWalk::Directions others(walk, arrival, random);
+        EXPECT_FALSE(others.sample_lamps());
+        EXPECT_EQ(others.lamp_density(lamps[0].lobe.mean), 0);
+    }
+}
+
 TEST(SlabWalk, HeadsForLampsAndFliesOutToThem) {
     SlabGuide guide = chromatic_guide(0, true);
     guide.share = {0.03f, 0, 0.97f};

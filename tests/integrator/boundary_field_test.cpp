@@ -77,6 +77,26 @@ TEST(LitPoints, BlurLampsByTheRoughnessOfTheBoundary) {
     }
 }
 
+TEST(LitPoints, BlurGrazingLampsMost) {
+    const Scene scene(lit_ball());
+    double straight = 0, grazing = 0;
+    int straight_count = 0, grazing_count = 0;
+    for (const LitPoint& p : lit(scene, {ior, 0.3f})) {
+        const float cosine = dot(normalize(lamp_at - p.point.position), p.point.normal);
+        if (cosine > 0.9f) {
+            straight += p.lamps[0].lobe.kappa;
+            ++straight_count;
+        } else if (cosine > 0.3f && cosine < 0.5f && p.lamp_count > 0) {
+            grazing += p.lamps[0].lobe.kappa;
+            ++grazing_count;
+        }
+    }
+    ASSERT_GT(straight_count, 10);
+    ASSERT_GT(grazing_count, 10);
+    // Facets that are tilted by t turn the refracted direction by (1 - cos i / (n cos i')) t.
+    EXPECT_LT(grazing / grazing_count, 0.6 * straight / straight_count);
+}
+
 TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
     const Scene scene(lit_ball());
     const std::vector<LitPoint> all = lit(scene, {ior, 0});

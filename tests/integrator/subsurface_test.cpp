@@ -157,6 +157,37 @@ INSTANTIATE_TEST_SUITE_P(Boundaries, GuidedObject,
                                              "RoughForward", 0.8f, 1.4f, 0.3f, {0.2f, 0.5f, 1}, {20, 15, 12}, false}),
                          [](const auto& object) { return std::string(object.param.name); });
 
+/// A slab behind a rough boundary, with a lamp behind it that only connections or luck find.
+SceneDescription back_lit() {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, {0.1f, 0.2f, 0.4f}, {6, 6, 6});
+    test::add_box(s, Box3(Vec3(-0.8f, -1, -0.3f), Vec3(0.8f, 1, 0.3f)), test::add_dielectric(s, 1.4f, 0.3f), medium);
+    const Vec3 p(-0.5f, -1, 1.5f), up(0, 4, 0), aside(4, 0, 0);
+    s.lights.push_back(make_triangle_light(p, p + up, p + aside, true, Rgb(3.0f), true));
+    Surface lamp{TriangleMesh{{p, p + up, p + aside}, {}, {}, {0, 1, 2}}, test::add_diffuse(s, Rgb(0.0f))};
+    lamp.first_light = 0;
+    s.world_surfaces.push_back(static_cast<int>(s.surfaces.size()));
+    s.surfaces.push_back(std::move(lamp));
+    s.lights.push_back(PointLight{{-1, 0.5f, 2}, {1, 1.5f, 2}});
+    return s;
+}
+
+TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
+    const Scene scene(back_lit());
+    const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
+    const auto measure = [&](const char* strategy, int walks) {
+        return test::measure_radiance(scene, ray, walks, 100000, 3, parse_subsurface(strategy));
+    };
+    constexpr int walks = 500000;
+    const Measured connected = measure("learned", walks);
+    const Measured unconnected = measure("incident", walks);
+    const double error = std::hypot(connected.standard_error, unconnected.standard_error);
+    EXPECT_TRUE(agrees(connected.mean - unconnected.mean, error, 0, 4))
+        << connected.mean << " and " << unconnected.mean << " +- " << error;
+    EXPECT_LT(4 * error, 0.015 * unconnected.mean) << "too few walks to see a bias";
+    EXPECT_FALSE(agrees(1.03 * connected.mean - unconnected.mean, error, 0, 4)) << "a bias of 3 % must be seen";
+}
+
 TEST(GuidedObject, MayBeOpenOrInsideOut) {
     for (const bool open : {true, false}) {
         SceneDescription s;

@@ -63,6 +63,7 @@ private:
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
         bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
+        bool is_told = true;                ///< whether collisions go into the log
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
         /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
@@ -158,6 +159,7 @@ private:
             const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
             guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
             now_.is_trial = plan && !guided && plan->classical_probability < 1;
+            now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
             now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
             now_.slab.leave();
             if (stays_ && plan) {
@@ -211,7 +213,7 @@ private:
             return false;
         }
         const Vec3 position = now_.ray.at(distance);
-        if (log_) {
+        if (log_ && now_.is_told) {
             log_->collide(mean_value(extinction_at(medium, position)));
         }
         now_.connected_before = 0;
@@ -475,8 +477,12 @@ private:
     void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
         now_.throughput *= s.weight();
         if (log_) {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, s.classical_density,
-                          s.guided_density);
+            if (in_volume && !now_.is_told) {
+                log_->weigh(s.weight());
+            } else {
+                log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
+                              s.classical_density, s.guided_density);
+            }
             // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
             log_->weigh({now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f,
                          now_.throughput.b > 0 ? 1.0f : 0.0f});

@@ -19,6 +19,9 @@ constexpr double flights_outside = 2;
 /// How much of the variance classical stays may add while they are watched, and their largest share.
 constexpr float variance_for_watching = 0.1f;
 constexpr float largest_share_for_watching = 0.0625f;
+/// How much of guided stays is told where they have this advantage.
+constexpr float least_told = 0.125f;
+constexpr double clear_advantage = 0.7;
 constexpr float first_preference = 16;
 constexpr float largest_preference = 1000;
 /// Of connections, by preference; and where none has succeeded in so many stays.
@@ -71,6 +74,9 @@ struct Advantage {
         }
         return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
     }
+
+    /// Classical stays only ever seem to be better than they are.
+    float told_probability() const { return efficiency > clear_advantage ? least_told : 1.0f; }
 };
 
 Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& classical) {
@@ -206,7 +212,8 @@ StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
              StayPlan{start,
                       largest_share_for_watching,
                       {first_preference, connection_probability(first_preference), connections_at_surfaces},
-                      {1, 1, connections_at_surfaces}}) {
+                      {1, 1, connections_at_surfaces},
+                      1}) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {
@@ -228,13 +235,14 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, bool last
     stays_ += all.guided.powers[0] + all.classical.powers[0];
     connects_ = connects_ || all.connected > 0;
     const float most_connected = connects_ || stays_ < enough_stays ? 1.0f : least_probability;
-    const float classical = advantage(all.guided, classical_).classical_probability(last);
+    const Advantage guided = advantage(all.guided, classical_);
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         StayPlan& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
-        plan.classical_probability = classical;
+        plan.classical_probability = guided.classical_probability(last);
+        plan.told_probability = guided.told_probability();
         plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);
         plan.classical.probability = most_connected;
     }

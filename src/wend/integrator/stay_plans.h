@@ -45,7 +45,6 @@ struct StayPlan {
     SlabGuide::Shares shares{1};
     /// Of leaving a stay to classical sampling alone.
     float classical_probability = 0;
-
     /// How vertices are connected to lights that the walk may run into as well.
     struct Connecting {
         /// What multiplies the density of the walk's own directions where it is weighed against that of connections. A
@@ -60,6 +59,9 @@ struct StayPlan {
     };
     Connecting guided;     ///< in guided stays
     Connecting classical;  ///< in others
+    /// Of telling the learned field what a guided stay meets on its way: the field takes over where guides are given
+    /// up.
+    float told_probability = 1;
 };
 
 /// Sums over stays that began in the same cell of the same medium, for the second moment of what one brings, F. With

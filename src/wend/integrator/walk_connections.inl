@@ -37,7 +37,7 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
             lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
                                                       mean_value(brought) * times * chosen->probability));
         }
-        if (log_) {
+        if (log_ && (now_.is_told || !in_volume)) {
             log_->connect(found.to_light, mean_value(found.light), brought);
         }
     }
@@ -94,6 +94,8 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     hit_ = surface;
     if (log_) {
         log_->gather(brought);
+    }
+    if (log_ && now_.is_told) {
         log_->connect(*w, mean_value(brought) / mean_value(phase), brought);
     }
 }
