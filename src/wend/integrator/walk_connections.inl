@@ -48,6 +48,9 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
 template <class Decisions>
 void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
                                                       const Vec3& position) {
+    if (now_.depth >= tracer_.max_depth_) {
+        return;
+    }
     const std::optional<Vec3> w = directions.sample_lamps();
     const float density = w ? directions.density(*w) : 0.0f;
     if (!(density > 0)) {
