@@ -175,19 +175,23 @@ SceneDescription back_lit() {
 TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     const Scene scene(back_lit());
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    for (const int max_depth : {5, 100000}) {
-        SCOPED_TRACE(max_depth);
+    struct Limit {
+        int max_depth, walks;
+        double bias;  ///< that is seen
+    };
+    // Few walks get through in five collisions; to connect once too often would show there.
+    for (const Limit& limit : {Limit{5, 300000, 0.08}, Limit{100000, 500000, 0.03}}) {
+        SCOPED_TRACE(limit.max_depth);
         const auto measure = [&](const char* strategy) {
-            return test::measure_radiance(scene, ray, max_depth > 5 ? 500000 : 300000, max_depth, 3,
-                                          parse_subsurface(strategy));
+            return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, 3, parse_subsurface(strategy));
         };
         const Measured connected = measure("learned");
         const Measured unconnected = measure("incident");
         const double error = std::hypot(connected.standard_error, unconnected.standard_error);
         EXPECT_TRUE(agrees(connected.mean - unconnected.mean, error, 0, 4))
             << connected.mean << " and " << unconnected.mean << " +- " << error;
-        EXPECT_LT(4 * error, 0.015 * unconnected.mean) << "too few walks to see a bias";
-        EXPECT_FALSE(agrees(1.03 * connected.mean - unconnected.mean, error, 0, 4)) << "a bias of 3 % must be seen";
+        EXPECT_LT(8 * error, limit.bias * unconnected.mean) << "too few walks to see a bias";
+        EXPECT_FALSE(agrees((1 + limit.bias) * connected.mean - unconnected.mean, error, 0, 4));
     }
 }
 
