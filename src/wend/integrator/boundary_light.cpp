@@ -1,5 +1,4 @@
 #include <wend/integrator/boundary_light.h>
-#include <wend/medium/fresnel.h>
 
 #include <algorithm>
 #include <cmath>

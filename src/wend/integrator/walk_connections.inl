@@ -1,11 +1,16 @@
 // How the walk of integrator/path_tracer.inl, which includes this, connects its vertices to lights.
 #pragma once
 
+#include <wend/decision/channels.h>
 #include <wend/integrator/glimpse.h>
 #include <wend/integrator/light_connection.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
 #include <wend/medium/transmittance.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace wend {
 

@@ -145,7 +145,7 @@ Shape load_subdivision_surface(LoadContext&, pbrt::ShapeEntity& shape) {
     const int levels = shape.parameters.get_int("levels", 3);
     const pbrt::Location levels_place = shape.parameters.place_of("levels");
     const TriangleMeshData control = take_faces(shape, 3);
-    constexpr double most_triangles = 1 << 26;
+    constexpr double most_triangles = 1 << 24;
     const double triangles = static_cast<double>(control.indices.size() / 3) * std::pow(4.0, levels);
     if (levels < 0 || triangles > most_triangles) {
         throw InputError(levels_place, fmt::format("\"levels\" is {}: it must not be negative, and lead to {:.0f} "
