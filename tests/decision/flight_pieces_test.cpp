@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ struct Stretch {
     float t_out, in_scattered;
 };
 
+/// A light beside the ray along +x, close to a piece.
+struct Lamp {
+    std::size_t piece;
+    float x, y;
+    float strength;
+};
+
 struct Coefficients {
     Rgb extinction, scattering, channels;
 };
@@ -34,6 +42,7 @@ struct Case {
     std::vector<Stretch> stretches;
     float ahead;
     bool level = false;
+    std::vector<Lamp> lamps{};
 
     float length() const { return stretches.back().t_out; }
 
@@ -91,16 +100,30 @@ const std::vector<Case>& cases() {
         {"very thin", grey, many(100, 4e-6f), 0},
         {"very thin, level", grey, many(100, 4e-6f), 0, true},
         {"very thin, chromatic", chromatic, many(100, 4e-6f), 0},
+        {"lamp", grey, uneven, 2, false, {{0, 0.3f, 0.1f, 0.2f}}},
+        {"lamp, chromatic", chromatic, uneven, 2, false, {{3, 1.5f, 0.1f, 1}}},
+        {"lamp, level", chromatic, uneven, 2, true, {{3, 1.5f, 0.1f, 1}}},
+        {"lamps, dark pieces", chromatic, {{1, 0}, {2, 0}}, 0, false, {{0, 1.1f, 0.3f, 2}, {1, 1.1f, 0.3f, 1}}},
+        {"lamp in the last piece", with_clear_channel, uneven, 0.5f, false, {{5, 2.9f, 0.1f, 3}}},
     };
     return all;
 }
 
 FlightPieces pieces_of(const Case& c) {
     FlightPieces pieces(c.coefficients.extinction, c.coefficients.scattering, c.coefficients.channels);
-    for (const Stretch& s : c.stretches) {
+    float t_in = 0;
+    for (std::size_t i = 0; i < c.stretches.size(); ++i) {
+        const Stretch& s = c.stretches[i];
+        for (const Lamp& lamp : c.lamps) {
+            if (lamp.piece == i) {
+                pieces.add_near(Equiangular({{0, 0, 0}, {1, 0, 0}}, {lamp.x, lamp.y, 0}, 0, t_in, s.t_out),
+                                lamp.strength);
+            }
+        }
         if (!pieces.add(s.t_out, s.in_scattered)) {
             break;
         }
+        t_in = s.t_out;
     }
     pieces.finish(c.length(), c.ahead, c.level);
     return pieces;
@@ -120,10 +143,13 @@ struct Claimed {
         const auto density = [&](double t) {
             return static_cast<double>(pieces.collision(static_cast<float>(t), static_cast<float>(share)).density);
         };
+        const int parts = c.lamps.empty() ? 1 : 32;
         const auto add = [&](double from, double to) {
             double sum = 0;
-            for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-                sum += rule.weights[i] * density(from + (to - from) * rule.nodes[i]);
+            for (int part = 0; part < parts; ++part) {
+                for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+                    sum += rule.weights[i] / parts * density(from + (to - from) * (part + rule.nodes[i]) / parts);
+                }
             }
             ends.push_back(static_cast<float>(to));
             probabilities.push_back(sum * (to - from));
@@ -258,6 +284,35 @@ TEST(FlightPieces, ATrueEstimateLeavesNoVariance) {
     expect_no_variance({"", one_channel, uneven, 2}, 1);
     expect_no_variance({"", grey, open_ended(uneven), 2}, 2);
     expect_no_variance({"", grey, many(120, 4), 0.1f}, 2);
+}
+
+TEST(FlightPieces, TowardsALampWeightsStayWithinWhatPassesOnTheWay) {
+    // Where a lamp is all the light there is, transmittance is what the density does not follow.
+    const Case c{"", grey, {{0.5f, 0}}, 0, false, {{0, 0.3f, 0.01f, 1}}};
+    const FlightPieces pieces = pieces_of(c);
+    Pcg32 random(4);
+    float least = std::numeric_limits<float>::infinity(), most = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const FlightPieces::Outcome drawn = pieces.sample(0, random.uniform());
+        ASSERT_TRUE(drawn.scatters);
+        const float square = sqr(drawn.distance - 0.3f) + sqr(0.01f);
+        const float weight = std::exp(-grey.extinction.r * drawn.distance) / (square * drawn.density);
+        least = std::min(least, weight);
+        most = std::max(most, weight);
+    }
+    EXPECT_LT(most / least, std::exp(grey.extinction.r * 0.5f) * 1.01f);
+}
+
+TEST(FlightPieces, ThereIsRoomForAFewLamps) {
+    FlightPieces pieces(grey.extinction, grey.scattering, grey.channels);
+    int lamps = 0;
+    for (; pieces.has_room_for_near(); ++lamps) {
+        const auto t = static_cast<float>(lamps);
+        pieces.add_near(Equiangular({{0, 0, 0}, {1, 0, 0}}, {t, 0.1f, 0}, 0, t, t + 1), 1);
+        pieces.add(t + 1, 0);
+    }
+    EXPECT_GE(lamps, 4);
+    EXPECT_LE(lamps, 64);
 }
 
 TEST(FlightPieces, AFalseEstimateLeavesSome) {

@@ -3,6 +3,7 @@
 #include <tests/medium/smooth_medium.h>
 #include <tests/sampling/verdicts.h>
 #include <wend/decision/guided_distance.h>
+#include <wend/guide/scattered_light.h>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,8 @@ public:
     struct Light {
         float brightness = 0;
         float trust = 1;
+        guide::NearLight near;
+        float in_scattered_from_afar(const Vec3&, const PhaseFunction&) const { return brightness; }
         float in_scattered(const Vec3&, const PhaseFunction&) const { return brightness; }
         float leaving_to(const Vec3& normal) const { return brightness * (normal.x < 0 ? 2.0f : 1.0f); }
     };
@@ -40,8 +43,14 @@ public:
     /// Slices end at increasing x; the first and the last one reach on.
     Slices(const std::vector<float>& ends, const std::vector<float>& brightness) : ends_(ends) {
         for (const float b : brightness) {
-            lights_.push_back({b});
+            lights_.emplace_back().brightness = b;
             places_.push_back({b});
+        }
+    }
+
+    void set_lamp(const guide::NearLight& lamp) {
+        for (Light& light : lights_) {
+            light.near = lamp;
         }
     }
 
@@ -75,6 +84,12 @@ private:
 static_assert(AdjointAlongRays<Slices>);
 
 const Ray ray = test::ray_through_smooth_medium();
+
+/// A lamp beside the ray that all of them take for near.
+Slices with_lamp(Slices slices) {
+    slices.set_lamp({ray.at(1.3f) + Vec3(0, 0.02f, 0.03f), 1e-4f, 0.5f, 1});
+    return slices;
+}
 
 Slices uneven() {
     return {{-0.5f, 0.4f}, {0.2f, 5, 1}};
@@ -194,6 +209,10 @@ constexpr auto scatter_alone = DistanceGuiding::scatter_alone;
 INSTANTIATE_TEST_SUITE_P(
     GuidedDistance, GuidedWeights,
     testing::Values(Case{"homogeneous", homogeneous(Rgb(0.1f), Rgb(0.4f)), uneven()},
+                    Case{"homogeneous_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(uneven())},
+                    Case{"homogeneous_many_slices_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(very_many()),
+                         DistanceGuiding::scatter_and_distance, Rgb(1), 1500000},
+                    Case{"chromatic_lamp", homogeneous(red_absorption, blue_scattering), with_lamp(uneven())},
                     Case{"homogeneous_level", homogeneous(Rgb(0.1f), Rgb(0.4f)), uneven(), scatter_alone},
                     Case{"homogeneous_many_slices", homogeneous(Rgb(0.1f), Rgb(0.4f)), very_many(),
                          DistanceGuiding::scatter_and_distance, Rgb(1), 1500000},

@@ -1,10 +1,12 @@
 #include <wend/decision/flight_pieces.h>
 
 #include <wend/core/contracts.h>
+#include <wend/numeric/fast_exp2.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace wend {
 namespace {
@@ -16,10 +18,8 @@ float into_unit(float u) {
     return std::clamp(u, 0.0f, 0x1.fffffep-1f);
 }
 
-/// 1 - e^{-depth}. Thin pieces are the usual ones: their series is faster than expm1.
-float stopped(float depth) {
-    return depth < 0.1f ? depth * (1 - depth * (0.5f - depth * (1.0f / 6 - depth * (1.0f / 24 - depth * (1.0f / 120)))))
-                        : 1 - std::exp(-depth);
+FastPower passing(float depth) {
+    return fast_power_of_two(-std::numbers::log2e_v<float> * depth);
 }
 
 }  // namespace
@@ -40,13 +40,14 @@ Rgb FlightPieces::transmitted(float distance) const {
     return grey_ ? Rgb(std::exp(-extinction_.r * distance)) : exp(extinction_ * -distance);
 }
 
-Rgb FlightPieces::scattered_in(const Piece& piece) const {
-    // Not as a difference of transmittances, of which nothing would be left in a thin medium.
-    const float from = t_in(piece), size = piece.t_out - from;
-    const Rgb share =
-        grey_ ? Rgb(stopped(extinction_.r * size))
-              : Rgb(stopped(extinction_.r * size), stopped(extinction_.g * size), stopped(extinction_.b * size));
-    return albedo_ * transmitted(from) * share;
+FlightPieces::Shares FlightPieces::shares_in(const Piece& piece) const {
+    const float size = piece.t_out - t_in(piece);
+    const FastPower r = passing(extinction_.r * size);
+    if (grey_) {
+        return {Rgb(r.value()), Rgb(-r.minus_one())};
+    }
+    const FastPower g = passing(extinction_.g * size), b = passing(extinction_.b * size);
+    return {{r.value(), g.value(), b.value()}, {-r.minus_one(), -g.minus_one(), -b.minus_one()}};
 }
 
 bool FlightPieces::add(float t_out, float in_scattered) {
@@ -54,23 +55,47 @@ bool FlightPieces::add(float t_out, float in_scattered) {
     return t_out < farthest_ && count_ < capacity;
 }
 
+void FlightPieces::add_near(const Equiangular& along, float strength) {
+    WEND_EXPECT(has_room_for_near());
+    near_[near_count_++] = {count_, along, strength * along.integral(), 0};
+}
+
 void FlightPieces::finish(float length, float ahead, bool level) {
     WEND_EXPECT(count_ > 0);
     pieces_[count_ - 1].t_out = length;
     ahead_ = ahead;
     float scattered = 0, lit = 0;
+    Rgb passed(1.0f);
     for (int i = 0; i < count_; ++i) {
         Piece& piece = pieces_[i];
-        const float part = dot(Rgb(1.0f), scattered_in(piece));
+        const Shares shares = shares_in(piece);
+        const float part = dot(albedo_ * passed, shares.stopped);
+        passed *= shares.passing;
         scattered += part;
         lit += piece.in_scattered * part;
         piece.cumulative = lit;
     }
+    for (int i = 0; i < near_count_; ++i) {
+        Near& near = *near_[i];
+        near.part *= dot(scattering_rate_, transmitted(near.along.closest()));
+        lit += near.part;
+        near.cumulative = lit;
+    }
     if (level && lit > 0) {
         pieces_[0] = {length, lit / scattered, lit};
         count_ = 1;
+        near_count_ = 0;
     }
-    total_ = lit + ahead * dot(channels_, transmitted(length));
+    total_ = lit + ahead * dot(channels_, passed);
+}
+
+float FlightPieces::near_at(const Piece& piece, float distance) const {
+    for (int i = 0; i < near_count_; ++i) {
+        if (near_[i]->piece == &piece - pieces_) {
+            return near_[i]->part * near_[i]->along.density(distance);
+        }
+    }
+    return 0;
 }
 
 FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float distance, float classical_share) const {
@@ -78,7 +103,8 @@ FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float dista
     Outcome o{true, distance, 0, dot(rate_, passed)};
     o.density = classical_share * o.classical;
     if (classical_share < 1) {
-        o.density += (1 - classical_share) * piece.in_scattered / total_ * dot(scattering_rate_, passed);
+        o.density += (1 - classical_share) / total_ *
+                     (piece.in_scattered * dot(scattering_rate_, passed) + near_at(piece, distance));
     }
     return o;
 }
@@ -108,13 +134,20 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
     const Piece* piece =
         std::partition_point(pieces_, pieces_ + count_, [&](const Piece& p) { return p.cumulative <= u; });
     if (piece == pieces_ + count_) {
-        return end(classical_share);
+        const auto* near =
+            std::find_if(near_, near_ + near_count_, [&](const auto& candidate) { return candidate->cumulative > u; });
+        if (near == near_ + near_count_) {
+            return end(classical_share);
+        }
+        u = into_unit((u - ((*near)->cumulative - (*near)->part)) / (*near)->part);
+        return collision_in(pieces_[(*near)->piece], (*near)->along.sample(u), classical_share);
     }
     const float below = piece == pieces_ ? 0.0f : (piece - 1)->cumulative;
     u = into_unit((u - below) / (piece->cumulative - below));
     const float from = t_in(*piece), size = piece->t_out - from;
     // Which channel's share of the piece.
-    const int channel = grey_ ? 0 : choose_channel(channel_probabilities(scattered_in(*piece)), u);
+    const int channel =
+        grey_ ? 0 : choose_channel(channel_probabilities(albedo_ * transmitted(from) * shares_in(*piece).stopped), u);
     const float sigma = extinction_[channel];
     const float distance = from - std::log1p(u * std::expm1(-sigma * size)) / sigma;
     return collision_in(*piece, std::min(distance, piece->t_out), classical_share);

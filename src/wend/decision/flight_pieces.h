@@ -2,6 +2,10 @@
 #pragma once
 
 #include <wend/decision/channels.h>
+#include <wend/sampling/equiangular.h>
+
+#include <cstddef>
+#include <optional>
 
 namespace wend {
 
@@ -12,6 +16,8 @@ namespace wend {
 /// and the end at distance d, behind which radiance A comes, with probability
 ///     (α + (1 - α) A / Z) · Σ_c w_c e^{-σ_c d},
 /// where α is the classical share, w_c are the weights of the colour channels and Z makes the second terms add up to 1.
+/// A light close to a piece adds what its light brings there, drawn by angle (kulla2012), to the second term of the
+/// density.
 /// A value of fixed size without heap memory.
 class FlightPieces {
 public:
@@ -30,6 +36,10 @@ public:
     /// The next piece: from the end of the last one, at first from 0, to t_out. Returns whether more pieces are wanted:
     /// there is room for so many, and hardly any light comes from far away.
     bool add(float t_out, float in_scattered);
+
+    /// The next piece has a light close by, of this in-scattered radiance times squared distance. There must be room.
+    void add_near(const Equiangular& along, float strength);
+    bool has_room_for_near() const { return near_count_ < most_near; }
 
     /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
     /// There must be a piece. `level`: only whether to scatter follows the light, and where does not.
@@ -54,23 +64,39 @@ private:
         float cumulative;
     };
 
+    struct Near {
+        std::ptrdiff_t piece;
+        Equiangular along;
+        /// The contribution, and the sum of all up to this one, those of the pieces included.
+        float part, cumulative;
+    };
+
+    /// Of what comes to a piece: e^{-σ_c t}, t the length of the piece, and the rest with all its digits, of which a
+    /// difference would leave nothing in a thin medium.
+    struct Shares {
+        Rgb passing, stopped;
+    };
+
     Rgb transmitted(float distance) const;
     float t_in(const Piece& piece) const { return &piece == pieces_ ? 0.0f : (&piece - 1)->t_out; }
-    /// w_c σs_c ∫ e^{-σ_c t} dt over the piece.
-    Rgb scattered_in(const Piece& piece) const;
+    Shares shares_in(const Piece& piece) const;
     Outcome collision_in(const Piece& piece, float distance, float classical_share) const;
+    /// The contributions of the piece's near light, per unit of distance.
+    float near_at(const Piece& piece, float distance) const;
 
     static constexpr int capacity = 128;
+    static constexpr int most_near = 8;
 
     Rgb extinction_;
     /// The weights of the channels times 1, σ, σs, and σs / σ.
     Rgb channels_, rate_, scattering_rate_, albedo_;
     bool grey_;
     float farthest_;
-    int count_ = 0;
+    int count_ = 0, near_count_ = 0;
     float ahead_ = 0;
     float total_ = 0;
     Piece pieces_[capacity];
+    std::optional<Near> near_[most_near];
 };
 
 }  // namespace wend

@@ -16,6 +16,8 @@ namespace wend {
 template <class F>
 concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ray, const PhaseFunction& phase) {
     { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
+    { field.scattered_light(p)->in_scattered_from_afar(p, phase) } -> std::same_as<float>;
+    { field.scattered_light(p)->near.intensity } -> std::convertible_to<float>;
     { field.scattered_light(p)->leaving_to(p) } -> std::same_as<float>;
     { field.scattered_light(p)->trust } -> std::convertible_to<float>;
     field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving_to({}) > 0; });
@@ -77,8 +79,14 @@ private:
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float share, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
-        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float, float t_out) {
-            return pieces.add(t_out, light.in_scattered(start.ray.direction, medium.phase));
+        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
+            const Vec3& before = start.ray.direction;
+            if (!(light.near.intensity > 0 && pieces.has_room_for_near())) {
+                return pieces.add(t_out, light.in_scattered(before, medium.phase));
+            }
+            const Equiangular along(start.ray, light.near.position, light.near.extent_squared, t_in, t_out);
+            pieces.add_near(along, light.near.intensity * medium.phase.evaluate(along.cosine()));
+            return pieces.add(t_out, light.in_scattered_from_afar(before, medium.phase));
         });
         pieces.finish(start.length, ahead(start), levels());
         const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share : 1.0f, u);

@@ -41,10 +41,11 @@ public:
 
     /// The vertex at hand was connected to a light: `fluence` is the radiance over the density of the direction, and
     /// `brought` that times the scattering function, which the walk gathers too. Where there are several connections
-    /// they add up, and the direction is that of one that outweighs those before it.
-    void connect(const Vec3& to_light, float fluence, const Rgb& brought) {
+    /// they add up, and the direction and the distance are those of one that outweighs those before it.
+    void connect(const Vec3& to_light, float distance, float fluence, const Rgb& brought) {
         if (fluence >= at_.light_fluence) {
             at_.to_light = to_light;
+            at_.light_distance = distance;
         }
         at_.light_fluence += fluence;
         at_.connected += brought;
@@ -80,6 +81,7 @@ public:
         v.extinction = at_.extinction;
         v.connected = at_.connected;
         v.to_light = at_.to_light;
+        v.light_distance = at_.light_distance;
         v.light_fluence = at_.light_fluence;
         at_ = {};
         at_.vertex = static_cast<std::int32_t>(vertices_.size());
@@ -97,6 +99,7 @@ public:
         /// Of the vertex at hand, whose direction is not drawn yet.
         Rgb connected;
         Vec3 to_light{0, 0, 0};
+        float light_distance = std::numeric_limits<float>::infinity();
         float light_fluence = 0;
         Vec3 normal{0, 0, 0};
         float extinction = 0;

@@ -39,11 +39,12 @@ struct PathVertex {
     /// direction was drawn: light met, the medium's own, and the next vertex's connection to a light, each with its
     /// weight of multiple importance sampling.
     Rgb gathered;
-    /// What a connection to a light brought at this vertex, the scattering function included, and the direction of the
-    /// light and the connection's estimate of its fluence. For records of scattered light alone: what arrives at the
-    /// parent has it among what was gathered there.
+    /// What a connection to a light brought at this vertex, the scattering function included, and the direction and the
+    /// distance of the light and the connection's estimate of its fluence. For records of scattered light alone: what
+    /// arrives at the parent has it among what was gathered there.
     Rgb connected;
     Vec3 to_light{0, 0, 0};
+    float light_distance = std::numeric_limits<float>::infinity();
     float light_fluence = 0;
     /// Of the surface, on the side that the walk came from; zero in a volume.
     Vec3 normal{0, 0, 0};
@@ -96,6 +97,7 @@ inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& inci
             mean(vertex.connected + vertex.scattering * incident),
             vertex.light_fluence,
             vertex.to_light,
+            vertex.light_distance,
             vertex.extinction,
             cost};
 }

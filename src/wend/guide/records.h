@@ -4,6 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
 
+#include <limits>
 #include <vector>
 
 namespace wend::guide {
@@ -42,6 +43,8 @@ struct ScatterRecord {
     /// in radiance times sr, and the direction to the light, which means nothing where the estimate is 0.
     float connected;
     Vec3 to_light;
+    /// To the light; infinite for one that is far.
+    float light_distance = std::numeric_limits<float>::infinity();
     /// Of the medium at the vertex, as a scalar; 0 at a surface.
     float extinction = 0;
     /// How many vertices the walk had from this one on, in all its branches.

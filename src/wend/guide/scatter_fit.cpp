@@ -23,8 +23,51 @@ Vec3 mean_direction(const VmfMixture& mixture) {
     return sum;
 }
 
-/// The records of a cell summed up, freaks cut.
-ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std::uint32_t> chosen) {
+/// What connections found of lights close to a cell.
+struct NearSums {
+    double found = 0;
+    /// What was found times squared distance, and that times the light's place, from the cell's reference point, and
+    /// the square of that.
+    double intensity = 0;
+    Imath::V3d place{0, 0, 0};
+    double square = 0;
+
+    NearSums() = default;
+    /// What a near light stands for, of so many records and so much found by connections.
+    NearSums(const NearLight& near, const Vec3& reference, double records, double connected)
+        : found(static_cast<double>(near.share) * connected), intensity(static_cast<double>(near.intensity) * records) {
+        const Imath::V3d from_reference = Imath::V3d(near.position) - Imath::V3d(reference);
+        place = from_reference * intensity;
+        square = (from_reference.length2() + static_cast<double>(near.extent_squared)) * intensity;
+    }
+
+    NearSums& operator+=(const NearSums& o) {
+        found += o.found;
+        intensity += o.intensity;
+        place += o.place;
+        square += o.square;
+        return *this;
+    }
+
+    NearLight light(const Vec3& reference, double records, double connected) const {
+        if (!(intensity > 0 && connected > 0)) {
+            return {};
+        }
+        const Imath::V3d from_reference = place / intensity;
+        return {Vec3(Imath::V3d(reference) + from_reference),
+                static_cast<float>(std::max(0.0, square / intensity - from_reference.length2())),
+                static_cast<float>(intensity / records), static_cast<float>(std::min(1.0, found / connected))};
+    }
+};
+
+struct Found {
+    ScatterSums sums;
+    NearSums near;
+};
+
+/// The records of a cell summed up, freaks cut; lights within `reach` are near.
+Found sums_of(std::span<const ScatterRecord> records, std::span<const std::uint32_t> chosen, const Vec3& reference,
+              double reach) {
     std::vector<double> leaving, connected;
     leaving.reserve(chosen.size());
     connected.reserve(chosen.size());
@@ -41,37 +84,56 @@ ScatterSums sums_of(std::span<const ScatterRecord> records, std::span<const std:
     std::array<double, sides> count{}, leaving_sum{};
     double connected_sum = 0, extinction = 0, cost = 0;
     Imath::V3d direction(0, 0, 0);
+    NearSums near;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const double out = std::min(leaving[i], most_leaving), in = std::min(connected[i], most_connected);
-        const auto side = static_cast<std::size_t>(side_of(records[chosen[i]].normal));
+        const ScatterRecord& record = records[chosen[i]];
+        const auto side = static_cast<std::size_t>(side_of(record.normal));
         ++count[side];
         leaving_sum[side] += out;
-        extinction += static_cast<double>(records[chosen[i]].extinction);
-        cost += static_cast<double>(records[chosen[i]].cost);
+        extinction += static_cast<double>(record.extinction);
+        cost += static_cast<double>(record.cost);
         connected_sum += in;
         if (in > 0) {
-            direction += Imath::V3d(records[chosen[i]].to_light) * in;
+            direction += Imath::V3d(record.to_light) * in;
+        }
+        if (const double distance = record.light_distance; in > 0 && distance <= reach) {
+            const Imath::V3d place =
+                Imath::V3d(record.position) - Imath::V3d(reference) + Imath::V3d(record.to_light) * distance;
+            // Uncut: it does not grow towards the light.
+            const double intensity = connected[i] * sqr(distance);
+            near.found += in;
+            near.intensity += intensity;
+            near.place += place * intensity;
+            near.square += place.length2() * intensity;
         }
     }
     ScatterSums sums;
     std::copy(count.begin(), count.end(), sums.records.begin());
-    std::copy(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin());
+    std::transform(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin(),
+                   [](double sum) { return BriefFloat(static_cast<float>(sum)); });
     sums.connected = static_cast<float>(connected_sum);
     sums.connected_direction = Vec3(direction);
     sums.extinction = static_cast<float>(extinction);
     sums.cost = static_cast<float>(cost);
-    return sums;
+    return {sums, near};
 }
 
-ScatteredLight light_of(const ScatterSums& sums, const Region& region, const Statistics& statistics) {
+float records_of(const ScatterSums& sums) {
+    return std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
+}
+
+ScatteredLight light_of(const ScatterSums& sums, const NearLight& near, const Region& region,
+                        const Statistics& statistics) {
     constexpr double enough = 16;
     ScatteredLight light;
+    light.near = near;
     if (statistics.fluence_square > 0) {
         const double effective = sqr(statistics.fluence) / statistics.fluence_square;  // kish1965
         light.trust = static_cast<float>(effective / (effective + enough));
     }
     light.walked = {region.fluence(), mean_direction(region.mixture())};
-    const float records = std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
+    const float records = records_of(sums);
     const float leaving = std::accumulate(sums.leaving.begin(), sums.leaving.end(), 0.0f);
     if (records > 0) {
         light.connected.fluence = sums.connected / records;
@@ -117,10 +179,21 @@ public:
             }
         }
         parallel_for(field.size(), threads, [&](std::size_t cell) {
-            ScatterSums& sums = field.memories_[cell].scattered;
+            Field::Memory& memory = field.memories_[cell];
+            ScatterSums& sums = memory.scattered;
             sums = sums.scaled(static_cast<float>(decay));
-            sums += sums_of(records, std::span(order).subspan(begin[cell], begin[cell + 1] - begin[cell]));
-            field.scattered_[cell] = light_of(sums, field.regions_[cell], field.memories_[cell].statistics);
+            NearLight near = field.scattered_[cell].near;
+            if (begin[cell] < begin[cell + 1]) {
+                // Further away, what arrives hardly changes within the cell.
+                const double reach = memory.radius;
+                const Vec3& reference = field.regions_[cell].reference();
+                NearSums known(near, reference, records_of(sums), sums.connected);
+                const Found found = sums_of(
+                    records, std::span(order).subspan(begin[cell], begin[cell + 1] - begin[cell]), reference, reach);
+                sums += found.sums;
+                near = (known += found.near).light(reference, records_of(sums), sums.connected);
+            }
+            field.scattered_[cell] = light_of(sums, near, field.regions_[cell], memory.statistics);
         });
         return field;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/vector.h>
+#include <wend/guide/brief_float.h>
 #include <wend/medium/phase.h>
 
 #include <array>
@@ -25,31 +26,54 @@ inline int side_of(const Vec3& normal) {
     return 2 * axis + (normal[axis] < 0 ? 1 : 0);
 }
 
+/// Lights close to a cell, taken for one. What arrives from them grows as 1/r² towards them, which no mean over the
+/// cell tells.
+struct NearLight {
+    Vec3 position{0, 0, 0};
+    /// The mean of the squared distances of its parts from the position.
+    float extent_squared = 0;
+    /// Fluence times squared distance, a mean over the cell, in radiance times sr times squared length; 0: there is no
+    /// such light.
+    float intensity = 0;
+    /// How much of what connections found it has.
+    float share = 0;
+};
+
 /// The light scattered in a cell. As a function of direction, what arrives is taken for Henyey and Greenstein's
 /// function around its mean direction: that kind is closed under convolution, so the in-scattered radiance for a phase
 /// function of that kind costs one evaluation.
 struct ScatteredLight {
     /// What walks found on their way, and what their connections to lights did: together all the light.
     ArrivingLight walked, connected;
+    /// Part of what was connected.
+    NearLight near;
     /// Radiance that leaves the vertices of the cell towards where walks came from, by the side that they came from: a
     /// wall may be bright on one side and dark on the other.
-    std::array<float, sides> leaving{};
+    std::array<BriefFloat, sides> leaving{};
     /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
     float trust = 0;
 
     float leaving_to(const Vec3& normal) const { return leaving[static_cast<std::size_t>(side_of(normal))]; }
 
     /// ∫ p(before, ω) L(ω) dω, in radiance.
-    float in_scattered(const Vec3& before, const PhaseFunction& phase) const {
+    float in_scattered(const Vec3& before, const PhaseFunction& phase) const { return in_scattered(before, phase, 1); }
+    /// The same without the near light's.
+    float in_scattered_from_afar(const Vec3& before, const PhaseFunction& phase) const {
+        return in_scattered(before, phase, 1 - near.share);
+    }
+
+private:
+    float in_scattered(const Vec3& before, const PhaseFunction& phase, float share_of_connected) const {
         return walked.fluence * phase.blurred(before, walked.mean) +
-               connected.fluence * phase.blurred(before, connected.mean);
+               share_of_connected * connected.fluence * phase.blurred(before, connected.mean);
     }
 };
 
 /// Sums over the records of a cell, older ones counting less.
 struct ScatterSums {
     /// By side.
-    std::array<float, sides> records{}, leaving{};
+    std::array<float, sides> records{};
+    std::array<BriefFloat, sides> leaving{};
     float connected = 0;
     Vec3 connected_direction{0, 0, 0};
     float extinction = 0;
@@ -57,9 +81,9 @@ struct ScatterSums {
 
     ScatterSums scaled(float factor) const {
         ScatterSums result = *this;
-        for (int side = 0; side < sides; ++side) {
+        for (std::size_t side = 0; side < sides; ++side) {
             result.records[side] *= factor;
-            result.leaving[side] *= factor;
+            result.leaving[side] = result.leaving[side] * factor;
         }
         result.connected *= factor;
         result.connected_direction *= factor;
@@ -68,9 +92,9 @@ struct ScatterSums {
         return result;
     }
     ScatterSums& operator+=(const ScatterSums& o) {
-        for (int side = 0; side < sides; ++side) {
+        for (std::size_t side = 0; side < sides; ++side) {
             records[side] += o.records[side];
-            leaving[side] += o.leaving[side];
+            leaving[side] = leaving[side] + o.leaving[side];
         }
         connected += o.connected;
         connected_direction += o.connected_direction;

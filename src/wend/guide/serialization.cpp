@@ -12,7 +12,7 @@
 namespace wend::guide {
 namespace {
 
-constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 3};
+constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 4};
 
 [[noreturn]] void refuse(const std::string& reason) {
     throw InputError(std::string(kind.title) + ": " + reason);
@@ -144,6 +144,23 @@ void put_scattered(std::string& out, const ScatterSums& sums) {
     put(out, sums.connected_direction);
 }
 
+void put_near(std::string& out, const NearLight& near) {
+    put(out, near.position);
+    put(out, near.extent_squared);
+    put(out, near.intensity);
+    put(out, near.share);
+}
+
+NearLight take_near(Reader& in) {
+    NearLight near;
+    near.position = in.take_vector();
+    near.extent_squared = in.take_finite<float>();
+    near.intensity = in.take_finite<float>();
+    near.share = in.take_finite<float>();
+    Reader::require(near.extent_squared >= 0 && near.intensity >= 0 && near.share >= 0 && near.share <= 1);
+    return near;
+}
+
 ScatterSums take_scattered(Reader& in) {
     ScatterSums sums;
     const auto take = [&in](float& sum) {
@@ -151,7 +168,10 @@ ScatterSums take_scattered(Reader& in) {
         Reader::require(sum >= 0);
     };
     std::for_each(sums.records.begin(), sums.records.end(), take);
-    std::for_each(sums.leaving.begin(), sums.leaving.end(), take);
+    for (BriefFloat& leaving : sums.leaving) {
+        leaving = in.take<BriefFloat>();
+        Reader::require(std::isfinite(static_cast<float>(leaving)) && leaving >= 0);
+    }
     take(sums.connected);
     take(sums.extinction);
     take(sums.cost);
@@ -212,6 +232,7 @@ public:
             put(out, memory.offset_square);
             put_statistics(out, memory.statistics);
             put_scattered(out, memory.scattered);
+            put_near(out, field.scattered_[i].near);
         }
         return out;
     }
@@ -233,6 +254,7 @@ public:
         const std::uint64_t cells = in.take_count(least_region);
         field.regions_.clear();
         field.memories_.clear();
+        field.scattered_.clear();
         for (std::uint64_t i = 0; i < cells; ++i) {
             field.regions_.push_back(take_region(in));
             Field::Memory& memory = field.memories_.emplace_back();
@@ -244,8 +266,8 @@ public:
             memory.offset_square = in.take_vector();
             memory.statistics = take_statistics(in);
             memory.scattered = take_scattered(in);
+            field.scattered_.emplace_back().near = take_near(in);
         }
-        field.scattered_.resize(field.regions_.size());
         require_tree(field);
         return field;
     }

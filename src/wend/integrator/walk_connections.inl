@@ -43,7 +43,7 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
                                                       mean_value(brought) * times * chosen->probability));
         }
         if (log_ && (now_.is_told || !in_volume)) {
-            log_->connect(found.to_light, mean_value(found.light), brought);
+            log_->connect(found.to_light, chosen->light.distance, mean_value(found.light), brought);
         }
     }
 }
@@ -104,7 +104,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
         log_->gather(brought);
     }
     if (log_ && now_.is_told) {
-        log_->connect(*w, mean_value(brought) / mean_value(phase), brought);
+        log_->connect(*w, infinity, mean_value(brought) / mean_value(phase), brought);
     }
 }
 
