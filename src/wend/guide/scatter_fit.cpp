@@ -50,7 +50,9 @@ struct NearSums {
     }
 
     NearLight light(const Vec3& reference, double records, double connected) const {
-        if (!(intensity > 0 && connected > 0)) {
+        // What is larger would not leave room for what flights multiply it with.
+        constexpr double largest = 1e20;
+        if (!(intensity > 0 && connected > 0 && intensity <= largest * records)) {
             return {};
         }
         const Imath::V3d from_reference = place / intensity;
