@@ -29,7 +29,6 @@ public:
         guide::NearLight near;
         float in_scattered_from_afar(const Vec3&, const PhaseFunction&) const { return brightness; }
         float in_scattered(const Vec3&, const PhaseFunction&) const { return brightness; }
-        float leaving_to(const Vec3& normal) const { return brightness * (normal.x < 0 ? 2.0f : 1.0f); }
     };
     struct Everywhere {
         float density(const Vec3&) const { return inv_4pi; }
@@ -55,6 +54,9 @@ public:
     }
 
     const Light* scattered_light(const Vec3& p) const { return lights_.empty() ? nullptr : &lights_[slice_of(p.x)]; }
+    float leaving(const Vec3& p, const Vec3& normal) const {
+        return lights_.empty() ? 0.0f : lights_[slice_of(p.x)].brightness * (normal.x < 0 ? 2.0f : 1.0f);
+    }
     const Place* find(const Vec3& p) const { return places_.empty() ? nullptr : &places_[slice_of(p.x)]; }
 
     /// For rays towards +x.

@@ -18,9 +18,9 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
     { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->in_scattered_from_afar(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->near.intensity } -> std::convertible_to<float>;
-    { field.scattered_light(p)->leaving_to(p) } -> std::same_as<float>;
+    { field.leaving(p, p) } -> std::same_as<float>;
     { field.scattered_light(p)->trust } -> std::convertible_to<float>;
-    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.leaving_to({}) > 0; });
+    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.trust > 0; });
     { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
 };
 
@@ -116,8 +116,7 @@ private:
     float ahead(const FlightStart& start) const {
         const FlightEnd& end = start.end;
         if (end.kind == FlightEnd::Kind::surface) {
-            const auto* light = surface_->scattered_light(end.position);
-            return end.emitted + (light ? light->leaving_to(end.normal) : 0.0f);
+            return end.emitted + surface_->leaving(end.position, end.normal);
         }
         if (end.kind == FlightEnd::Kind::interface) {
             const auto* adjoint = volume_->find(end.position);

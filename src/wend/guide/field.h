@@ -52,6 +52,12 @@ public:
         return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
     }
 
+    /// Radiance to be expected to leave a surface here towards the side of its normal; 0 as long as the field has
+    /// learned nothing.
+    float leaving(const Vec3& position, const Vec3& normal) const {
+        return trained_ ? memories_[nodes_[leaf_of(position)].child].scattered.leaving_to(normal) : 0.0f;
+    }
+
     /// Means over the walks' vertices in a position's cell: the extinction of the medium, and how many vertices walks
     /// had from there on. Zero as long as the field has learned nothing.
     VertexMeans vertex_means(const Vec3& position) const;

@@ -112,17 +112,12 @@ Found sums_of(std::span<const ScatterRecord> records, std::span<const std::uint3
     }
     ScatterSums sums;
     std::copy(count.begin(), count.end(), sums.records.begin());
-    std::transform(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin(),
-                   [](double sum) { return BriefFloat(static_cast<float>(sum)); });
+    std::copy(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin());
     sums.connected = static_cast<float>(connected_sum);
     sums.connected_direction = Vec3(direction);
     sums.extinction = static_cast<float>(extinction);
     sums.cost = static_cast<float>(cost);
     return {sums, near};
-}
-
-float records_of(const ScatterSums& sums) {
-    return std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
 }
 
 ScatteredLight light_of(const ScatterSums& sums, const NearLight& near, const Region& region,
@@ -135,15 +130,8 @@ ScatteredLight light_of(const ScatterSums& sums, const NearLight& near, const Re
         light.trust = static_cast<float>(effective / (effective + enough));
     }
     light.walked = {region.fluence(), mean_direction(region.mixture())};
-    const float records = records_of(sums);
-    const float leaving = std::accumulate(sums.leaving.begin(), sums.leaving.end(), 0.0f);
-    if (records > 0) {
+    if (const float records = sums.all_records(); records > 0) {
         light.connected.fluence = sums.connected / records;
-        // What is known of a side that few saw is little: it is drawn to the mean.
-        constexpr float prior = 4;
-        for (std::size_t side = 0; side < sides; ++side) {
-            light.leaving[side] = (sums.leaving[side] + prior * leaving / records) / (sums.records[side] + prior);
-        }
     }
     if (sums.connected > 0) {
         light.connected.mean = sums.connected_direction / sums.connected;
@@ -189,11 +177,11 @@ public:
                 // Further away, what arrives hardly changes within the cell.
                 const double reach = memory.radius;
                 const Vec3& reference = field.regions_[cell].reference();
-                NearSums known(near, reference, records_of(sums), sums.connected);
+                NearSums known(near, reference, sums.all_records(), sums.connected);
                 const Found found = sums_of(
                     records, std::span(order).subspan(begin[cell], begin[cell + 1] - begin[cell]), reference, reach);
                 sums += found.sums;
-                near = (known += found.near).light(reference, records_of(sums), sums.connected);
+                near = (known += found.near).light(reference, sums.all_records(), sums.connected);
             }
             field.scattered_[cell] = light_of(sums, near, field.regions_[cell], memory.statistics);
         });

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/guide/brief_float.h>
 #include <wend/medium/phase.h>
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 
 namespace wend::guide {
 
@@ -47,13 +48,8 @@ struct ScatteredLight {
     ArrivingLight walked, connected;
     /// Part of what was connected.
     NearLight near;
-    /// Radiance that leaves the vertices of the cell towards where walks came from, by the side that they came from: a
-    /// wall may be bright on one side and dark on the other.
-    std::array<BriefFloat, sides> leaving{};
     /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
     float trust = 0;
-
-    float leaving_to(const Vec3& normal) const { return leaving[static_cast<std::size_t>(side_of(normal))]; }
 
     /// ∫ p(before, ω) L(ω) dω, in radiance.
     float in_scattered(const Vec3& before, const PhaseFunction& phase) const { return in_scattered(before, phase, 1); }
@@ -72,18 +68,33 @@ private:
 /// Sums over the records of a cell, older ones counting less.
 struct ScatterSums {
     /// By side.
-    std::array<float, sides> records{};
-    std::array<BriefFloat, sides> leaving{};
+    std::array<float, sides> records{}, leaving{};
     float connected = 0;
     Vec3 connected_direction{0, 0, 0};
     float extinction = 0;
     float cost = 0;
 
+    float all_records() const { return std::accumulate(records.begin(), records.end(), 0.0f); }
+
+    /// Mean radiance that leaves the vertices of the cell towards where walks came from, by the side that they came
+    /// from: a wall may be bright on one side and dark on the other. 0 without records.
+    float leaving_to(const Vec3& normal) const {
+        const float all = all_records();
+        if (!(all > 0)) {
+            return 0;
+        }
+        // What is known of a side that few saw is little: it is drawn to the mean.
+        constexpr float prior = 4;
+        const float mean = std::accumulate(leaving.begin(), leaving.end(), 0.0f) / all;
+        const auto side = static_cast<std::size_t>(side_of(normal));
+        return (leaving[side] + prior * mean) / (records[side] + prior);
+    }
+
     ScatterSums scaled(float factor) const {
         ScatterSums result = *this;
         for (std::size_t side = 0; side < sides; ++side) {
             result.records[side] *= factor;
-            result.leaving[side] = result.leaving[side] * factor;
+            result.leaving[side] *= factor;
         }
         result.connected *= factor;
         result.connected_direction *= factor;
@@ -94,7 +105,7 @@ struct ScatterSums {
     ScatterSums& operator+=(const ScatterSums& o) {
         for (std::size_t side = 0; side < sides; ++side) {
             records[side] += o.records[side];
-            leaving[side] = leaving[side] + o.leaving[side];
+            leaving[side] += o.leaving[side];
         }
         connected += o.connected;
         connected_direction += o.connected_direction;

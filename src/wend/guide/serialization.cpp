@@ -168,10 +168,7 @@ ScatterSums take_scattered(Reader& in) {
         Reader::require(sum >= 0);
     };
     std::for_each(sums.records.begin(), sums.records.end(), take);
-    for (BriefFloat& leaving : sums.leaving) {
-        leaving = in.take<BriefFloat>();
-        Reader::require(std::isfinite(static_cast<float>(leaving)) && leaving >= 0);
-    }
+    std::for_each(sums.leaving.begin(), sums.leaving.end(), take);
     take(sums.connected);
     take(sums.extinction);
     take(sums.cost);
