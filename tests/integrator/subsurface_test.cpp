@@ -195,6 +195,42 @@ TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     }
 }
 
+/// A ball behind a smooth boundary, in thin fog and another ball, under a lamp.
+SceneDescription under_lamp() {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, {0.1f, 0.2f, 0.4f}, {9, 8, 7}, 0.2f);
+    const MediumId fog = test::add_homogeneous(s, Rgb(0.0f), Rgb(0.05f));
+    const int glass = test::add_dielectric(s, 1.3f);
+    test::add_sphere(s, {0, 0, 0}, 0.7f, glass, medium, fog);
+    test::add_sphere(s, {0, 0.1f, 0}, 1.2f, test::add_interface(s), fog);
+    test::add_box(s, Box3(Vec3(-4, 1.5f, -4), Vec3(4, 1.7f, 4)), glass);
+    test::add_lamp(s, {-2.5f, 2.2f, -2.5f}, 8, Rgb(2.0f), test::add_diffuse(s, Rgb(0.0f)));
+    return s;
+}
+
+TEST(GuidedObject, ConnectsCollisionsToLampsThroughSmoothBoundaries) {
+    const Scene scene(under_lamp());
+    const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
+    struct Limit {
+        int max_depth, walks;
+        double bias;  ///< that is seen
+    };
+    // After the first collision a walk of five vertices has three left, of which two boundaries.
+    for (const Limit& limit : {Limit{5, 1500000, 0.06}, Limit{100000, 300000, 0.04}}) {
+        SCOPED_TRACE(limit.max_depth);
+        const auto measure = [&](const char* strategy, std::uint64_t seed) {
+            return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, seed, parse_subsurface(strategy));
+        };
+        const Measured connected = measure("auto", 5);
+        const Measured unconnected = measure("classical", 4);
+        const double error = std::hypot(connected.standard_error, unconnected.standard_error);
+        EXPECT_TRUE(agrees(connected.mean - unconnected.mean, error, 0, 4))
+            << connected.mean << " and " << unconnected.mean << " +- " << error;
+        EXPECT_LT(8 * error, limit.bias * unconnected.mean) << "too few walks to see a bias";
+        EXPECT_FALSE(agrees((1 + limit.bias) * connected.mean - unconnected.mean, error, 0, 4));
+    }
+}
+
 TEST(GuidedObject, MayBeOpenOrInsideOut) {
     for (const bool open : {true, false}) {
         SceneDescription s;

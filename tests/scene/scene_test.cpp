@@ -169,6 +169,52 @@ TEST(SceneIntersect, MeshesInterpolateNormalsAndTextureCoordinates) {
     EXPECT_EQ(hit->primitive, 0u);
 }
 
+TEST(SceneNormals, ChangeAlongSurfacesAsTheyAreBent) {
+    const Transform squeezed = Transform::translate(0.1f, -0.2f, 0.3f) * Transform::scale(1, 0.6f, 1.4f);
+    TriangleMesh mesh = test::square();
+    mesh.normals = {Vec3(-0.4f, 0.1f, 2), Vec3(0.3f, 0, 1), Vec3(0.2f, 0.5f, 1), Vec3(-0.2f, 0, 1)};
+    const auto sphere = Quadric(Sphere{}, squeezed);
+    struct Case {
+        const char* name;
+        Shape shape;
+        bool flip = false, instance = false;
+    };
+    const Case cases[] = {{"sphere", sphere},
+                          {"sphere inside out", sphere, true},
+                          {"sphere in an instance", sphere, false, true},
+                          {"mesh", mesh},
+                          {"mesh in an instance", mesh, false, true},
+                          {"flat mesh", test::square()},
+                          {"disk", Quadric(Disk{}, squeezed)}};
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.name);
+        auto description = test::two_materials();
+        test::add(description, c.shape).flip_normal = c.flip;
+        if (c.instance) {
+            description.objects.push_back({{description.world_surfaces.back()}});
+            description.world_surfaces.clear();
+            description.instances.push_back({0, Transform::rotate(20, 1, 2, 0) * Transform::scale(2, 1, 1)});
+        }
+        const Scene scene(std::move(description));
+        Pcg32 random(1);
+        int seen = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const Vec3 origin = point_in_cube(random, 1) + Vec3(0, 0, 4);
+            const Vec3 step = point_in_cube(random, 1e-3f);
+            const auto hit = scene.intersect({origin, {0, 0, -1}});
+            const auto beside = scene.intersect({origin + Vec3(step.x, step.y, 0), {0, 0, -1}});
+            // At a silhouette and across an edge normals do not change smoothly.
+            if (!hit || !beside || hit->primitive != beside->primitive || std::abs(hit->normal.z) < 0.3f) {
+                continue;
+            }
+            ++seen;
+            const Vec3 change = scene.normal_change(*hit, beside->position - hit->position);
+            EXPECT_LT(length(hit->shading.n + change - beside->shading.n), 2e-5f);
+        }
+        EXPECT_GT(seen, 200);
+    }
+}
+
 /// Media 0 inside, 1 outside of a unit sphere.
 Scene sphere_between_media(int material, bool flip) {
     auto description = test::two_materials();

@@ -4,6 +4,7 @@
 #include <wend/decision/distance.h>
 #include <wend/decision/slab_walk.h>
 #include <wend/integrator/light_choices.h>
+#include <wend/integrator/refracted_way.h>
 #include <wend/medium/transmittance.h>
 #include <wend/scene/scene.h>
 
@@ -105,6 +106,25 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
         ray = spawn_ray(hit->position, hit->normal, ray.direction);
     }
     return blocked;
+}
+
+/// The same along a way that boundaries refract; the stay ends with its first leg's medium.
+template <DistanceDecision Distance>
+Passage pass(const Scene& scene, const Distance& distance, const RefractedWay& way, SlabWalk& slab, Pcg32& random) {
+    Passage passage{Rgb(way.transmitted), Rgb(1.0f)};
+    const MediumId first = way.legs().front().medium;
+    for (const RefractedWay::Leg& leg : way.legs()) {
+        if (leg.medium != first) {
+            slab.leave();
+        }
+        if (leg.medium != vacuum) {
+            const Medium& medium = scene.medium(leg.medium);
+            passage.transmittance *= estimate_transmittance(medium, leg.ray, leg.length, random);
+            passage.probability *=
+                slab.is_inside() ? Rgb(slab.pass(leg.length)) : distance.pass_probability(medium, leg.ray, leg.length);
+        }
+    }
+    return passage;
 }
 
 }  // namespace wend

@@ -3,6 +3,7 @@
 
 #include <wend/decision/distance.h>
 #include <wend/integrator/light_choices.h>
+#include <wend/integrator/refracted_way.h>
 #include <wend/scene/scene.h>
 
 namespace wend {
@@ -19,6 +20,12 @@ struct LastVertex {
     /// Probabilities of the walk's colour channels, and under each of them of flying as far as the walk has.
     Rgb channels;
     Rgb pass_probability;
+    /// The direction drawn there, and whether connections look through boundaries, in which medium that is, and how
+    /// often the walk was refracted since, where it met nothing else.
+    Vec3 direction{0, 0, 1};
+    bool sees_through = false;
+    MediumId medium = vacuum;
+    int refractions = 0;
 
     float own_density() const { return density * dot(channels, pass_probability); }
 };
@@ -65,7 +72,7 @@ public:
     /// What a flight through a medium may keep of its light.
     GlowShare in(MediumId medium, const LastVertex& last) const {
         const int light = scene_.glow_light(medium);
-        if (light < 0 || last.unconnected) {
+        if (light < 0 || last.unconnected || last.refractions > 0) {
             return {};
         }
         return {std::get<GlowLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
@@ -79,10 +86,32 @@ private:
             return 1;
         }
         const float other = last.connected * choices_.probability(last.receiver, light) *
-                            light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position,
-                                          direction, hit, normal);
+                            (last.refractions > 0 ? refracted_density(light, last, hit, normal)
+                                                  : density(light, last, direction, hit, normal));
         const float own = last.own_density();
         return own > 0 ? own / (own + other) : 0.0f;
+    }
+
+    float density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
+        return light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position, direction, hit,
+                             normal);
+    }
+
+    /// Of the first direction of a refracted way: 0 where connections do not find it.
+    float refracted_density(int light, const LastVertex& last, const Vec3& hit, const Vec3& normal) const {
+        if (is_at_infinity(scene_.lights()[static_cast<std::size_t>(light)])) {
+            return 0;
+        }
+        const Vec3 straight = normalize(hit - last.receiver.position);
+        if (is_black(emitted_radiance(scene_.lights()[static_cast<std::size_t>(light)], normal, -straight))) {
+            return 0;
+        }
+        const auto way = find_refracted_way(scene_, {last.receiver.position, straight},
+                                            length(hit - last.receiver.position), last.medium);
+        constexpr float same = 1e-3f;
+        return way && way->refractions == last.refractions && length(way->direction - last.direction) < same
+                   ? way->density_ratio * density(light, last, straight, hit, normal)
+                   : 0.0f;
     }
 
     const Scene& scene_;

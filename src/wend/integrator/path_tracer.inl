@@ -65,6 +65,7 @@ private:
         bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
         bool is_told = true;                ///< whether collisions go into the log
         float preference = 1;               ///< of the last vertex: that of its stay, or 1
+        bool sees_through = false;          ///< in a dense medium, whose boundaries connections pass
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
         /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
         /// the direction that was drawn.
@@ -160,6 +161,7 @@ private:
             guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
             now_.is_trial = plan && !guided && plan->classical_probability < 1;
             now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
+            now_.sees_through = plan != nullptr;
             now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
             now_.slab.leave();
             if (stays_ && plan) {
@@ -347,12 +349,19 @@ private:
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
         now_.preference = preference(in_volume);
-        now_.last = {{position, normal},
-                     s->specular,
-                     s->density * now_.preference,
-                     connections(in_volume) + now_.connected_before,
-                     channel_probabilities(now_.throughput),
-                     Rgb(1.0f)};
+        if (s->specular && now_.last.sees_through && dot(before, normal) * dot(s->direction, normal) > 0) {
+            ++now_.last.refractions;
+        } else {
+            now_.last = {{position, normal},
+                         s->specular,
+                         s->density * now_.preference,
+                         connections(in_volume) + now_.connected_before,
+                         channel_probabilities(now_.throughput),
+                         Rgb(1.0f),
+                         s->direction,
+                         in_volume && now_.sees_through,
+                         now_.medium};
+        }
         now_.lamps_ahead = 0;
         if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
             now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
@@ -410,6 +419,7 @@ private:
     /// importance sampling, and how much of it is scattered here.
     struct Connection {
         Vec3 to_light{0, 0, 0};
+        float distance = 0;
         Rgb light;
         Rgb scattering;
         std::optional<StaySlope> slope;  ///< during a stay
@@ -423,9 +433,20 @@ private:
     template <class F, class Directions>
     Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
                        const Vec3& position, const Vec3& normal, bool in_volume);
+    /// How a vertex sees a light: where, how bright, with what density of that direction, and what is in between.
+    struct Sight {
+        Vec3 direction;
+        float distance;  ///< infinity as well where boundaries refract
+        Rgb radiance;
+        float density;
+        SlabWalk slab;  ///< towards the light, if the walk is in a guided stay
+        Passage passage;
+    };
+    Sight look_straight(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
+    std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Vec3& position);
+    SlabWalk slab_towards(const Vec3& direction, bool in_volume) const;
     /// Tells the log of a light that no connection reaches.
-    void look_through_glass(const ChosenSample& chosen, const ShadowRay& shadow, MediumId medium, const Vec3& position,
-                            bool in_volume);
+    void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
 
     /// Only what was weighted with the preference of a stay changes with it.
     std::optional<StaySlope> slope_of(const MetLight& arriving) {

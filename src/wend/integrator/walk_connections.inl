@@ -43,7 +43,7 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
                                                       mean_value(brought) * times * chosen->probability));
         }
         if (log_ && (now_.is_told || !in_volume)) {
-            log_->connect(found.to_light, chosen->light.distance, mean_value(found.light), brought);
+            log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
         }
     }
 }
@@ -113,33 +113,32 @@ template <class F, class Directions>
 auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
                                           const Directions& directions, const Vec3& position, const Vec3& normal,
                                           bool in_volume) -> Connection {
-    const LightSample& light = chosen.light;
-    const Rgb value = f.evaluate(light.direction);
+    Rgb value = f.evaluate(chosen.light.direction);
     if (is_black(value)) {
         return {};
     }
-    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
-    SlabWalk slab;
-    if (in_volume && now_.slab.is_inside()) {
-        slab = now_.slab;
-        slab.turn(now_.ray.direction, light.direction);
-    }
-    const ShadowRay shadow = shadow_ray({position, normal}, light);
-    const Passage passage = pass(scene_, d_.distance, shadow, medium, slab, sampler_.random());
-    if (is_black(passage.transmittance)) {
-        if (log_ && !slab.is_inside()) {
-            look_through_glass(chosen, shadow, medium, position, in_volume);
+    const float often = times + now_.connected_before;
+    Sight sight = look_straight(chosen, position, normal, in_volume);
+    if (is_black(sight.passage.transmittance)) {
+        const auto refracted =
+            now_.sees_through && in_volume ? look_through_boundaries(chosen, position) : std::nullopt;
+        if (!refracted) {
+            if (log_ && !sight.slab.is_inside()) {
+                hint_at_refracted(chosen, position, normal, in_volume);
+            }
+            return {};
         }
-        return {};
+        sight = *refracted;
+        value = f.evaluate(sight.direction);
     }
-    const float density = (times + now_.connected_before) * chosen.density();
+    const float density = often * sight.density;
     float other = 0;
-    if (!light.point_like) {
+    if (!chosen.light.point_like) {
         const Rgb channels = channel_probabilities(now_.throughput * value);
-        other = preference(in_volume) * directions.density(light.direction) * dot(channels, passage.probability);
+        other = preference(in_volume) * directions.density(sight.direction) * dot(channels, sight.passage.probability);
     }
-    Connection found{light.direction, light.radiance * passage.transmittance * (1 / (density + other)), value,
-                     std::nullopt};
+    Connection found{sight.direction, sight.distance,
+                     sight.radiance * sight.passage.transmittance * (1 / (density + other)), value, std::nullopt};
     if (!stays_) {
         return found;
     }
@@ -155,25 +154,77 @@ auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float time
     }
     if (in_volume && now_.slab.is_inside()) {
         const float weight = density / (density + other);
-        found.slope = StaySlope{mix(now_.slab.relative_densities(), slab.relative_densities(), weight), weight - 1};
+        found.slope =
+            StaySlope{mix(now_.slab.relative_densities(), sight.slab.relative_densities(), weight), weight - 1};
     } else if (now_.connected_before > 0) {
-        const float before = now_.connected_before * chosen.density() / (density + other);
+        const float before = now_.connected_before * sight.density / (density + other);
         found.slope = StaySlope{mix(now_.at_collision, now_.slab.relative_densities(), before), 0};
     }
     return found;
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::look_through_glass(const ChosenSample& chosen, const ShadowRay& shadow,
-                                                     MediumId medium, const Vec3& position, bool in_volume) {
+SlabWalk PathTracer<Decisions>::Walk::slab_towards(const Vec3& direction, bool in_volume) const {
+    SlabWalk slab;
+    if (in_volume && now_.slab.is_inside()) {
+        slab = now_.slab;
+        slab.turn(now_.ray.direction, direction);
+    }
+    return slab;
+}
+
+template <class Decisions>
+auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Vec3& position, const Vec3& normal,
+                                                bool in_volume) -> Sight {
+    const LightSample& light = chosen.light;
+    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    Sight sight{light.direction,
+                light.distance,
+                light.radiance,
+                chosen.density(),
+                slab_towards(light.direction, in_volume),
+                {}};
+    sight.passage =
+        pass(scene_, d_.distance, shadow_ray({position, normal}, light), medium, sight.slab, sampler_.random());
+    return sight;
+}
+
+template <class Decisions>
+auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Vec3& position)
+    -> std::optional<Sight> {
+    const LightSample& light = chosen.light;
+    if (light.point_like || light.distance == infinity || light.medium != vacuum) {
+        return std::nullopt;
+    }
+    const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
+    if (!way || way->end.light != chosen.index || now_.depth + way->refractions > tracer_.max_depth_) {
+        return std::nullopt;
+    }
+    Sight sight{way->direction,
+                infinity,
+                emitted_radiance(scene_.lights()[static_cast<std::size_t>(chosen.index)], way->end.normal,
+                                 -way->legs().back().ray.direction),
+                chosen.density() * way->density_ratio,
+                slab_towards(way->direction, true),
+                {}};
+    sight.passage = pass(scene_, d_.distance, *way, sight.slab, sampler_.random());
+    return sight;
+}
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vec3& position,
+                                                    const Vec3& normal, bool in_volume) {
     constexpr float often = 0.25f;
-    if (chosen.light.point_like || chosen.light.medium != vacuum || !(sampler_.random().uniform() < often)) {
+    const LightSample& light = chosen.light;
+    if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
         return;
     }
+    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    const ShadowRay shadow = shadow_ray({position, normal}, light);
     if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
-        const Rgb radiance = chosen.light.radiance * seen->transmittance;
-        log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(), chosen.light.distance,
-                     0, 0, 0, radiance},
+        const Rgb radiance = light.radiance * seen->transmittance;
+        log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0, 0, 0,
+                     radiance},
                     in_volume});
     }
 }

@@ -190,6 +190,7 @@ Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
     hit.distance = raw.distance;
     hit.surface = &d_.surfaces[raw.surface];
     hit.primitive = raw.primitive;
+    hit.instance = raw.instance;
     hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.primitive);
     Vec3 normal;
     Vec3 shading;
@@ -252,6 +253,48 @@ Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
         hit.shading = Frame::from_z(n);
     }
     return hit;
+}
+
+Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
+    const Placement* const placement =
+        hit.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.instance)] : nullptr;
+    const Vec3 moved = placement ? placement->object_from_world.vector(displacement) : displacement;
+    Vec3 normal;
+    Vec3 change;
+    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+        if (mesh->normals.empty()) {
+            return {0, 0, 0};
+        }
+        const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.primitive}];
+        const Vec3 &p0 = mesh->positions[i[0]], &n0 = mesh->normals[i[0]];
+        const Vec3 e1 = mesh->positions[i[1]] - p0, e2 = mesh->positions[i[2]] - p0;
+        const Vec3 d1 = mesh->normals[i[1]] - n0, d2 = mesh->normals[i[2]] - n0;
+        const Vec3 across = cross(e1, e2);
+        const float area = length_squared(across);
+        const auto interpolated = [&](const Vec3& along) {
+            return d1 * (dot(cross(along, e2), across) / area) + d2 * (dot(cross(e1, along), across) / area);
+        };
+        const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
+        normal = n0 + interpolated(place - p0);
+        change = interpolated(moved);
+    } else {
+        const auto& quadric = std::get<Quadric>(hit.surface->shape);
+        const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
+        const QuadricPoint point = project(quadric, quadric.object_from_world.point(place));
+        normal = quadric.object_from_world.transposed_vector(point.normal);
+        change =
+            quadric.object_from_world.transposed_vector(quadric.object_from_world.vector(moved) * point.normal_slope);
+    }
+    if (placement) {
+        normal = placement->object_from_world.transposed_vector(normal);
+        change = placement->object_from_world.transposed_vector(change);
+    }
+    const float size = length(normal);
+    if (!(size > 0)) {
+        return {0, 0, 0};
+    }
+    const Vec3 unit = normal / size;
+    return (change - unit * dot(unit, change)) * ((dot(unit, hit.shading.n) < 0 ? -1.0f : 1.0f) / size);
 }
 
 Box3 RayCaster::bounds() const {

@@ -35,6 +35,8 @@ public:
 
     /// The hit's place, normals and parameters in the world.
     Hit complete(const RawHit& raw, const Ray& ray) const;
+    /// Of the shading normal (Scene::normal_change).
+    Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
     Box3 bounds() const;
 
 private:

@@ -104,6 +104,10 @@ std::optional<Hit> Scene::intersect(const Ray& ray, float distance) const {
     }
 }
 
+Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {
+    return caster_->normal_change(hit, displacement);
+}
+
 bool Scene::is_occluded(const Ray& ray, float distance) const {
     return caster_->is_occluded(ray, distance);
 }

@@ -72,7 +72,8 @@ struct Hit {
     Vec2 uv;        ///< surface parameters; not computed for interfaces
     const Surface* surface = nullptr;
     std::uint32_t primitive = 0;
-    int light = -1;  ///< area light, if any
+    int instance = -1;  ///< index in the scene's list; -1: placed once
+    int light = -1;     ///< area light, if any
 };
 
 /// Embree's structures over the scene's surfaces.
@@ -90,6 +91,9 @@ public:
     /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their
     /// probability, decided by a hash of the ray, so that the answer is a function of the arguments.
     std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const;
+    /// By how much the shading normal changes when the hit moves by a small `displacement` along the surface, to first
+    /// order.
+    Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
     /// Whether anything opaque (no interface) lies within `distance`.
     bool is_occluded(const Ray& ray, float distance) const;
     /// The nearest interface or partly transparent surface within `distance`; opaque ones are not seen.

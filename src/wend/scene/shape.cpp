@@ -74,11 +74,11 @@ Vec2 parameters_of(const Disk& s, const Vec3& p) {
 
 QuadricPoint project_onto(const Sphere& s, const Vec3& p) {
     const Vec3 on = p * (s.radius / length(p));
-    return {on, on, {-on.y, on.x, 0}};
+    return {on, on, {-on.y, on.x, 0}, 1};
 }
 
 QuadricPoint project_onto(const Disk& s, const Vec3& p) {
-    return {{p.x, p.y, s.height}, {0, 0, 1}, {-p.y, p.x, 0}};
+    return {{p.x, p.y, s.height}, {0, 0, 1}, {-p.y, p.x, 0}, 0};
 }
 
 Box3 object_bounds(const Sphere& s) {

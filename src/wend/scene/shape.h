@@ -66,6 +66,7 @@ struct QuadricPoint {
     Vec3 position;
     Vec3 normal;
     Vec3 dpdu;
+    float normal_slope;  ///< where the point moves along the surface, the normal changes by so many times as much
 };
 QuadricPoint project(const Quadric& quadric, const Vec3& p);
 

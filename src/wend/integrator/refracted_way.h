@@ -1,0 +1,53 @@
+// Ways to lights through smooth boundaries that refract, which block straight connections.
+#pragma once
+
+#include <wend/scene/scene.h>
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace wend {
+
+/// A way that smooth boundaries refract, to a point on a light.
+struct RefractedWay {
+    /// Within one medium.
+    struct Leg {
+        Ray ray;
+        float length;
+        MediumId medium;
+    };
+
+    Vec3 direction;  ///< of its first leg, unit length
+    float transmitted =
+        1;  ///< of radiance, by the boundaries: Fresnel's transmittances over the squared ratios of indices
+    /// Density of the first direction over that of the straight one to the same point, where points on lights are
+    /// drawn.
+    float density_ratio = 1;
+    int refractions = 0;
+    Hit end;  ///< on the light
+
+    std::span<const Leg> legs() const { return {storage_.data(), static_cast<std::size_t>(count_)}; }
+    /// Whether there was room for one more.
+    bool add(const Leg& leg) {
+        if (count_ == most_legs) {
+            return false;
+        }
+        storage_[static_cast<std::size_t>(count_++)] = leg;
+        return true;
+    }
+
+private:
+    static constexpr int most_legs = 16;
+    std::array<Leg, most_legs> storage_;
+    int count_ = 0;
+};
+
+/// The way from `straight.origin`, in `medium`, to the point at `distance` along the straight ray, found by Newton's
+/// method from the straight direction (hanika2015, with rays in place of points on the boundaries): a function of its
+/// arguments, so that who met the point by chance can ask whether it would have been found. Of several ways it is one.
+/// Nothing where no boundary refracts, or none of the tries ends at the point.
+std::optional<RefractedWay> find_refracted_way(const Scene& scene, const Ray& straight, float distance,
+                                               MediumId medium);
+
+}  // namespace wend
