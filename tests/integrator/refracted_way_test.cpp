@@ -91,7 +91,7 @@ const Boundaries boundaries[] = {
      1},
     {"BehindAnInstancedBall",
      [](SceneDescription& s) {
-         const Transform place = Transform::translate(0.5f, 1.7f, -0.2f) * Transform::scale(2, 0.6f, 2);
+         const Transform place = Transform::translate(0.1f, 1.7f, 0.1f) * Transform::scale(2, 0.6f, 2);
          add_instance(s, place, Quadric(Sphere{0.8f, -0.8f, 0.8f}, Transform()), test::add_dielectric(s, 1.15f));
      },
      2},
@@ -120,24 +120,45 @@ Vec3 point_on_lamp(const Vec2& u) {
     return corner + Vec3(b.x, 0, b.y) * lamp_size;
 }
 
-/// Whether a ray meets the lamp, refracted by every boundary on its way.
-bool meets_lamp(const Scene& scene, Ray ray) {
+/// Where a ray goes that every boundary refracts.
+struct Followed {
+    Vec3 direction;
+    bool meets_lamp = false;
+    bool leaves = false;
+};
+
+Followed follow(const Scene& scene, Ray ray) {
     for (int i = 0; i < 10; ++i) {
         const auto hit = scene.intersect(ray);
         if (!hit || hit->light >= 0) {
-            return hit.has_value();
+            return {ray.direction, hit.has_value(), !hit.has_value()};
         }
         Vec3 w = ray.direction;
         if (!scene.is_interface(*hit)) {
             const auto refracted = refract(-w, hit->shading.n, std::get<DielectricMaterial>(scene.material(*hit)).ior);
             if (!refracted) {
-                return false;
+                return {w};
             }
             w = refracted->direction;
         }
         ray = spawn_ray(hit->position, hit->normal, w);
     }
-    return false;
+    return {ray.direction};
+}
+
+/// The solid angle around `middle` of the directions that `counts` is true of: a square as wide as given is searched.
+double solid_angle(const Vec3& middle, double width, const std::function<bool(const Vec3&)>& counts) {
+    constexpr int directions = 500;
+    const Frame frame = Frame::from_z(middle);
+    double sum = 0;
+    for (int i = 0; i < directions; ++i) {
+        for (int k = 0; k < directions; ++k) {
+            const double x = width * ((i + 0.5) / directions - 0.5), y = width * ((k + 0.5) / directions - 0.5);
+            const Vec3 w = normalize(frame.n + frame.s * static_cast<float>(x) + frame.t * static_cast<float>(y));
+            sum += counts(w) ? std::pow(1 + x * x + y * y, -1.5) : 0;
+        }
+    }
+    return sum * sqr(width / directions);
 }
 
 class RefractedWays : public testing::TestWithParam<Boundaries> {};
@@ -200,18 +221,38 @@ TEST_P(RefractedWays, HaveTheDensitiesOfTheirDirections) {
     EXPECT_EQ(found, points * points);
     by_points *= area / (points * points);
     // ... and by directions.
-    constexpr int directions = 500;
-    const double width = 6 * std::sqrt(by_points);
-    const Frame frame = Frame::from_z(middle->direction);
-    double by_directions = 0;
-    for (int i = 0; i < directions; ++i) {
-        for (int k = 0; k < directions; ++k) {
-            const double x = width * ((i + 0.5) / directions - 0.5), y = width * ((k + 0.5) / directions - 0.5);
-            const Vec3 w = frame.n + frame.s * static_cast<float>(x) + frame.t * static_cast<float>(y);
-            by_directions += meets_lamp(scene, {eye, normalize(w)}) ? std::pow(1 + x * x + y * y, -1.5) : 0;
+    const double by_directions = solid_angle(middle->direction, 6 * std::sqrt(by_points), [&](const Vec3& w) {
+        return follow(scene, {eye, w}).meets_lamp;
+    });
+    EXPECT_NEAR(by_points, by_directions, 0.005 * by_directions);
+}
+
+TEST_P(RefractedWays, HaveTheDensitiesOfTheirDirectionsToLightsAtInfinity) {
+    const Scene scene = under_lamp(GetParam().add);
+    const Vec3 target = normalize(Vec3(-0.2f, 1, 0.25f));
+    const auto way_into = [&](const Vec3& w) { return find_refracted_way(scene, {eye, w}, infinity, vacuum); };
+    const auto middle = way_into(target);
+    ASSERT_TRUE(middle);
+    EXPECT_EQ(middle->refractions, GetParam().refractions);
+    EXPECT_LT(length(middle->legs().back().ray.direction - target), 2e-5f);
+    // The solid angle that a disk in the sky is seen in.
+    constexpr int points = 40;
+    constexpr float cosine = 0.995f;
+    const Frame frame = Frame::from_z(target);
+    double by_points = 0;
+    for (int i = 0; i < points; ++i) {
+        for (int k = 0; k < points; ++k) {
+            const auto way = way_into(frame.to_world(to_cone({(i + 0.5f) / points, (k + 0.5f) / points}, 1 - cosine)));
+            ASSERT_TRUE(way);
+            by_points += 1 / way->density_ratio;
         }
     }
-    by_directions *= sqr(width / directions);
+    by_points *= 2 * pi * (1 - cosine) / (points * points);
+    // No wider than needed: the rim of a ball shows the sky once more.
+    const double by_directions = solid_angle(middle->direction, 2.2 * std::sqrt(by_points), [&](const Vec3& w) {
+        const Followed ray = follow(scene, {eye, w});
+        return ray.leaves && dot(ray.direction, target) > cosine;
+    });
     EXPECT_NEAR(by_points, by_directions, 0.005 * by_directions);
 }
 

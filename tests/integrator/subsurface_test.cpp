@@ -195,8 +195,8 @@ TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     }
 }
 
-/// A ball behind a smooth boundary, in thin fog and another ball, under a lamp.
-SceneDescription under_lamp() {
+/// A ball behind a smooth boundary, in thin fog and under a pane, a lamp and a sky with a bright spot.
+SceneDescription under_glass() {
     SceneDescription s;
     const MediumId medium = test::add_homogeneous(s, {0.1f, 0.2f, 0.4f}, {9, 8, 7}, 0.2f);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.0f), Rgb(0.05f));
@@ -205,11 +205,14 @@ SceneDescription under_lamp() {
     test::add_sphere(s, {0, 0.1f, 0}, 1.2f, test::add_interface(s), fog);
     test::add_box(s, Box3(Vec3(-4, 1.5f, -4), Vec3(4, 1.7f, 4)), glass);
     test::add_lamp(s, {-2.5f, 2.2f, -2.5f}, 8, Rgb(2.0f), test::add_diffuse(s, Rgb(0.0f)));
+    Image sky(8, 8, Rgb(0.05f));
+    sky.at(2, 5) = Rgb(6.0f);
+    s.lights.push_back(ImageInfiniteLight(sky, 1, Transform()));
     return s;
 }
 
-TEST(GuidedObject, ConnectsCollisionsToLampsThroughSmoothBoundaries) {
-    const Scene scene(under_lamp());
+TEST(GuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
+    const Scene scene(under_glass());
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     struct Limit {
         int max_depth, walks;

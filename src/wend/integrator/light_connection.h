@@ -8,6 +8,7 @@
 #include <wend/medium/transmittance.h>
 #include <wend/scene/scene.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace wend {
@@ -119,9 +120,10 @@ Passage pass(const Scene& scene, const Distance& distance, const RefractedWay& w
         }
         if (leg.medium != vacuum) {
             const Medium& medium = scene.medium(leg.medium);
-            passage.transmittance *= estimate_transmittance(medium, leg.ray, leg.length, random);
+            const float length = std::min(leg.length, farthest);
+            passage.transmittance *= estimate_transmittance(medium, leg.ray, length, random);
             passage.probability *=
-                slab.is_inside() ? Rgb(slab.pass(leg.length)) : distance.pass_probability(medium, leg.ray, leg.length);
+                slab.is_inside() ? Rgb(slab.pass(length)) : distance.pass_probability(medium, leg.ray, length);
         }
     }
     return passage;

@@ -86,7 +86,7 @@ private:
             return 1;
         }
         const float other = last.connected * choices_.probability(last.receiver, light) *
-                            (last.refractions > 0 ? refracted_density(light, last, hit, normal)
+                            (last.refractions > 0 ? refracted_density(light, last, direction, hit, normal)
                                                   : density(light, last, direction, hit, normal));
         const float own = last.own_density();
         return own > 0 ? own / (own + other) : 0.0f;
@@ -97,17 +97,17 @@ private:
                              normal);
     }
 
-    /// Of the first direction of a refracted way: 0 where connections do not find it.
-    float refracted_density(int light, const LastVertex& last, const Vec3& hit, const Vec3& normal) const {
-        if (is_at_infinity(scene_.lights()[static_cast<std::size_t>(light)])) {
+    /// Of the first direction of a refracted way that ends with `direction`: 0 where connections do not find it.
+    float refracted_density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit,
+                            const Vec3& normal) const {
+        const Light& source = scene_.lights()[static_cast<std::size_t>(light)];
+        const bool is_far = is_at_infinity(source);
+        const Vec3 straight = is_far ? direction : normalize(hit - last.receiver.position);
+        if (!is_seen_through_boundaries(source) || (!is_far && is_black(emitted_radiance(source, normal, -straight)))) {
             return 0;
         }
-        const Vec3 straight = normalize(hit - last.receiver.position);
-        if (is_black(emitted_radiance(scene_.lights()[static_cast<std::size_t>(light)], normal, -straight))) {
-            return 0;
-        }
-        const auto way = find_refracted_way(scene_, {last.receiver.position, straight},
-                                            length(hit - last.receiver.position), last.medium);
+        const float distance = is_far ? infinity : length(hit - last.receiver.position);
+        const auto way = find_refracted_way(scene_, {last.receiver.position, straight}, distance, last.medium);
         constexpr float same = 1e-3f;
         return way && way->refractions == last.refractions && length(way->direction - last.direction) < same
                    ? way->density_ratio * density(light, last, straight, hit, normal)

@@ -150,44 +150,12 @@ private:
     }
 
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
-    void enter_medium(const Hit& hit, MediumId from) {
-        if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
-            return;
-        }
-        update_stay();
-        bool guided = now_.slab.is_inside();
-        if (now_.medium != from) {
-            const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
-            guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
-            now_.is_trial = plan && !guided && plan->classical_probability < 1;
-            now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
-            now_.sees_through = plan != nullptr;
-            now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
-            now_.slab.leave();
-            if (stays_ && plan) {
-                end_stay();
-                now_.stay = {.medium = now_.medium, .entry = hit.position, .guided = guided};
-            }
-        }
-        if (guided) {
-            tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
-                                      now_.slab);
-        }
-    }
-
-    void update_stay() {
-        if (stays_ && now_.slab.is_inside()) {
-            now_.stay.relative = now_.slab.relative_densities();
-        }
-    }
-
+    void enter_medium(const Hit& hit, MediumId from);
+    void update_stay();
     /// Reports the last stay in a dense medium, if there was one.
-    void end_stay() {
-        update_stay();
-        if (stays_ && now_.stay.medium != vacuum) {
-            stays_->push_back(now_.stay);
-        }
-    }
+    void end_stay();
+    /// Only what was weighted with the preference of a stay changes with it.
+    std::optional<StaySlope> slope_of(const MetLight& arriving);
 
     FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
         FlightEnd end;
@@ -448,15 +416,6 @@ private:
     /// Tells the log of a light that no connection reaches.
     void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
 
-    /// Only what was weighted with the preference of a stay changes with it.
-    std::optional<StaySlope> slope_of(const MetLight& arriving) {
-        if (!stays_ || now_.preference == 1) {
-            return std::nullopt;
-        }
-        update_stay();
-        return StaySlope{now_.stay.relative, arriving.by_connections / mean_value(arriving.radiance)};
-    }
-
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
         result_.sample.normal = normal;
@@ -537,6 +496,7 @@ private:
 }  // namespace wend
 
 #include <wend/integrator/walk_connections.inl>
+#include <wend/integrator/walk_stays.inl>
 
 namespace wend {
 

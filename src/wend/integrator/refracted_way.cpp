@@ -26,14 +26,37 @@ struct Beam {
     }
 };
 
+/// Where a way is to lead: to a point, or into a direction.
+struct Target {
+    Vec3 place;
+    bool is_far;
+
+    /// Nothing where the ray leads away.
+    std::optional<float> distance_along(const Ray& ray) const {
+        const float along = dot(is_far ? place : place - ray.origin, ray.direction);
+        return along > 0 ? std::optional(is_far ? infinity : along) : std::nullopt;
+    }
+};
+
 /// What following a first direction leads to.
 struct Trial {
     RefractedWay way;
     Beam last;
-    /// From where the last ray passes the target to the target, and how the former moves.
+    /// By how much the last ray misses the target, across, and how that shrinks with the angles.
     Vec3 missed;
-    std::array<Vec3, 2> passing_by;
+    std::array<Vec3, 2> approach;
     bool is_clear = false;  ///< nothing is in the way of the last ray
+
+    /// At the end of the last ray, where it is `along` from the target.
+    void measure(const Target& target, float along) {
+        const Vec3& w = last.ray.direction;
+        const auto across = [&](const Vec3& v) { return v - w * dot(v, w); };
+        missed = across(target.is_far ? target.place : target.place - last.ray.origin);
+        for (std::size_t i = 0; i < 2; ++i) {
+            approach[i] =
+                across(target.is_far ? last.direction_by[i] : last.origin_by[i] + last.direction_by[i] * along);
+        }
+    }
 };
 
 const DielectricBsdf* smooth_dielectric(const Bsdf& bsdf) {
@@ -69,9 +92,9 @@ bool refract_at(const Scene& scene, const Hit& hit, float ior, Beam& beam, Refra
     return true;
 }
 
-/// Follows a way to where it passes the target, and no further than `refractions`, behind which nothing is traced if
-/// that is less than what there may be. Nothing where the way turns back, is totally reflected, or is too long.
-std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& first, const Vec3& target,
+/// Follows a way along first.n to where it comes closest to the target. Behind so many refractions nothing is traced
+/// any more. Nothing where the way turns back, is totally reflected, or is too long.
+std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& first, const Target& target,
                             MediumId medium, int refractions) {
     Trial trial;
     trial.way.direction = first.n;
@@ -79,32 +102,27 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
     beam.ray = {from, first.n};
     beam.direction_by = {first.s, first.t};
     for (;;) {
-        const Vec3 rest = target - beam.ray.origin;
-        const float along = dot(rest, beam.ray.direction);
-        if (!(along > 0)) {
+        const std::optional<float> along = target.distance_along(beam.ray);
+        if (!along) {
             return std::nullopt;
         }
         constexpr float margin = 1e-3f;
         const std::optional<Hit> hit =
-            trial.way.refractions < refractions ? scene.intersect(beam.ray, along * (1 + margin)) : std::nullopt;
-        const bool passes = hit && hit->light < 0 && hit->distance < along * (1 - margin);
+            trial.way.refractions < refractions ? scene.intersect(beam.ray, *along * (1 + margin)) : std::nullopt;
+        const bool passes = hit && hit->light < 0 && hit->distance < *along * (1 - margin);
         const bool is_interface = passes && scene.is_interface(*hit);
         const Bsdf bsdf = passes && !is_interface ? scene.bsdf(*hit) : Bsdf();
         const DielectricBsdf* const dielectric = smooth_dielectric(bsdf);
-        if (!trial.way.add({beam.ray, hit ? hit->distance : along, medium})) {
+        if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium})) {
             return std::nullopt;
         }
         if (!is_interface && !dielectric) {
             trial.last = beam;
-            trial.missed = rest - beam.ray.direction * along;
-            for (std::size_t i = 0; i < 2; ++i) {
-                const Vec3 by = beam.origin_by[i] + beam.direction_by[i] * along;
-                trial.passing_by[i] = by - beam.ray.direction * dot(by, beam.ray.direction);
-            }
-            if (hit && hit->light >= 0 && length(hit->position - target) < margin * along) {
+            trial.measure(target, *along);
+            if (hit && hit->light >= 0 && length(hit->position - target.place) < margin * *along) {
                 trial.way.end = *hit;
-                trial.is_clear = true;
             }
+            trial.is_clear = target.is_far ? !hit : trial.way.end.surface != nullptr;
             return trial;
         }
         beam.move(hit->distance, hit->normal);
@@ -120,7 +138,7 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
 /// Where a straight ray is totally reflected, the one that leaves the boundary as the straight one goes on.
 std::optional<Vec3> steeper(const Scene& scene, const Ray& straight, float distance) {
     const std::optional<Hit> hit = scene.intersect(straight, distance);
-    if (!hit || hit->light >= 0) {
+    if (!hit || hit->light >= 0 || scene.is_interface(*hit)) {
         return std::nullopt;
     }
     const Bsdf bsdf = scene.bsdf(*hit);
@@ -129,71 +147,72 @@ std::optional<Vec3> steeper(const Scene& scene, const Ray& straight, float dista
     return inside ? std::optional(-inside->direction) : std::nullopt;
 }
 
+/// How the first direction is to turn, along the trial's frame, so that the way passes the target; to first order.
+std::optional<Vec2> newton_step(const Trial& trial) {
+    constexpr float most_turned = 0.3f;
+    const Vec3 &w = trial.last.ray.direction, &a = trial.approach[0], &b = trial.approach[1];
+    const float area = dot(cross(a, b), w);
+    const Vec2 step = Vec2(dot(cross(trial.missed, b), w), dot(cross(a, trial.missed), w)) / area;
+    const float size = std::sqrt(step.x * step.x + step.y * step.y);
+    return std::isfinite(size) ? std::optional(step * std::min(1.0f, most_turned / size)) : std::nullopt;
+}
+
+/// Of the first direction, over that of the straight one.
+float density_ratio(const Trial& trial, const Ray& straight, float distance) {
+    const float spread = length(cross(trial.approach[0], trial.approach[1]));
+    if (distance == infinity) {
+        return spread;
+    }
+    const Vec3& normal = trial.way.end.normal;
+    return abs_dot(normal, straight.direction) * spread / (sqr(distance) * abs_dot(normal, trial.last.ray.direction));
+}
+
 }  // namespace
 
 std::optional<RefractedWay> find_refracted_way(const Scene& scene, const Ray& straight, float distance,
                                                MediumId medium) {
     constexpr int most_trials = 12;
-    constexpr float most_turned = 0.3f, least_part = 1.0f / 8, least_gain = 0.25f;
-    const Vec3 target = straight.at(distance);
-    const float close = 1e-5f * distance + 4e-7f * std::sqrt(length_squared(target));
-    Vec3 direction = straight.direction;
-    std::optional<Trial> best;
-    Frame base;
-    Vec2 turn(0, 0);
+    constexpr float least_part = 1.0f / 8, least_gain = 0.25f;
+    const bool is_far = distance == infinity;
+    const Target target{is_far ? straight.direction : straight.at(distance), is_far};
+    const float close = is_far ? 1e-5f : 1e-5f * distance + 4e-7f * length(target.place);
+    std::optional<Trial> best =
+        follow(scene, straight.origin, Frame::from_z(straight.direction), target, medium, most_refractions);
+    if (!best) {
+        if (const auto direction = steeper(scene, straight, distance)) {
+            best = follow(scene, straight.origin, Frame::from_z(*direction), target, medium, most_refractions);
+        }
+    }
+    if (!best || best->way.refractions == 0) {
+        return std::nullopt;
+    }
+    const auto passes_target = [&] { return length_squared(best->missed) < sqr(close); };
+    auto step = newton_step(*best);
     float part = 1;
-    int refractions = most_refractions;
-    for (int i = 0; i < most_trials; ++i) {
-        const Frame first = Frame::from_z(direction);
-        std::optional<Trial> trial = follow(scene, straight.origin, first, target, medium, refractions);
-        if (i == 0 && !trial) {
-            const auto other = steeper(scene, straight, distance);
-            if (!other) {
-                return std::nullopt;
-            }
-            direction = *other;
-            continue;
-        }
-        if (!best && (!trial || trial->way.refractions == 0)) {
-            return std::nullopt;
-        }
-        if (trial && (!best || length(trial->missed) < (1 - least_gain * part) * length(best->missed))) {
+    for (int i = 0; i < most_trials && !passes_target() && step && part >= least_part; ++i) {
+        const Frame base = Frame::from_z(best->way.direction);
+        const Vec3 direction = normalize(base.n + base.s * (step->x * part) + base.t * (step->y * part));
+        std::optional<Trial> trial =
+            follow(scene, straight.origin, Frame::from_z(direction), target, medium, best->way.refractions);
+        if (trial && length(trial->missed) < (1 - least_gain * part) * length(best->missed)) {
             best = std::move(trial);
-            base = first;
+            step = newton_step(*best);
             part = 1;
-            refractions = best->way.refractions;
-            if (length_squared(best->missed) < sqr(close)) {
-                break;
-            }
-            const Vec3 &w = best->last.ray.direction, &a = best->passing_by[0], &b = best->passing_by[1];
-            const float area = dot(cross(a, b), w);
-            turn = Vec2(dot(cross(best->missed, b), w), dot(cross(a, best->missed), w)) / area;
-            const float size = std::sqrt(turn.x * turn.x + turn.y * turn.y);
-            if (!std::isfinite(size)) {
-                return std::nullopt;
-            }
-            turn *= std::min(1.0f, most_turned / size);
-        } else if ((part *= 0.5f) < least_part) {
-            return std::nullopt;
+        } else {
+            part *= 0.5f;
         }
-        direction = normalize(base.n + base.s * (turn.x * part) + base.t * (turn.y * part));
     }
-    if (!best || !(length_squared(best->missed) < sqr(close))) {
+    if (!passes_target()) {
         return std::nullopt;
     }
-    best = follow(scene, straight.origin, base, target, medium, most_refractions);
-    if (!best || !best->is_clear || best->way.refractions == 0) {
+    // With what lies behind the last boundary.
+    best = follow(scene, straight.origin, Frame::from_z(best->way.direction), target, medium, most_refractions);
+    if (!best || !passes_target() || !best->is_clear) {
         return std::nullopt;
     }
-    RefractedWay& way = best->way;
-    const float spread = length(cross(best->passing_by[0], best->passing_by[1]));
-    const float facing = abs_dot(way.end.normal, straight.direction),
-                facing_last = abs_dot(way.end.normal, best->last.ray.direction);
-    way.density_ratio = facing * spread / (sqr(distance) * facing_last);
-    if (!(way.density_ratio > 0) || !std::isfinite(way.density_ratio)) {
-        return std::nullopt;
-    }
-    return way;
+    best->way.density_ratio = density_ratio(*best, straight, distance);
+    return best->way.density_ratio > 0 && std::isfinite(best->way.density_ratio) ? std::optional(best->way)
+                                                                                 : std::nullopt;
 }
 
 }  // namespace wend

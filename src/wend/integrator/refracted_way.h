@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <variant>
 
 namespace wend {
 
@@ -14,7 +15,7 @@ struct RefractedWay {
     /// Within one medium.
     struct Leg {
         Ray ray;
-        float length;
+        float length;  ///< infinite for the last one to a light at infinity
         MediumId medium;
     };
 
@@ -25,7 +26,7 @@ struct RefractedWay {
     /// drawn.
     float density_ratio = 1;
     int refractions = 0;
-    Hit end;  ///< on the light
+    Hit end;  ///< on the light, if it is not at infinity
 
     std::span<const Leg> legs() const { return {storage_.data(), static_cast<std::size_t>(count_)}; }
     /// Whether there was room for one more.
@@ -43,11 +44,19 @@ private:
     int count_ = 0;
 };
 
-/// The way from `straight.origin`, in `medium`, to the point at `distance` along the straight ray, found by Newton's
-/// method from the straight direction (hanika2015, with rays in place of points on the boundaries): a function of its
-/// arguments, so that who met the point by chance can ask whether it would have been found. Of several ways it is one.
-/// Nothing where no boundary refracts, or none of the tries ends at the point.
+/// The way from `straight.origin`, in `medium`, to the point at `distance` along the straight ray, or to where that
+/// ends up in its direction if `distance` is infinite, found by Newton's method from the straight direction
+/// (hanika2015, with rays in place of points on the boundaries): a function of its arguments, so that who got there by
+/// chance can ask whether it would have been found. Of several ways it is one. Nothing where no boundary refracts, or
+/// none of the tries gets there.
 std::optional<RefractedWay> find_refracted_way(const Scene& scene, const Ray& straight, float distance,
                                                MediumId medium);
+
+/// Whether connections look for a light behind boundaries: one that rays can meet, and that is not the same from
+/// everywhere, which any ray meets as well.
+inline bool is_seen_through_boundaries(const Light& light) {
+    return std::holds_alternative<TriangleLight>(light) || std::holds_alternative<QuadricLight>(light) ||
+           std::holds_alternative<ImageInfiniteLight>(light);
+}
 
 }  // namespace wend

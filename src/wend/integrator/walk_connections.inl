@@ -6,11 +6,9 @@
 #include <wend/integrator/light_connection.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
-#include <wend/medium/transmittance.h>
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 namespace wend {
 
@@ -45,66 +43,6 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
         if (log_ && (now_.is_told || !in_volume)) {
             log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
         }
-    }
-}
-
-// What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
-// a path either way has the same value, and the balance heuristic counts `connected_before` on both.
-template <class Decisions>
-void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
-                                                      const Vec3& position) {
-    if (now_.depth >= tracer_.max_depth_) {
-        return;
-    }
-    const std::optional<Vec3> w = directions.sample_lamps();
-    const float density = w ? directions.density(*w) : 0.0f;
-    if (!(density > 0)) {
-        return;
-    }
-    const Ray ray{position, *w};
-    const std::optional<Hit> hit = scene_.intersect(ray);
-    if (!hit || scene_.is_interface(*hit)) {
-        return;
-    }
-    const Branch here = now_;
-    const Hit* const surface = std::exchange(hit_, &*hit);
-    const Rgb phase = f.evaluate(*w);
-    now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
-    now_.slab.turn(now_.ray.direction, *w);
-    now_.ray = ray;
-    const float passing = now_.slab.pass(hit->distance);
-    const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
-    now_.throughput *= arriving;
-    now_.connected_before = connections_at_boundary * directions.lamp_density(*w) / (density * passing);
-    const SurfaceScattering boundary = scattering_at(*hit);
-    Rgb brought;
-    if (is_finite(arriving) && !boundary.is_specular()) {
-        constexpr int n = connections_at_boundary;
-        const auto around = d_.direction.at(hit->position, false, boundary, now_.boost);
-        const float u = sampler_.random().uniform();
-        for (int i = 0; i < n; ++i) {
-            const auto chosen =
-                choose_light(scene_, tracer_.lights_, {hit->position, hit->normal}, (static_cast<float>(i) + u) / n,
-                             sampler_.random().uniform2(), sampler_.random());
-            if (!chosen) {
-                continue;
-            }
-            const Connection found =
-                connect(*chosen, connections(false), boundary, around, hit->position, hit->normal, false);
-            const Rgb light = found.scattering * found.light;
-            bring(now_.throughput * light, found.slope);
-            brought += arriving * light;
-        }
-    }
-    const Stay stay = now_.stay;
-    now_ = here;
-    now_.stay = stay;
-    hit_ = surface;
-    if (log_) {
-        log_->gather(brought);
-    }
-    if (log_ && now_.is_told) {
-        log_->connect(*w, infinity, mean_value(brought) / mean_value(phase), brought);
     }
 }
 
@@ -193,17 +131,19 @@ template <class Decisions>
 auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Vec3& position)
     -> std::optional<Sight> {
     const LightSample& light = chosen.light;
-    if (light.point_like || light.distance == infinity || light.medium != vacuum) {
+    const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
+    if (!is_seen_through_boundaries(source)) {
         return std::nullopt;
     }
     const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
-    if (!way || way->end.light != chosen.index || now_.depth + way->refractions > tracer_.max_depth_) {
+    const bool is_far = light.distance == infinity;
+    if (!way || (!is_far && way->end.light != chosen.index) || now_.depth + way->refractions > tracer_.max_depth_) {
         return std::nullopt;
     }
+    const Vec3 arriving = -way->legs().back().ray.direction;
     Sight sight{way->direction,
                 infinity,
-                emitted_radiance(scene_.lights()[static_cast<std::size_t>(chosen.index)], way->end.normal,
-                                 -way->legs().back().ray.direction),
+                is_far ? environment_radiance(source, -arriving) : emitted_radiance(source, way->end.normal, arriving),
                 chosen.density() * way->density_ratio,
                 slab_towards(way->direction, true),
                 {}};

@@ -1,0 +1,125 @@
+// How the walk of integrator/path_tracer.inl, which includes this, stays in dense media behind boundaries.
+#pragma once
+
+#include <wend/decision/channels.h>
+#include <wend/integrator/light_met.h>
+#include <wend/integrator/path_tracer.h>
+#include <wend/integrator/scattering.h>
+#include <wend/medium/transmittance.h>
+
+#include <optional>
+#include <utility>
+
+namespace wend {
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
+    if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
+        return;
+    }
+    update_stay();
+    bool guided = now_.slab.is_inside();
+    if (now_.medium != from) {
+        const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
+        guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
+        now_.is_trial = plan && !guided && plan->classical_probability < 1;
+        now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
+        now_.sees_through = plan != nullptr;
+        now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
+        now_.slab.leave();
+        if (stays_ && plan) {
+            end_stay();
+            now_.stay = {.medium = now_.medium, .entry = hit.position, .guided = guided};
+        }
+    }
+    if (guided) {
+        tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
+                                  now_.slab);
+    }
+}
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::update_stay() {
+    if (stays_ && now_.slab.is_inside()) {
+        now_.stay.relative = now_.slab.relative_densities();
+    }
+}
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::end_stay() {
+    update_stay();
+    if (stays_ && now_.stay.medium != vacuum) {
+        stays_->push_back(now_.stay);
+    }
+}
+
+template <class Decisions>
+std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& arriving) {
+    if (!stays_ || now_.preference == 1) {
+        return std::nullopt;
+    }
+    update_stay();
+    return StaySlope{now_.stay.relative, arriving.by_connections / mean_value(arriving.radiance)};
+}
+
+// What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
+// a path either way has the same value, and the balance heuristic counts `connected_before` on both.
+template <class Decisions>
+void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
+                                                      const Vec3& position) {
+    if (now_.depth >= tracer_.max_depth_) {
+        return;
+    }
+    const std::optional<Vec3> w = directions.sample_lamps();
+    const float density = w ? directions.density(*w) : 0.0f;
+    if (!(density > 0)) {
+        return;
+    }
+    const Ray ray{position, *w};
+    const std::optional<Hit> hit = scene_.intersect(ray);
+    if (!hit || scene_.is_interface(*hit)) {
+        return;
+    }
+    const Branch here = now_;
+    const Hit* const surface = std::exchange(hit_, &*hit);
+    const Rgb phase = f.evaluate(*w);
+    now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+    now_.slab.turn(now_.ray.direction, *w);
+    now_.ray = ray;
+    const float passing = now_.slab.pass(hit->distance);
+    const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
+    now_.throughput *= arriving;
+    now_.connected_before = connections_at_boundary * directions.lamp_density(*w) / (density * passing);
+    const SurfaceScattering boundary = scattering_at(*hit);
+    Rgb brought;
+    if (is_finite(arriving) && !boundary.is_specular()) {
+        constexpr int n = connections_at_boundary;
+        const auto around = d_.direction.at(hit->position, false, boundary, now_.boost);
+        const float u = sampler_.random().uniform();
+        for (int i = 0; i < n; ++i) {
+            const auto chosen =
+                choose_light(scene_, tracer_.lights_, {hit->position, hit->normal}, (static_cast<float>(i) + u) / n,
+                             sampler_.random().uniform2(), sampler_.random());
+            if (!chosen) {
+                continue;
+            }
+            const Connection found =
+                connect(*chosen, connections(false), boundary, around, hit->position, hit->normal, false);
+            const Rgb light = found.scattering * found.light;
+            bring(now_.throughput * light, found.slope);
+            brought += arriving * light;
+        }
+    }
+    const Stay stay = now_.stay;
+    now_ = here;
+    now_.stay = stay;
+    hit_ = surface;
+    if (log_) {
+        log_->gather(brought);
+    }
+    if (log_ && now_.is_told) {
+        log_->connect(*w, infinity, mean_value(brought) / mean_value(phase), brought);
+    }
+}
+
+}  // namespace wend
