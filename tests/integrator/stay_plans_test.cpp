@@ -98,6 +98,7 @@ TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
         for (int i = 0; i < 5000; ++i) {
             Stay one = stay(shares, random);
             one.connected = connects && i == 0;
+            one.connected_through = !connects && i == 0;
             moments.add(cell, one);
         }
         plans.learn(moments.of(0), false);
@@ -105,6 +106,10 @@ TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
         const float probability = plans.plan(cell).guided.probability;
         EXPECT_GT(probability, 0);
         EXPECT_EQ(probability < 0.1f, !connects);
+        // Straight connections and those that boundaries refract, each for itself.
+        const float through_boundaries = plans.plan(cell).guided.through_boundaries;
+        EXPECT_GT(through_boundaries, 0);
+        EXPECT_EQ(through_boundaries < 0.01f, connects);
     }
 }
 

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -172,27 +175,37 @@ SceneDescription back_lit() {
     return s;
 }
 
+struct Walks {
+    const char* subsurface;
+    std::uint64_t seed;
+};
+
+struct Limit {
+    int max_depth, walks;
+    double bias;  ///< that is seen
+};
+
+/// Walks that are connected to lights against those that are not.
+void expect_same_radiance(const Scene& scene, const Ray& ray, const Walks& connected, const Walks& unconnected,
+                          const Limit& limit) {
+    SCOPED_TRACE(limit.max_depth);
+    const auto measure = [&](const Walks& walks) {
+        return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, walks.seed,
+                                      parse_subsurface(walks.subsurface));
+    };
+    const Measured a = measure(connected), b = measure(unconnected);
+    const double error = std::hypot(a.standard_error, b.standard_error);
+    EXPECT_TRUE(agrees(a.mean - b.mean, error, 0, 4)) << a.mean << " and " << b.mean << " +- " << error;
+    EXPECT_LT(8 * error, limit.bias * b.mean) << "too few walks to see a bias";
+    EXPECT_FALSE(agrees((1 + limit.bias) * a.mean - b.mean, error, 0, 4));
+}
+
 TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     const Scene scene(back_lit());
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    struct Limit {
-        int max_depth, walks;
-        double bias;  ///< that is seen
-    };
     // Few walks get through in five collisions; to connect once too often would show there.
-    for (const Limit& limit : {Limit{5, 300000, 0.08}, Limit{100000, 500000, 0.03}}) {
-        SCOPED_TRACE(limit.max_depth);
-        const auto measure = [&](const char* strategy) {
-            return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, 3, parse_subsurface(strategy));
-        };
-        const Measured connected = measure("learned");
-        const Measured unconnected = measure("incident");
-        const double error = std::hypot(connected.standard_error, unconnected.standard_error);
-        EXPECT_TRUE(agrees(connected.mean - unconnected.mean, error, 0, 4))
-            << connected.mean << " and " << unconnected.mean << " +- " << error;
-        EXPECT_LT(8 * error, limit.bias * unconnected.mean) << "too few walks to see a bias";
-        EXPECT_FALSE(agrees((1 + limit.bias) * connected.mean - unconnected.mean, error, 0, 4));
-    }
+    expect_same_radiance(scene, ray, {"learned", 3}, {"incident", 3}, {5, 300000, 0.08});
+    expect_same_radiance(scene, ray, {"learned", 3}, {"incident", 3}, {100000, 500000, 0.03});
 }
 
 /// A ball behind a smooth boundary, in thin fog and under a pane, a lamp and a sky with a bright spot.
@@ -214,23 +227,67 @@ SceneDescription under_glass() {
 TEST(GuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
     const Scene scene(under_glass());
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    struct Limit {
-        int max_depth, walks;
-        double bias;  ///< that is seen
-    };
     // After the first collision a walk of five vertices has three left, of which two boundaries.
-    for (const Limit& limit : {Limit{5, 1500000, 0.06}, Limit{100000, 300000, 0.04}}) {
-        SCOPED_TRACE(limit.max_depth);
-        const auto measure = [&](const char* strategy, std::uint64_t seed) {
-            return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, seed, parse_subsurface(strategy));
+    expect_same_radiance(scene, ray, {"auto", 5}, {"classical", 4}, {5, 1500000, 0.06});
+    expect_same_radiance(scene, ray, {"auto", 5}, {"classical", 4}, {100000, 300000, 0.04});
+}
+
+/// An index-matched ball under a sky with a bright spot.
+SceneDescription under_spot() {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, {0.3f, 0.5f, 0.8f}, Rgb(9.0f), 0.3f);
+    test::add_sphere(s, {0, 0, 0}, 0.7f, test::add_interface(s), medium);
+    Image sky(8, 8, Rgb(0.2f));
+    sky.at(2, 5) = Rgb(4.0f);
+    s.lights.push_back(ImageInfiniteLight(sky, 1, Transform()));
+    return s;
+}
+
+// Whatever the shares and the preference, a stay brings the same in the mean: with their changes the light that is
+// brought changes as much as the density of the walks does.
+TEST(GuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
+    const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
+    for (const SceneDescription& description : {under_spot(), under_glass(), back_lit()}) {
+        const Scene scene(description);
+        const ClassicalDecisions decisions;
+        const SubsurfaceGuides subsurface(scene, parse_subsurface("auto"), 0);
+        const LightChoices lights(scene);
+        const ReflectionChoices reflections(scene.bounds());
+        const PathTracer tracer(scene, decisions, subsurface, lights, reflections, 100000);
+        Moments brought, by_preference;
+        std::array<Moments, 3> by_share;
+        std::vector<Stay> stays;
+        constexpr std::uint32_t walks = 200000;
+        for (std::uint32_t i = 0; i < walks; ++i) {
+            Sampler sampler(SamplerKind::independent, 1, 0, i);
+            stays.clear();
+            tracer.trace(ray, 0, sampler, {.stays = &stays});
+            double light = 0, slope = 0;
+            std::array<double, 3> slopes{};
+            for (const Stay& stay : stays) {
+                if (stay.guided) {
+                    light += stay.brought;
+                    slope += stay.slope.preference;
+                    for (std::size_t k = 0; k < slopes.size(); ++k) {
+                        slopes[k] += stay.brought * stay.relative[k] - stay.slope.shares[k];
+                    }
+                }
+            }
+            brought.add(light);
+            by_preference.add(slope);
+            for (std::size_t k = 0; k < slopes.size(); ++k) {
+                by_share[k].add(slopes[k]);
+            }
+        }
+        const auto expect_none = [&](const Moments& m) {
+            EXPECT_TRUE(agrees(m.mean(), m.standard_error(), 0, 4))
+                << m.mean() << " +- " << m.standard_error() << " of " << brought.mean();
+            EXPECT_LT(m.standard_error(), 0.01 * brought.mean()) << "too few walks to see a slope";
         };
-        const Measured connected = measure("auto", 5);
-        const Measured unconnected = measure("classical", 4);
-        const double error = std::hypot(connected.standard_error, unconnected.standard_error);
-        EXPECT_TRUE(agrees(connected.mean - unconnected.mean, error, 0, 4))
-            << connected.mean << " and " << unconnected.mean << " +- " << error;
-        EXPECT_LT(8 * error, limit.bias * unconnected.mean) << "too few walks to see a bias";
-        EXPECT_FALSE(agrees((1 + limit.bias) * connected.mean - unconnected.mean, error, 0, 4));
+        expect_none(by_preference);
+        for (const Moments& m : by_share) {
+            expect_none(m);
+        }
     }
 }
 

@@ -44,6 +44,14 @@ struct SlabGuide {
     }
 };
 
+inline SlabGuide::Shares mix(const SlabGuide::Shares& a, const SlabGuide::Shares& b, float share_of_a) {
+    SlabGuide::Shares result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = share_of_a * a[i] + (1 - share_of_a) * b[i];
+    }
+    return result;
+}
+
 /// A guide that mixes `strategies` of equal shares with `classical_share`, in (0, 1], of classical sampling; `modes`
 /// are those of the medium (theory/slab_modes.h has them). Throws InputError for numbers out of range, and for modes
 /// that are not as SlabGuide has them.

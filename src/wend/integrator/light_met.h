@@ -15,15 +15,15 @@ struct LastVertex {
     bool unconnected = true;
     /// Of the direction drawn there, per steradian, times what it counts for against connections.
     float density = 0;
-    /// How often it was connected, as a mean.
+    /// How often it was connected, straight and along ways that boundaries refract, as a mean.
     float connected = 1;
+    float connected_through = 0;
     /// Probabilities of the walk's colour channels, and under each of them of flying as far as the walk has.
     Rgb channels;
     Rgb pass_probability;
-    /// The direction drawn there, and whether connections look through boundaries, in which medium that is, and how
-    /// often the walk was refracted since, where it met nothing else.
+    /// The direction drawn there, in which medium that is, and how often the walk was refracted since, where it met
+    /// nothing else.
     Vec3 direction{0, 0, 1};
-    bool sees_through = false;
     MediumId medium = vacuum;
     int refractions = 0;
 
@@ -85,9 +85,10 @@ private:
         if (last.unconnected) {
             return 1;
         }
-        const float other = last.connected * choices_.probability(last.receiver, light) *
-                            (last.refractions > 0 ? refracted_density(light, last, direction, hit, normal)
-                                                  : density(light, last, direction, hit, normal));
+        const float other =
+            choices_.probability(last.receiver, light) *
+            (last.refractions > 0 ? last.connected_through * refracted_density(light, last, direction, hit, normal)
+                                  : last.connected * density(light, last, direction, hit, normal));
         const float own = last.own_density();
         return own > 0 ? own / (own + other) : 0.0f;
     }

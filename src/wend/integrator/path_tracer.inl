@@ -64,8 +64,6 @@ private:
         Stay stay;                          ///< what it brings; of the last one where the walk is outside
         bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
         bool is_told = true;                ///< whether collisions go into the log
-        float preference = 1;               ///< of the last vertex: that of its stay, or 1
-        bool sees_through = false;          ///< in a dense medium, whose boundaries connections pass
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
         /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
         /// the direction that was drawn.
@@ -73,6 +71,7 @@ private:
         /// How often the surface vertex at hand was connected from the collision before, as a mean.
         float connected_before = 0;
         SlabGuide::Shares at_collision{};  ///< relative densities there
+        float from_collision = 0;          ///< part of the last vertex's connections that began there
         LastVertex last;
 
         guide::PathLog::Branch logged{};
@@ -154,7 +153,7 @@ private:
     void update_stay();
     /// Reports the last stay in a dense medium, if there was one.
     void end_stay();
-    /// Only what was weighted with the preference of a stay changes with it.
+    /// Light that was weighted against connections from a collision changes less than the walk's density.
     std::optional<StaySlope> slope_of(const MetLight& arriving);
 
     FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
@@ -241,6 +240,9 @@ private:
         if (!f.is_specular()) {
             connect_to_lights(f, directions, position, normal, in_volume);
         }
+        if (in_volume) {
+            connect_through_boundaries(f, directions, position);
+        }
         const std::optional<WeightWindow::Outcome> outcome =
             d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
         if (!outcome) {
@@ -316,18 +318,20 @@ private:
         const Vec3 before = now_.ray.direction;
         now_.boost *= s->boost;
         now_.index_scale *= sqr(f.index_ratio(s->direction));
-        now_.preference = preference(in_volume);
-        if (s->specular && now_.last.sees_through && dot(before, normal) * dot(s->direction, normal) > 0) {
+        if (s->specular && now_.last.connected_through > 0 && dot(before, normal) * dot(s->direction, normal) > 0) {
             ++now_.last.refractions;
         } else {
+            const float connected = connections(in_volume) + now_.connected_before;
+            now_.from_collision =
+                in_volume && now_.slab.is_inside() ? 1.0f : now_.connected_before / std::max(connected, 1.0f);
             now_.last = {{position, normal},
                          s->specular,
-                         s->density * now_.preference,
-                         connections(in_volume) + now_.connected_before,
+                         s->density * preference(in_volume),
+                         connected,
+                         in_volume ? now_.connecting.through_boundaries : 0.0f,
                          channel_probabilities(now_.throughput),
                          Rgb(1.0f),
                          s->direction,
-                         in_volume && now_.sees_through,
                          now_.medium};
         }
         now_.lamps_ahead = 0;
@@ -396,6 +400,11 @@ private:
     template <class F, class Directions>
     void connect_to_lights(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
                            bool in_volume);
+    /// The same from a collision in a dense medium, along a way that boundaries refract.
+    template <class F, class Directions>
+    void connect_through_boundaries(const F& f, const Directions& directions, const Vec3& position);
+    /// Counts what a connection has found; as many as `times` were made, as a mean.
+    void take(const Connection& found, const LightReceiver& receiver, const ChosenSample& chosen, float times);
     /// Flies out from a collision in a stay to a lamp that is known there, and connects the boundary to lights.
     void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vec3& position);
     template <class F, class Directions>
@@ -410,6 +419,10 @@ private:
         SlabWalk slab;  ///< towards the light, if the walk is in a guided stay
         Passage passage;
     };
+    /// `often`: how many connections see the light as this one does, as a mean; `value`: what is scattered here.
+    template <class Directions>
+    Connection weigh(const Sight& sight, float often, bool point_like, const Rgb& value, const Directions& directions,
+                     bool in_volume) const;
     Sight look_straight(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
     std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Vec3& position);
     SlabWalk slab_towards(const Vec3& direction, bool in_volume) const;

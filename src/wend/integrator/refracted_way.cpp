@@ -8,7 +8,7 @@
 namespace wend {
 namespace {
 
-/// Vessels have a few; what has more is no window.
+/// A lamp behind more of them, as behind the two sides of several panes, is left to chance.
 constexpr int most_refractions = 8;
 
 /// A ray and how it changes with two angles of the way's first direction (igehy1999).

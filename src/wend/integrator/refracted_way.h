@@ -20,8 +20,8 @@ struct RefractedWay {
     };
 
     Vec3 direction;  ///< of its first leg, unit length
-    float transmitted =
-        1;  ///< of radiance, by the boundaries: Fresnel's transmittances over the squared ratios of indices
+    /// Of radiance, by the boundaries: Fresnel's transmittances over the squared ratios of indices.
+    float transmitted = 1;
     /// Density of the first direction over that of the straight one to the same point, where points on lights are
     /// drawn.
     float density_ratio = 1;

@@ -28,6 +28,9 @@ constexpr float largest_preference = 1000;
 float connection_probability(float preference) {
     return 1 / (1 + (preference - 1) / 16);
 }
+/// Along ways that boundaries refract; in classical flights, what looking for one takes.
+constexpr float first_through_boundaries = 0.125f;
+constexpr double cost_of_way = 4;
 /// On surfaces, each behind many flights.
 constexpr int connections_at_surfaces = 8;
 constexpr double enough_stays = 2000;
@@ -79,16 +82,19 @@ struct Advantage {
     float told_probability() const { return efficiency > clear_advantage ? least_told : 1.0f; }
 };
 
-Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& classical) {
+Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& classical, float through_boundaries) {
     const auto [guided_variance, guided_count] = variance(guided);
     const auto [classical_variance, classical_count] = variance(classical);
     if (!(guided_count > 0 && classical_count > 0)) {
         return {};
     }
-    const double guided_cost = flights_outside + cost_of_guided_flight * guided.flights / guided.powers[0];
-    const double classical_cost = flights_outside + classical.flights / classical.powers[0];
+    const double ways = cost_of_way * static_cast<double>(through_boundaries);
+    const auto cost = [ways](const StayMoments::Kind& kind, double flight) {
+        return flights_outside + (flight + ways) * kind.flights / kind.powers[0];
+    };
     const double ratio = std::log(classical_variance / guided_variance);
-    return {ratio + std::log(classical_cost / guided_cost), std::sqrt(1 / guided_count + 1 / classical_count), ratio};
+    return {ratio + std::log(cost(classical, 1) / cost(guided, cost_of_guided_flight)),
+            std::sqrt(1 / guided_count + 1 / classical_count), ratio};
 }
 
 /// Between what was seen and what is expected elsewhere.
@@ -157,6 +163,7 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
     add_each(slopes, other.slopes);
     add_each(densities, other.densities);
     connected += other.connected;
+    connected_through += other.connected_through;
     add_each(slope_squares, other.slope_squares);
     preference_slope += other.preference_slope;
     preference_slope_squares += other.preference_slope_squares;
@@ -171,6 +178,7 @@ void StayMoments::add(int cell, const Stay& stay) {
     }
     Sums sums;
     sums.connected = stay.connected ? 1 : 0;
+    sums.connected_through = stay.connected_through ? 1 : 0;
     if (!stay.guided) {
         sums.classical = one;
         media_[stay.medium][cell] += sums;
@@ -208,12 +216,12 @@ const std::map<int, StayMoments::Sums>& StayMoments::of(int medium) const {
 
 StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
     : box_(box),
-      plans_(side * side * side,
-             StayPlan{start,
-                      largest_share_for_watching,
-                      {first_preference, connection_probability(first_preference), connections_at_surfaces},
-                      {1, 1, connections_at_surfaces},
-                      1}) {
+      plans_(side * side * side, StayPlan{start,
+                                          largest_share_for_watching,
+                                          {first_preference, connection_probability(first_preference),
+                                           first_through_boundaries, connections_at_surfaces},
+                                          {1, 1, first_through_boundaries, connections_at_surfaces},
+                                          1}) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {
@@ -234,8 +242,11 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, bool last
     classical_ += all.classical;
     stays_ += all.guided.powers[0] + all.classical.powers[0];
     connects_ = connects_ || all.connected > 0;
-    const float most_connected = connects_ || stays_ < enough_stays ? 1.0f : least_probability;
-    const Advantage guided = advantage(all.guided, classical_);
+    connects_through_ = connects_through_ || all.connected_through > 0;
+    const auto most = [&](bool connects) { return connects || stays_ < enough_stays ? 1.0f : least_probability; };
+    const float most_connected = most(connects_);
+    const float through_boundaries = first_through_boundaries * most(connects_through_);
+    const Advantage guided = advantage(all.guided, classical_, through_boundaries);
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
@@ -245,6 +256,7 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, bool last
         plan.told_probability = guided.told_probability();
         plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);
         plan.classical.probability = most_connected;
+        plan.guided.through_boundaries = plan.classical.through_boundaries = through_boundaries;
     }
 }
 

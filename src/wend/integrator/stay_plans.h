@@ -28,7 +28,9 @@ struct Stay {
     SlabGuide::Shares relative{};
     /// Sum of what was brought, times its slope.
     StaySlope slope{};
-    bool connected = false;  ///< a connection to a light from inside has succeeded
+    /// Whether connections to lights from inside have succeeded: straight ones, and those that boundaries refract.
+    bool connected = false;
+    bool connected_through = false;
 
     void bring(float light, const StaySlope& relative_slope) {
         brought += light;
@@ -53,6 +55,8 @@ struct StayPlan {
         float preference = 1;
         /// Of connecting a collision at all: where connections count for little they are few.
         float probability = 1;
+        /// Of connecting it along a way that boundaries refract, which takes several rays to find.
+        float through_boundaries = 0;
         /// Connections of a vertex on a surface that is met from inside. It took many flights to get there, so that
         /// which lamp is chosen should not add to the variance.
         int at_surfaces = 1;
@@ -85,9 +89,10 @@ public:
         using PerTechnique = std::array<double, 1 + SlabGuide::most_strategies>;
         Kind guided, classical;
         // Of guided stays:
-        PerTechnique slopes{};        ///< -(F² p_i / p + 2 F dF)
-        PerTechnique densities{};     ///< p_i / p
-        double connected = 0;         ///< number of stays
+        PerTechnique slopes{};     ///< -(F² p_i / p + 2 F dF)
+        PerTechnique densities{};  ///< p_i / p
+        double connected = 0;      ///< number of stays
+        double connected_through = 0;
         double preference_slope = 0;  ///< of F² with the logarithm of the preference
         PerTechnique slope_squares{};
         double preference_slope_squares = 0;
@@ -124,6 +129,7 @@ private:
     StayMoments::Kind classical_;  // seen so far, everywhere
     double stays_ = 0;             // the same of all stays
     bool connects_ = false;
+    bool connects_through_ = false;
 };
 
 }  // namespace wend

@@ -33,16 +33,42 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
         }
         // What only connections find is never left out.
         const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
-        const Connection found = connect(*chosen, times, f, directions, position, normal, in_volume);
-        const Rgb brought = found.scattering * found.light;
-        gather(brought, found.slope);
-        if (lights_) {
-            lights_->push_back(tracer_.lights_.record({position, normal}, chosen->index,
-                                                      mean_value(brought) * times * chosen->probability));
-        }
-        if (log_ && (now_.is_told || !in_volume)) {
-            log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
-        }
+        take(connect(*chosen, times, f, directions, position, normal, in_volume), {position, normal}, *chosen, times);
+    }
+}
+
+template <class Decisions>
+template <class F, class Directions>
+void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const Directions& directions,
+                                                             const Vec3& position) {
+    const float often = now_.connecting.through_boundaries;
+    if (!(sampler_.random().uniform() < often)) {
+        return;
+    }
+    const auto chosen = choose_light(scene_, tracer_.lights_, {position, {0, 0, 0}}, sampler_.random().uniform(),
+                                     sampler_.random().uniform2(), sampler_.random());
+    if (!chosen || !is_seen_through_boundaries(scene_.lights()[static_cast<std::size_t>(chosen->index)])) {
+        return;
+    }
+    Connection found;
+    if (const auto sight = look_through_boundaries(*chosen, position)) {
+        found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, true);
+        now_.stay.connected_through |= now_.medium == now_.stay.medium;
+    }
+    take(found, {position, {0, 0, 0}}, *chosen, often);
+}
+
+template <class Decisions>
+void PathTracer<Decisions>::Walk::take(const Connection& found, const LightReceiver& receiver,
+                                       const ChosenSample& chosen, float times) {
+    const Rgb brought = found.scattering * found.light;
+    gather(brought, found.slope);
+    if (lights_) {
+        lights_->push_back(
+            tracer_.lights_.record(receiver, chosen.index, mean_value(brought) * times * chosen.probability));
+    }
+    if (log_ && (now_.is_told || receiver.normal != Vec3(0, 0, 0))) {
+        log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
     }
 }
 
@@ -51,27 +77,28 @@ template <class F, class Directions>
 auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
                                           const Directions& directions, const Vec3& position, const Vec3& normal,
                                           bool in_volume) -> Connection {
-    Rgb value = f.evaluate(chosen.light.direction);
+    const Rgb value = f.evaluate(chosen.light.direction);
     if (is_black(value)) {
         return {};
     }
-    const float often = times + now_.connected_before;
-    Sight sight = look_straight(chosen, position, normal, in_volume);
+    const Sight sight = look_straight(chosen, position, normal, in_volume);
     if (is_black(sight.passage.transmittance)) {
-        const auto refracted =
-            now_.sees_through && in_volume ? look_through_boundaries(chosen, position) : std::nullopt;
-        if (!refracted) {
-            if (log_ && !sight.slab.is_inside()) {
-                hint_at_refracted(chosen, position, normal, in_volume);
-            }
-            return {};
+        if (log_ && !sight.slab.is_inside()) {
+            hint_at_refracted(chosen, position, normal, in_volume);
         }
-        sight = *refracted;
-        value = f.evaluate(sight.direction);
+        return {};
     }
+    now_.stay.connected |= in_volume && now_.medium == now_.stay.medium;
+    return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, in_volume);
+}
+
+template <class Decisions>
+template <class Directions>
+auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool point_like, const Rgb& value,
+                                        const Directions& directions, bool in_volume) const -> Connection {
     const float density = often * sight.density;
     float other = 0;
-    if (!chosen.light.point_like) {
+    if (!point_like) {
         const Rgb channels = channel_probabilities(now_.throughput * value);
         other = preference(in_volume) * directions.density(sight.direction) * dot(channels, sight.passage.probability);
     }
@@ -79,16 +106,6 @@ auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float time
                      sight.radiance * sight.passage.transmittance * (1 / (density + other)), value, std::nullopt};
     if (!stays_) {
         return found;
-    }
-    const auto mix = [](const SlabGuide::Shares& a, const SlabGuide::Shares& b, float share_of_a) {
-        SlabGuide::Shares result;
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            result[i] = share_of_a * a[i] + (1 - share_of_a) * b[i];
-        }
-        return result;
-    };
-    if (in_volume && now_.medium == now_.stay.medium) {
-        now_.stay.connected = true;
     }
     if (in_volume && now_.slab.is_inside()) {
         const float weight = density / (density + other);
@@ -132,9 +149,6 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
     -> std::optional<Sight> {
     const LightSample& light = chosen.light;
     const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
-    if (!is_seen_through_boundaries(source)) {
-        return std::nullopt;
-    }
     const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
     const bool is_far = light.distance == infinity;
     if (!way || (!is_far && way->end.light != chosen.index) || now_.depth + way->refractions > tracer_.max_depth_) {

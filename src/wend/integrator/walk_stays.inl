@@ -24,7 +24,6 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
         guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
         now_.is_trial = plan && !guided && plan->classical_probability < 1;
         now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
-        now_.sees_through = plan != nullptr;
         now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
         now_.slab.leave();
         if (stays_ && plan) {
@@ -55,11 +54,14 @@ void PathTracer<Decisions>::Walk::end_stay() {
 
 template <class Decisions>
 std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& arriving) {
-    if (!stays_ || now_.preference == 1) {
+    if (!stays_ || now_.from_collision == 0) {
         return std::nullopt;
     }
     update_stay();
-    return StaySlope{now_.stay.relative, arriving.by_connections / mean_value(arriving.radiance)};
+    const float by_connections = arriving.by_connections / mean_value(arriving.radiance);
+    const bool in_volume = now_.last.receiver.normal == Vec3(0, 0, 0);
+    return StaySlope{mix(now_.at_collision, now_.stay.relative, by_connections * now_.from_collision),
+                     in_volume ? by_connections : 0.0f};
 }
 
 // What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
