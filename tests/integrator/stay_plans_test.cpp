@@ -44,7 +44,7 @@ TEST(StayPlans, GiveTheSharesToWhatIsRight) {
         for (int i = 0; i < 20000; ++i) {
             moments.add(cell, stay(plans.plan(cell).shares, random));
         }
-        plans.learn(moments.of(0), false);
+        plans.learn(moments.of(0), NextStays::lessons);
     }
     const SlabGuide::Shares& learned = plans.plan(cell).shares;
     EXPECT_GT(learned[1], 0.85f);
@@ -60,30 +60,56 @@ TEST(StayPlans, LeaveStaysToClassicalSamplingWhereGuidesDoNotPay) {
         // Guided stays bring 1 and a bit, classical ones vary with a standard deviation that is smaller or larger.
         StayPlans plans(box, {0.25f, 0.75f});
         const int cell = plans.cell_at(Vec3(0.1f)), elsewhere = plans.cell_at(Vec3(0.9f));
-        EXPECT_EQ(plans.plan(cell).classical_probability, 0.0625f);
+        EXPECT_EQ(plans.plan(cell).unguided_probability, 0.0625f);
         Pcg32 random(1);
-        const auto lesson = [&](bool last) {
+        const auto lesson = [&](NextStays next) {
             StayMoments moments;
             for (int i = 0; i < 4000; ++i) {
                 Stay one{.medium = 0, .entry = Vec3(0.1f)};
-                one.guided = !(random.uniform() < plans.plan(cell).classical_probability);
+                one.guided = !(random.uniform() < plans.plan(cell).unguided_probability);
                 one.flights = 4;
                 one.relative = {1, 1};
                 const float deviation = random.uniform() - 0.5f;
                 one.bring(1 + (one.guided ? 1.0f : static_cast<float>(spread)) * deviation, {one.relative, 0});
                 moments.add(cell, one);
             }
-            plans.learn(moments.of(0), last);
+            plans.learn(moments.of(0), next);
         };
         const bool pays = spread > 1;
-        lesson(false);
-        const float probability = plans.plan(cell).classical_probability;
+        lesson(NextStays::lessons);
+        const float probability = plans.plan(cell).unguided_probability;
         EXPECT_GT(probability, 0.01f);
         EXPECT_LE(probability, 0.0625f);
-        EXPECT_EQ(plans.plan(elsewhere).classical_probability, probability);
-        lesson(true);
-        EXPECT_EQ(plans.plan(cell).classical_probability, pays ? 0 : 1);
-        EXPECT_EQ(plans.plan(elsewhere).classical_probability, pays ? 0 : 1);
+        EXPECT_EQ(plans.plan(elsewhere).unguided_probability, probability);
+        lesson(NextStays::rendering);
+        EXPECT_EQ(plans.plan(cell).unguided_probability, pays ? 0 : 1);
+        EXPECT_EQ(plans.plan(elsewhere).unguided_probability, pays ? 0 : 1);
+    }
+}
+
+TEST(StayPlans, JudgeTheLearnedFieldByItsOwnStays) {
+    for (const float spread : {0.2f, 6.0f}) {
+        StayPlans plans(box, {0.25f, 0.75f});
+        Pcg32 random(1);
+        const auto lesson = [&](float unguided_spread, NextStays next) {
+            StayMoments moments;
+            for (int i = 0; i < 4000; ++i) {
+                Stay one{.medium = 0, .entry = Vec3(0.1f)};
+                one.guided = i % 8 > 0;
+                one.flights = 4;
+                one.relative = {1, 1};
+                one.bring(1 + (one.guided ? 1 : unguided_spread) * (random.uniform() - 0.5f), {one.relative, 0});
+                moments.add(plans.cell_at(one.entry), one);
+            }
+            plans.learn(moments.of(0), next);
+        };
+        // Whatever classical stays were like.
+        lesson(1.2f - spread / 6, NextStays::lessons);
+        EXPECT_TRUE(plans.plan(0).is_unguided_classical);
+        lesson(1.2f - spread / 6, NextStays::final_lessons);
+        EXPECT_FALSE(plans.plan(0).is_unguided_classical);
+        lesson(spread, NextStays::rendering);
+        EXPECT_EQ(plans.plan(0).unguided_probability, spread > 1 ? 0 : 1);
     }
 }
 
@@ -101,8 +127,8 @@ TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
             one.connected_through = !connects && i == 0;
             moments.add(cell, one);
         }
-        plans.learn(moments.of(0), false);
-        plans.learn({}, false);
+        plans.learn(moments.of(0), NextStays::lessons);
+        plans.learn({}, NextStays::lessons);
         const float probability = plans.plan(cell).guided.probability;
         EXPECT_GT(probability, 0);
         EXPECT_EQ(probability < 0.1f, !connects);
@@ -117,12 +143,12 @@ TEST(StayPlans, LearnNothingFromNothingOrFromWhatIsNotANumber) {
     const SlabGuide::Shares start{0.25f, 0.75f};
     StayPlans plans(box, start);
     StayMoments moments;
-    plans.learn(moments.of(0), false);
+    plans.learn(moments.of(0), NextStays::lessons);
     Stay bad{.medium = 0, .entry = Vec3(0.5f)};
     bad.relative = {1, 1};
     bad.bring(std::numeric_limits<float>::quiet_NaN(), {bad.relative, 0});
     moments.add(plans.cell_at(bad.entry), bad);
-    plans.learn(moments.of(0), false);
+    plans.learn(moments.of(0), NextStays::lessons);
     EXPECT_EQ(plans.plan(0).shares, start);
 }
 

@@ -40,7 +40,7 @@ public:
         do {
             while (step()) {
             }
-            end_stay();
+            update_stay();
         } while (take_up_pending());
         if (reflections_) {
             boundaries_.finish(*reflections_);
@@ -61,8 +61,9 @@ private:
         int interfaces = 0;
         float travelled = 0;                ///< since the last vertex
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
-        Stay stay;                          ///< what it brings; of the last one where the walk is outside
-        bool is_trial = false;              ///< in a stay left to classical sampling, to compare it with guided ones
+        int stay = none;                    ///< the last one, of those that are told
+        SlabGuide::Shares relative{};       ///< relative densities in the stay, or at its end
+        bool is_classical = false;          ///< in a stay left to classical sampling alone
         bool is_told = true;                ///< whether collisions go into the log
         StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
         /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
@@ -77,6 +78,7 @@ private:
         guide::PathLog::Branch logged{};
         int boundary = ReflectionLog::none;  ///< the last one that was passed
     };
+    static constexpr int none = -1;
 
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
@@ -127,7 +129,9 @@ private:
     /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
     Flight fly(const Medium& medium, const std::optional<Hit>& hit, float drawn) {
         const float length = hit ? hit->distance : farthest;
-        now_.stay.flights += now_.medium == now_.stay.medium ? 1 : 0;
+        if (Stay* const stay = stay_inside()) {
+            ++stay->flights;
+        }
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
@@ -151,8 +155,11 @@ private:
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
     void enter_medium(const Hit& hit, MediumId from);
     void update_stay();
-    /// Reports the last stay in a dense medium, if there was one.
-    void end_stay();
+    /// The stay that is told and goes on; null if there is none.
+    Stay* stay_inside() {
+        Stay* const stay = now_.stay != none ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr;
+        return stay && stay->medium == now_.medium ? stay : nullptr;
+    }
     /// Light that was weighted against connections from a collision changes less than the walk's density.
     std::optional<StaySlope> slope_of(const MetLight& arriving);
 
@@ -229,7 +236,7 @@ private:
             }
             return scatter(f, directions, position, normal, true);
         }
-        if (in_volume && now_.is_trial) {
+        if (in_volume && now_.is_classical) {
             return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
         }
         return scatter(f, d_.direction.at(position, in_volume, f, now_.boost), position, normal, in_volume);
@@ -282,8 +289,6 @@ private:
             now_.logged = log_->branch();
         }
         pending_.push_back(now_);
-        // What was brought so far is this branch's.
-        pending_.back().stay.medium = vacuum;
     }
 
     void go_on_from(const Branch& branch) {
@@ -457,9 +462,10 @@ private:
     void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
         radiance_ += light;
         boundaries_.bring(now_.boundary, mean_value(light));
-        if (stays_ && now_.stay.medium != vacuum) {
+        if (now_.stay != none) {
             update_stay();
-            now_.stay.bring(mean_value(light), slope.value_or(StaySlope{now_.stay.relative, 0}));
+            (*stays_)[static_cast<std::size_t>(now_.stay)].bring(mean_value(light),
+                                                                 slope.value_or(StaySlope{now_.relative, 0}));
         }
     }
     void meet() {

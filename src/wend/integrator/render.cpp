@@ -116,7 +116,11 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             for (Tile& tile : tiles) {
                 moments += std::exchange(tile.stays, {});
             }
-            subsurface.learn(moments, statistics.samples >= settings.training_samples);
+            // Passes double: from half of the training on the next one is the last, and the field has learned enough.
+            const bool is_final = preset.direction && 2 * statistics.samples + 1 >= settings.training_samples;
+            subsurface.learn(moments, statistics.samples >= settings.training_samples ? NextStays::rendering
+                                      : is_final                                      ? NextStays::final_lessons
+                                                                                      : NextStays::lessons);
         }
         if (plan.record_lights) {
             for (Tile& tile : tiles) {

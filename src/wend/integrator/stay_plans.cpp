@@ -13,10 +13,11 @@ constexpr double trusted = 64;
 constexpr float least_classical = 0.03f;
 /// A guide that is worth less costs more than it brings.
 constexpr float least_guided = 0.02f;
-/// What a guided flight takes of time, in classical ones, and how many of these a walk makes beside a stay.
-constexpr double cost_of_guided_flight = 2.2;
+/// What a flight takes of time, in classical ones, if it is guided or follows the learned field, and how many of these
+/// a walk makes beside a stay.
+constexpr double cost_of_guided_flight = 2.2, cost_of_field_flight = 2.5;
 constexpr double flights_outside = 2;
-/// How much of the variance classical stays may add while they are watched, and their largest share.
+/// How much of the variance unguided stays may add while they are watched, and their largest share.
 constexpr float variance_for_watching = 0.1f;
 constexpr float largest_share_for_watching = 0.0625f;
 /// How much of guided stays is told where they have this advantage.
@@ -62,39 +63,40 @@ Variance variance(const StayMoments::Kind& sums) {
     return value > 1e-6 * mean * mean ? Variance{value, fourth > 0 ? n * value * value / fourth : 0.0} : Variance{};
 }
 
-/// Of guided stays over classical ones.
+/// Of guided stays over others.
 struct Advantage {
     double efficiency = 0;  ///< logarithm of the ratio of variance times cost
     double deviation = 1;   ///< of that, as far as it is known
     double variance = 0;    ///< logarithm of the ratio of the variances alone
 
-    /// The share of classical stays: a few as long as both kinds are watched, and after that none or all. What is
+    /// The share of unguided stays: a few as long as both kinds are watched, and after that none or all. What is
     /// rarely found by classical sampling may long seem not to be there: before the last lesson guides are never given
     /// up.
-    float classical_probability(bool last) const {
-        if (last) {
+    float unguided_probability(NextStays next) const {
+        if (next == NextStays::rendering) {
             return efficiency < 0 && deviation < 0.5 ? 1.0f : 0.0f;
         }
         return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
     }
 
-    /// Classical stays only ever seem to be better than they are.
+    /// Unguided stays only ever seem to be better than they are.
     float told_probability() const { return efficiency > clear_advantage ? least_told : 1.0f; }
 };
 
-Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& classical, float through_boundaries) {
+Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& unguided, double cost_of_unguided_flight,
+                    float through_boundaries) {
     const auto [guided_variance, guided_count] = variance(guided);
-    const auto [classical_variance, classical_count] = variance(classical);
-    if (!(guided_count > 0 && classical_count > 0)) {
+    const auto [unguided_variance, unguided_count] = variance(unguided);
+    if (!(guided_count > 0 && unguided_count > 0)) {
         return {};
     }
     const double ways = cost_of_way * static_cast<double>(through_boundaries);
     const auto cost = [ways](const StayMoments::Kind& kind, double flight) {
         return flights_outside + (flight + ways) * kind.flights / kind.powers[0];
     };
-    const double ratio = std::log(classical_variance / guided_variance);
-    return {ratio + std::log(cost(classical, 1) / cost(guided, cost_of_guided_flight)),
-            std::sqrt(1 / guided_count + 1 / classical_count), ratio};
+    const double ratio = std::log(unguided_variance / guided_variance);
+    return {ratio + std::log(cost(unguided, cost_of_unguided_flight) / cost(guided, cost_of_guided_flight)),
+            std::sqrt(1 / guided_count + 1 / unguided_count), ratio};
 }
 
 /// Between what was seen and what is expected elsewhere.
@@ -159,7 +161,7 @@ StayMoments::Kind& StayMoments::Kind::operator+=(const Kind& other) {
 
 StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
     guided += other.guided;
-    classical += other.classical;
+    unguided += other.unguided;
     add_each(slopes, other.slopes);
     add_each(densities, other.densities);
     connected += other.connected;
@@ -180,7 +182,7 @@ void StayMoments::add(int cell, const Stay& stay) {
     sums.connected = stay.connected ? 1 : 0;
     sums.connected_through = stay.connected_through ? 1 : 0;
     if (!stay.guided) {
-        sums.classical = one;
+        sums.unguided = one;
         media_[stay.medium][cell] += sums;
         return;
     }
@@ -218,6 +220,7 @@ StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
     : box_(box),
       plans_(side * side * side, StayPlan{start,
                                           largest_share_for_watching,
+                                          true,
                                           {first_preference, connection_probability(first_preference),
                                            first_through_boundaries, connections_at_surfaces},
                                           {1, 1, first_through_boundaries, connections_at_surfaces},
@@ -234,29 +237,35 @@ int StayPlans::cell_at(const Vec3& entry) const {
     return cell;
 }
 
-void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, bool last) {
+void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays next) {
     StayMoments::Sums all;
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
-    classical_ += all.classical;
-    stays_ += all.guided.powers[0] + all.classical.powers[0];
+    unguided_ += all.unguided;
+    stays_ += all.guided.powers[0] + all.unguided.powers[0];
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
     const auto most = [&](bool connects) { return connects || stays_ < enough_stays ? 1.0f : least_probability; };
     const float most_connected = most(connects_);
     const float through_boundaries = first_through_boundaries * most(connects_through_);
-    const Advantage guided = advantage(all.guided, classical_, through_boundaries);
+    const Advantage guided =
+        advantage(all.guided, unguided_, seen_ == NextStays::lessons ? 1 : cost_of_field_flight, through_boundaries);
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         StayPlan& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
-        plan.classical_probability = guided.classical_probability(last);
+        plan.unguided_probability = guided.unguided_probability(next);
+        plan.is_unguided_classical = next == NextStays::lessons;
         plan.told_probability = guided.told_probability();
         plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);
-        plan.classical.probability = most_connected;
-        plan.guided.through_boundaries = plan.classical.through_boundaries = through_boundaries;
+        plan.unguided.probability = most_connected;
+        plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
+    }
+    if (next != seen_) {
+        seen_ = next;
+        unguided_ = {};
     }
 }
 

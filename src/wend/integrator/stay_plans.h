@@ -45,8 +45,10 @@ struct Stay {
 struct StayPlan {
     /// Of guided stays.
     SlabGuide::Shares shares{1};
-    /// Of leaving a stay to classical sampling alone.
-    float classical_probability = 0;
+    /// Of leaving a stay unguided.
+    float unguided_probability = 0;
+    /// Whether that means to classical sampling alone, or as well to what the learned field says.
+    bool is_unguided_classical = true;
     /// How vertices are connected to lights that the walk may run into as well.
     struct Connecting {
         /// What multiplies the density of the walk's own directions where it is weighed against that of connections. A
@@ -61,8 +63,8 @@ struct StayPlan {
         /// which lamp is chosen should not add to the variance.
         int at_surfaces = 1;
     };
-    Connecting guided;     ///< in guided stays
-    Connecting classical;  ///< in others
+    Connecting guided;    ///< in guided stays
+    Connecting unguided;  ///< in others
     /// Of telling the learned field what a guided stay meets on its way: the field takes over where guides are given
     /// up.
     float told_probability = 1;
@@ -78,7 +80,7 @@ public:
     void add(int cell, const Stay& stay);
     StayMoments& operator+=(const StayMoments& other);
 
-    /// Of guided stays, or of those left to classical sampling.
+    /// Of guided stays, or of others.
     struct Kind {
         std::array<double, 5> powers{};  ///< of F, from the zeroth on
         double flights = 0;
@@ -87,7 +89,7 @@ public:
     };
     struct Sums {
         using PerTechnique = std::array<double, 1 + SlabGuide::most_strategies>;
-        Kind guided, classical;
+        Kind guided, unguided;
         // Of guided stays:
         PerTechnique slopes{};     ///< -(F² p_i / p + 2 F dF)
         PerTechnique densities{};  ///< p_i / p
@@ -106,6 +108,13 @@ private:
     std::map<int, std::map<int, Sums>> media_;
 };
 
+/// What comes after what stays have taught.
+enum class NextStays {
+    lessons,        ///< stays to learn from
+    final_lessons,  ///< the same, and unguided ones follow the learned field, as they are going to
+    rendering,      ///< stays that teach nothing any more
+};
+
 /// Plans in a grid of cells.
 class StayPlans {
 public:
@@ -118,16 +127,17 @@ public:
     /// moment relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow
     /// all others. Where no connection has ever succeeded, behind a boundary that refracts, hardly any is made. A guide
     /// that has become useless is dropped; classical sampling keeps a share that bounds all weights. A few stays
-    /// are left to classical sampling, to compare variance times cost: after the `last` lesson none are, or all.
-    void learn(const std::map<int, StayMoments::Sums>& moments, bool last);
+    /// are left unguided, to compare variance times cost; while `next` is rendering none are, or all.
+    void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
     static constexpr int side = 6;
 
     Box3 box_;
     std::vector<StayPlan> plans_;
-    StayMoments::Kind classical_;  // seen so far, everywhere
-    double stays_ = 0;             // the same of all stays
+    StayMoments::Kind unguided_;  // seen so far, everywhere, of the kind that is seen now
+    NextStays seen_ = NextStays::lessons;
+    double stays_ = 0;  // seen so far, of all kinds
     bool connects_ = false;
     bool connects_through_ = false;
 };

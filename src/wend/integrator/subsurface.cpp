@@ -213,10 +213,10 @@ void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {
     moments.add(media_[static_cast<std::size_t>(stay.medium)]->plans.cell_at(stay.entry), stay);
 }
 
-void SubsurfaceGuides::learn(const StayMoments& moments, bool last) {
+void SubsurfaceGuides::learn(const StayMoments& moments, NextStays next) {
     for (std::size_t id = 0; id < media_.size(); ++id) {
         if (media_[id]) {
-            media_[id]->plans.learn(moments.of(static_cast<int>(id)), last);
+            media_[id]->plans.learn(moments.of(static_cast<int>(id)), next);
         }
     }
 }

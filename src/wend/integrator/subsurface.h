@@ -63,8 +63,8 @@ public:
 
     /// What stays brought, counted apart by each thread.
     void count(const Stay& stay, StayMoments& moments) const;
-    /// Learns plans for the stays to come; the `last` time for good.
-    void learn(const StayMoments& moments, bool last);
+    /// Learns plans for the stays to come.
+    void learn(const StayMoments& moments, NextStays next);
 
 private:
     struct Dense {

@@ -53,7 +53,9 @@ void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const D
     Connection found;
     if (const auto sight = look_through_boundaries(*chosen, position)) {
         found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, true);
-        now_.stay.connected_through |= now_.medium == now_.stay.medium;
+        if (Stay* const stay = stay_inside()) {
+            stay->connected_through = true;
+        }
     }
     take(found, {position, {0, 0, 0}}, *chosen, often);
 }
@@ -88,7 +90,9 @@ auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float time
         }
         return {};
     }
-    now_.stay.connected |= in_volume && now_.medium == now_.stay.medium;
+    if (Stay* const stay = in_volume ? stay_inside() : nullptr) {
+        stay->connected = true;
+    }
     return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, in_volume);
 }
 

@@ -21,14 +21,15 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     bool guided = now_.slab.is_inside();
     if (now_.medium != from) {
         const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
-        guided = plan && !(sampler_.random().uniform() < plan->classical_probability);
-        now_.is_trial = plan && !guided && plan->classical_probability < 1;
+        guided = plan && !(sampler_.random().uniform() < plan->unguided_probability);
+        now_.is_classical = plan && !guided && plan->is_unguided_classical;
         now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
-        now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->classical;
+        now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->unguided;
         now_.slab.leave();
         if (stays_ && plan) {
-            end_stay();
-            now_.stay = {.medium = now_.medium, .entry = hit.position, .guided = guided};
+            now_.stay = static_cast<int>(stays_->size());
+            now_.relative = {};
+            stays_->push_back({.medium = now_.medium, .entry = hit.position, .guided = guided});
         }
     }
     if (guided) {
@@ -39,16 +40,9 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
 
 template <class Decisions>
 void PathTracer<Decisions>::Walk::update_stay() {
-    if (stays_ && now_.slab.is_inside()) {
-        now_.stay.relative = now_.slab.relative_densities();
-    }
-}
-
-template <class Decisions>
-void PathTracer<Decisions>::Walk::end_stay() {
-    update_stay();
-    if (stays_ && now_.stay.medium != vacuum) {
-        stays_->push_back(now_.stay);
+    if (now_.stay != none && now_.slab.is_inside()) {
+        now_.relative = now_.slab.relative_densities();
+        (*stays_)[static_cast<std::size_t>(now_.stay)].relative = now_.relative;
     }
 }
 
@@ -60,7 +54,7 @@ std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& a
     update_stay();
     const float by_connections = arriving.by_connections / mean_value(arriving.radiance);
     const bool in_volume = now_.last.receiver.normal == Vec3(0, 0, 0);
-    return StaySlope{mix(now_.at_collision, now_.stay.relative, by_connections * now_.from_collision),
+    return StaySlope{mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
                      in_volume ? by_connections : 0.0f};
 }
 
@@ -112,9 +106,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
             brought += arriving * light;
         }
     }
-    const Stay stay = now_.stay;
     now_ = here;
-    now_.stay = stay;
     hit_ = surface;
     if (log_) {
         log_->gather(brought);
