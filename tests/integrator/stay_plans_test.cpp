@@ -113,6 +113,35 @@ TEST(StayPlans, JudgeTheLearnedFieldByItsOwnStays) {
     }
 }
 
+TEST(StayPlans, CountWhatIsBroughtRelativeToWhatIsExpectedAndBoundIt) {
+    StayPlans plans(box, {0.25f, 0.75f});
+    const auto brings = [](const Vec3& entry, float light) {
+        Stay stay{.medium = 0, .entry = entry, .relative = {1, 2}};
+        stay.bring(light, {{1, 2}, -0.5f});
+        return stay;
+    };
+    EXPECT_EQ(plans.relative(brings(Vec3(0.1f), 5)).brought, 5) << "nothing is expected yet";
+    StayMoments moments;
+    constexpr int many = 100000;
+    for (int i = 0; i < many; ++i) {
+        for (const float x : {0.1f, 0.9f}) {
+            const Stay stay = brings(Vec3(x), x);
+            moments.add(plans.cell_at(stay.entry), plans.relative(stay));
+        }
+    }
+    plans.learn(moments.of(0), NextStays::lessons);
+    for (const float x : {0.1f, 0.9f}) {
+        const Stay twice = plans.relative(brings(Vec3(x), 2 * x));
+        EXPECT_NEAR(twice.brought, 2, 0.01f);
+        EXPECT_NEAR(twice.slope.shares[1], 4, 0.02f);
+        EXPECT_NEAR(twice.slope.preference, -1, 0.005f);
+        const Stay rare = plans.relative(brings(Vec3(x), 1000 * x));
+        EXPECT_NEAR(rare.brought, 30, 0.15f);
+        EXPECT_NEAR(rare.slope.shares[1], 60, 0.3f);
+    }
+    EXPECT_NEAR(plans.relative(brings(Vec3(0.5f), 1)).brought, 2, 0.01f) << "the mean, where nothing was seen";
+}
+
 TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
     for (const bool connects : {false, true}) {
         const SlabGuide::Shares shares{0.25f, 0.75f};

@@ -17,6 +17,10 @@ constexpr float least_guided = 0.02f;
 /// a walk makes beside a stay.
 constexpr double cost_of_guided_flight = 2.2, cost_of_field_flight = 2.5;
 constexpr double flights_outside = 2;
+/// What a stay may count for, over what is expected.
+constexpr float most_expected = 30;
+/// How many stays elsewhere what is expected in a cell begins with.
+constexpr double few_stays = 16;
 /// How much of the variance unguided stays may add while they are watched, and their largest share.
 constexpr float variance_for_watching = 0.1f;
 constexpr float largest_share_for_watching = 0.0625f;
@@ -224,7 +228,8 @@ StayPlans::StayPlans(const Box3& box, const SlabGuide::Shares& start)
                                           {first_preference, connection_probability(first_preference),
                                            first_through_boundaries, connections_at_surfaces},
                                           {1, 1, first_through_boundaries, connections_at_surfaces},
-                                          1}) {
+                                          1}),
+      brought_(plans_.size()) {
 }
 
 int StayPlans::cell_at(const Vec3& entry) const {
@@ -243,10 +248,9 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
         all += sums;
     }
     unguided_ += all.unguided;
-    stays_ += all.guided.powers[0] + all.unguided.powers[0];
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
-    const auto most = [&](bool connects) { return connects || stays_ < enough_stays ? 1.0f : least_probability; };
+    const auto most = [&](bool connects) { return connects || all_.stays < enough_stays ? 1.0f : least_probability; };
     const float most_connected = most(connects_);
     const float through_boundaries = first_through_boundaries * most(connects_through_);
     const Advantage guided =
@@ -263,10 +267,47 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
         plan.unguided.probability = most_connected;
         plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
     }
-    if (next != seen_) {
+    // Stays that follow the field are others, and the first are not relative to anything.
+    if (next != seen_ || expected_.empty()) {
         seen_ = next;
         unguided_ = {};
     }
+    expect(moments);
+}
+
+void StayPlans::expect(const std::map<int, StayMoments::Sums>& moments) {
+    for (const auto& [index, sums] : moments) {
+        const auto cell = static_cast<std::size_t>(index);
+        const double scale = expected_.empty() ? 1.0 : static_cast<double>(expected_[cell]);
+        const Brought here{sums.guided.powers[0] + sums.unguided.powers[0],
+                           scale * (sums.guided.powers[1] + sums.unguided.powers[1])};
+        for (Brought* sum : {&brought_[cell], &all_}) {
+            sum->stays += here.stays;
+            sum->light += here.light;
+        }
+    }
+    if (!(all_.light > 0)) {
+        return;
+    }
+    const double mean = all_.light / all_.stays;
+    expected_.resize(brought_.size());
+    std::transform(brought_.begin(), brought_.end(), expected_.begin(), [mean](const Brought& b) {
+        return static_cast<float>((b.light + few_stays * mean) / (b.stays + few_stays));
+    });
+}
+
+Stay StayPlans::relative(const Stay& stay) const {
+    if (expected_.empty()) {
+        return stay;
+    }
+    const float expected = expected_[static_cast<std::size_t>(cell_at(stay.entry))];
+    const float factor = 1 / std::max(expected, stay.brought / most_expected);
+    Stay result = stay;
+    result.brought = 0;
+    result.slope = {};
+    result.bring(factor, {stay.slope.shares, stay.slope.preference});
+    result.brought = factor * stay.brought;
+    return result;
 }
 
 }  // namespace wend

@@ -122,22 +122,35 @@ public:
 
     int cell_at(const Vec3& entry) const;
     const StayPlan& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
+    /// The stay with what it brought over what is expected in its cell, as errors of a picture count relative to it;
+    /// but no more than 30 times that: what is found by a rare chance says little of the ways to sample a stay, and its
+    /// square would decide on them. What moments are to be made of.
+    Stay relative(const Stay& stay) const;
 
-    /// `moments` by cell. Moves the logarithms of each share, and of the preference, down the slope of the second
-    /// moment relative to the variance of F, as far as the slope is significant. Cells that few stays began in follow
-    /// all others. Where no connection has ever succeeded, behind a boundary that refracts, hardly any is made. A guide
-    /// that has become useless is dropped; classical sampling keeps a share that bounds all weights. A few stays
-    /// are left unguided, to compare variance times cost; while `next` is rendering none are, or all.
+    /// `moments` by cell, of relative() stays. Moves the logarithms of each share, and of the preference, down the
+    /// slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
+    /// stays began in follow all others. Where no connection has ever succeeded, behind a boundary that refracts,
+    /// hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
+    /// weights. A few stays are left unguided, to compare variance times cost; while `next` is rendering none are, or
+    /// all.
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
+    /// Learns what stays bring.
+    void expect(const std::map<int, StayMoments::Sums>& moments);
+
     static constexpr int side = 6;
 
     Box3 box_;
     std::vector<StayPlan> plans_;
     StayMoments::Kind unguided_;  // seen so far, everywhere, of the kind that is seen now
     NextStays seen_ = NextStays::lessons;
-    double stays_ = 0;  // seen so far, of all kinds
+    struct Brought {
+        double stays = 0, light = 0;
+    };
+    std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
+    Brought all_;                   // the same everywhere
+    std::vector<float> expected_;   // by cell; empty before the first lesson
     bool connects_ = false;
     bool connects_through_ = false;
 };

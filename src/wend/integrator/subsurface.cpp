@@ -210,7 +210,8 @@ void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk
 }
 
 void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {
-    moments.add(media_[static_cast<std::size_t>(stay.medium)]->plans.cell_at(stay.entry), stay);
+    const StayPlans& plans = media_[static_cast<std::size_t>(stay.medium)]->plans;
+    moments.add(plans.cell_at(stay.entry), plans.relative(stay));
 }
 
 void SubsurfaceGuides::learn(const StayMoments& moments, NextStays next) {
