@@ -44,6 +44,7 @@ struct SlabGuide {
     }
 };
 
+/// `share_of_a` of the first, the rest of the second.
 inline SlabGuide::Shares mix(const SlabGuide::Shares& a, const SlabGuide::Shares& b, float share_of_a) {
     SlabGuide::Shares result;
     for (std::size_t i = 0; i < result.size(); ++i) {

@@ -72,6 +72,7 @@ struct Advantage {
     double efficiency = 0;  ///< logarithm of the ratio of variance times cost
     double deviation = 1;   ///< of that, as far as it is known
     double variance = 0;    ///< logarithm of the ratio of the variances alone
+    double over_field = 0;  ///< that of variance times cost, if every unguided flight followed the learned field
 
     /// The share of unguided stays: a few as long as both kinds are watched, and after that none or all. What is
     /// rarely found by classical sampling may long seem not to be there: before the last lesson guides are never given
@@ -84,7 +85,7 @@ struct Advantage {
     }
 
     /// Unguided stays only ever seem to be better than they are.
-    float told_probability() const { return efficiency > clear_advantage ? least_told : 1.0f; }
+    float told_probability() const { return over_field > clear_advantage ? least_told : 1.0f; }
 };
 
 Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& unguided, double cost_of_unguided_flight,
@@ -96,11 +97,12 @@ Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& un
     }
     const double ways = cost_of_way * static_cast<double>(through_boundaries);
     const auto cost = [ways](const StayMoments::Kind& kind, double flight) {
-        return flights_outside + (flight + ways) * kind.flights / kind.powers[0];
+        return std::log(flights_outside + (flight + ways) * kind.flights / kind.powers[0]);
     };
     const double ratio = std::log(unguided_variance / guided_variance);
-    return {ratio + std::log(cost(unguided, cost_of_unguided_flight) / cost(guided, cost_of_guided_flight)),
-            std::sqrt(1 / guided_count + 1 / unguided_count), ratio};
+    const double saved = ratio - cost(guided, cost_of_guided_flight);
+    return {saved + cost(unguided, cost_of_unguided_flight), std::sqrt(1 / guided_count + 1 / unguided_count), ratio,
+            saved + cost(unguided, cost_of_field_flight)};
 }
 
 /// Between what was seen and what is expected elsewhere.
@@ -247,6 +249,8 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
+    const bool is_first = expected_.empty();
+    expect(moments);
     unguided_ += all.unguided;
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
@@ -267,12 +271,11 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
         plan.unguided.probability = most_connected;
         plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
     }
-    // Stays that follow the field are others, and the first are not relative to anything.
-    if (next != seen_ || expected_.empty()) {
+    // Stays that follow the field are others, and the first were not relative to anything.
+    if (next != seen_ || is_first) {
         seen_ = next;
         unguided_ = {};
     }
-    expect(moments);
 }
 
 void StayPlans::expect(const std::map<int, StayMoments::Sums>& moments) {
