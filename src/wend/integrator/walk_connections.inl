@@ -42,7 +42,7 @@ template <class F, class Directions>
 void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const Directions& directions,
                                                              const Vec3& position) {
     const float often = now_.connecting.through_boundaries;
-    if (!(sampler_.random().uniform() < often)) {
+    if (often == 0 || !(sampler_.random().uniform() < often)) {
         return;
     }
     const auto chosen = choose_light(scene_, tracer_.lights_, {position, {0, 0, 0}}, sampler_.random().uniform(),
