@@ -155,9 +155,10 @@ private:
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
     void enter_medium(const Hit& hit, MediumId from);
     void update_stay();
-    /// The stay that is told and goes on; null if there is none.
+    /// The last stay that is told, and the same if it goes on; null if there is none.
+    Stay* last_stay() { return now_.stay != none ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
     Stay* stay_inside() {
-        Stay* const stay = now_.stay != none ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr;
+        Stay* const stay = last_stay();
         return stay && stay->medium == now_.medium ? stay : nullptr;
     }
     /// Light that was weighted against connections from a collision changes less than the walk's density.
@@ -243,34 +244,7 @@ private:
     }
 
     template <class F, class Directions>
-    bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume) {
-        if (!f.is_specular()) {
-            connect_to_lights(f, directions, position, normal, in_volume);
-        }
-        if (in_volume) {
-            connect_through_boundaries(f, directions, position);
-        }
-        const std::optional<WeightWindow::Outcome> outcome =
-            d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
-        if (!outcome) {
-            return draw_direction(f, directions, position, normal, in_volume, false);
-        }
-        if (outcome->expected != 1) {
-            weigh(Rgb(static_cast<float>(1 / outcome->expected)));
-        }
-        result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
-        for (int i = 1; i < outcome->copies; ++i) {
-            if (log_) {
-                now_.logged = log_->branch();
-            }
-            const Branch here = now_;
-            if (draw_direction(f, directions, position, normal, in_volume, true)) {
-                leave_pending();
-            }
-            go_on_from(here);
-        }
-        return outcome->copies > 0 && draw_direction(f, directions, position, normal, in_volume, true);
-    }
+    bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume);
 
     /// What the walk may yet bring over what all of it is expected to, if both are known.
     template <class F, class Directions>
@@ -310,63 +284,13 @@ private:
     /// Draws a direction, and decides on survival unless that has been `judged`; false where the walk ends.
     template <class F, class Directions>
     bool draw_direction(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                        bool in_volume, bool judged) {
-        const float u = sampler_.uniform();
-        const auto s = directions.sample(u, sampler_.uniform2());
-        if (!s) {
-            return false;
-        }
-        if constexpr (std::same_as<F, SurfaceScattering>) {
-            note_reflection(f, *s);
-        }
-        scatter_into(*s, position, in_volume);
-        const Vec3 before = now_.ray.direction;
-        now_.boost *= s->boost;
-        now_.index_scale *= sqr(f.index_ratio(s->direction));
-        if (s->specular && now_.last.connected_through > 0 && dot(before, normal) * dot(s->direction, normal) > 0) {
-            ++now_.last.refractions;
-        } else {
-            const float connected = connections(in_volume) + now_.connected_before;
-            now_.from_collision =
-                in_volume && now_.slab.is_inside() ? 1.0f : now_.connected_before / std::max(connected, 1.0f);
-            now_.last = {{position, normal},
-                         s->specular,
-                         s->density * preference(in_volume),
-                         connected,
-                         in_volume ? now_.connecting.through_boundaries : 0.0f,
-                         channel_probabilities(now_.throughput),
-                         Rgb(1.0f),
-                         s->direction,
-                         now_.medium};
-        }
-        now_.lamps_ahead = 0;
-        if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
-            now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
-            now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
-            now_.slab.turn(before, s->direction);
-        }
-        if (!judged) {
-            const float survival = survival_probability();
-            if (survival < 1) {
-                if (!(sampler_.uniform() < survival)) {
-                    return false;
-                }
-                weigh(Rgb(1 / survival));
-            }
-        }
-        if (in_volume) {
-            now_.ray = {position, s->direction};
-        } else {
-            const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium));
-            now_.ray = spawn_ray(position, normal, s->direction);
-            if (now_.slab.is_inside()) {
-                now_.slab.head(s->direction);
-            }
-            enter_medium(*hit_, from);
-        }
-        now_.travelled = 0;
-        return true;
-    }
+                        bool in_volume, bool judged);
+    /// What light that is met from here on will want to know.
+    template <class F>
+    void remember_vertex(const F& f, const DirectionSample& s, const Vec3& position, const Vec3& normal,
+                         bool in_volume);
+    /// Roulette after the direction is drawn.
+    bool survives();
 
     void note_reflection(const SurfaceScattering& f, const DirectionSample& s) {
         if (reflections_ && f.reflects_or_refracts()) {
@@ -462,10 +386,9 @@ private:
     void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
         radiance_ += light;
         boundaries_.bring(now_.boundary, mean_value(light));
-        if (now_.stay != none) {
+        if (Stay* const stay = last_stay()) {
             update_stay();
-            (*stays_)[static_cast<std::size_t>(now_.stay)].bring(mean_value(light),
-                                                                 slope.value_or(StaySlope{now_.relative, 0}));
+            stay->bring(mean_value(light), slope.value_or(StaySlope{now_.relative, 0}));
         }
     }
     void meet() {
@@ -515,6 +438,7 @@ private:
 }  // namespace wend
 
 #include <wend/integrator/walk_connections.inl>
+#include <wend/integrator/walk_directions.inl>
 #include <wend/integrator/walk_stays.inl>
 
 namespace wend {

@@ -254,7 +254,8 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     unguided_ += all.unguided;
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
-    const auto most = [&](bool connects) { return connects || all_.stays < enough_stays ? 1.0f : least_probability; };
+    const bool is_early = all_brought().stays < enough_stays;
+    const auto most = [is_early](bool connects) { return connects || is_early ? 1.0f : least_probability; };
     const float most_connected = most(connects_);
     const float through_boundaries = first_through_boundaries * most(connects_through_);
     const Advantage guided =
@@ -278,21 +279,24 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     }
 }
 
+auto StayPlans::all_brought() const -> Brought {
+    return std::accumulate(brought_.begin(), brought_.end(), Brought{}, [](const Brought& a, const Brought& b) {
+        return Brought{a.stays + b.stays, a.light + b.light};
+    });
+}
+
 void StayPlans::expect(const std::map<int, StayMoments::Sums>& moments) {
     for (const auto& [index, sums] : moments) {
         const auto cell = static_cast<std::size_t>(index);
         const double scale = expected_.empty() ? 1.0 : static_cast<double>(expected_[cell]);
-        const Brought here{sums.guided.powers[0] + sums.unguided.powers[0],
-                           scale * (sums.guided.powers[1] + sums.unguided.powers[1])};
-        for (Brought* sum : {&brought_[cell], &all_}) {
-            sum->stays += here.stays;
-            sum->light += here.light;
-        }
+        brought_[cell].stays += sums.guided.powers[0] + sums.unguided.powers[0];
+        brought_[cell].light += scale * (sums.guided.powers[1] + sums.unguided.powers[1]);
     }
-    if (!(all_.light > 0)) {
+    const Brought all = all_brought();
+    if (!(all.light > 0)) {
         return;
     }
-    const double mean = all_.light / all_.stays;
+    const double mean = all.light / all.stays;
     expected_.resize(brought_.size());
     std::transform(brought_.begin(), brought_.end(), expected_.begin(), [mean](const Brought& b) {
         return static_cast<float>((b.light + few_stays * mean) / (b.stays + few_stays));
@@ -304,13 +308,7 @@ Stay StayPlans::relative(const Stay& stay) const {
         return stay;
     }
     const float expected = expected_[static_cast<std::size_t>(cell_at(stay.entry))];
-    const float factor = 1 / std::max(expected, stay.brought / most_expected);
-    Stay result = stay;
-    result.brought = 0;
-    result.slope = {};
-    result.bring(factor, {stay.slope.shares, stay.slope.preference});
-    result.brought = factor * stay.brought;
-    return result;
+    return stay.times(1 / std::max(expected, stay.brought / most_expected));
 }
 
 }  // namespace wend

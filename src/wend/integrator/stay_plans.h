@@ -39,6 +39,15 @@ struct Stay {
         }
         slope.preference += light * relative_slope.preference;
     }
+    /// The stay as if it had brought that much more.
+    Stay times(float factor) const {
+        Stay result = *this;
+        result.brought = 0;
+        result.slope = {};
+        result.bring(factor, slope);
+        result.brought *= brought;
+        return result;
+    }
 };
 
 /// How stays are sampled.
@@ -136,6 +145,11 @@ public:
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
+    struct Brought {
+        double stays = 0, light = 0;
+    };
+    /// Everywhere.
+    Brought all_brought() const;
     /// Learns what stays bring.
     void expect(const std::map<int, StayMoments::Sums>& moments);
 
@@ -145,11 +159,7 @@ private:
     std::vector<StayPlan> plans_;
     StayMoments::Kind unguided_;  // seen so far, everywhere, of the kind that is seen now
     NextStays seen_ = NextStays::lessons;
-    struct Brought {
-        double stays = 0, light = 0;
-    };
     std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
-    Brought all_;                   // the same everywhere
     std::vector<float> expected_;   // by cell; empty before the first lesson
     bool connects_ = false;
     bool connects_through_ = false;

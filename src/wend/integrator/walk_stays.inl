@@ -40,9 +40,8 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
 
 template <class Decisions>
 void PathTracer<Decisions>::Walk::update_stay() {
-    if (now_.stay != none && now_.slab.is_inside()) {
-        now_.relative = now_.slab.relative_densities();
-        (*stays_)[static_cast<std::size_t>(now_.stay)].relative = now_.relative;
+    if (Stay* const stay = last_stay(); stay && now_.slab.is_inside()) {
+        stay->relative = now_.relative = now_.slab.relative_densities();
     }
 }
 

@@ -1,0 +1,124 @@
+// How the walk of integrator/path_tracer.inl, which includes this, goes on from its vertices: in how many copies, in
+// what direction, and whether at all.
+#pragma once
+
+#include <wend/decision/channels.h>
+#include <wend/integrator/path_tracer.h>
+#include <wend/integrator/scattering.h>
+
+#include <algorithm>
+#include <concepts>
+#include <optional>
+#include <utility>
+
+namespace wend {
+
+template <class Decisions>
+template <class F, class Directions>
+bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directions, const Vec3& position,
+                                          const Vec3& normal, bool in_volume) {
+    if (!f.is_specular()) {
+        connect_to_lights(f, directions, position, normal, in_volume);
+    }
+    if (in_volume) {
+        connect_through_boundaries(f, directions, position);
+    }
+    const std::optional<WeightWindow::Outcome> outcome =
+        d_.survival.before_direction(expected_ratio(f, directions), room(), sampler_.random());
+    if (!outcome) {
+        return draw_direction(f, directions, position, normal, in_volume, false);
+    }
+    if (outcome->expected != 1) {
+        weigh(Rgb(static_cast<float>(1 / outcome->expected)));
+    }
+    result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
+    for (int i = 1; i < outcome->copies; ++i) {
+        if (log_) {
+            now_.logged = log_->branch();
+        }
+        const Branch here = now_;
+        if (draw_direction(f, directions, position, normal, in_volume, true)) {
+            leave_pending();
+        }
+        go_on_from(here);
+    }
+    return outcome->copies > 0 && draw_direction(f, directions, position, normal, in_volume, true);
+}
+
+template <class Decisions>
+template <class F, class Directions>
+bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& directions, const Vec3& position,
+                                                 const Vec3& normal, bool in_volume, bool judged) {
+    const float u = sampler_.uniform();
+    const auto s = directions.sample(u, sampler_.uniform2());
+    if (!s) {
+        return false;
+    }
+    if constexpr (std::same_as<F, SurfaceScattering>) {
+        note_reflection(f, *s);
+    }
+    scatter_into(*s, position, in_volume);
+    remember_vertex(f, *s, position, normal, in_volume);
+    if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
+        now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
+        now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+        now_.slab.turn(now_.ray.direction, s->direction);
+    }
+    if (!judged && !survives()) {
+        return false;
+    }
+    if (in_volume) {
+        now_.ray = {position, s->direction};
+    } else {
+        const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium));
+        now_.ray = spawn_ray(position, normal, s->direction);
+        if (now_.slab.is_inside()) {
+            now_.slab.head(s->direction);
+        }
+        enter_medium(*hit_, from);
+    }
+    now_.travelled = 0;
+    return true;
+}
+
+template <class Decisions>
+template <class F>
+void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSample& s, const Vec3& position,
+                                                  const Vec3& normal, bool in_volume) {
+    now_.boost *= s.boost;
+    now_.index_scale *= sqr(f.index_ratio(s.direction));
+    now_.lamps_ahead = 0;
+    // Connections that look through boundaries see past a refraction, to where the walk is going.
+    const bool refracts = dot(now_.ray.direction, normal) * dot(s.direction, normal) > 0;
+    if (s.specular && refracts && now_.last.connected_through > 0) {
+        ++now_.last.refractions;
+        return;
+    }
+    const float connected = connections(in_volume) + now_.connected_before;
+    now_.from_collision = in_volume && now_.slab.is_inside() ? 1.0f
+                          : now_.connected_before > 0        ? now_.connected_before / connected
+                                                             : 0.0f;
+    now_.last = {{position, normal},
+                 s.specular,
+                 s.density * preference(in_volume),
+                 connected,
+                 in_volume ? now_.connecting.through_boundaries : 0.0f,
+                 channel_probabilities(now_.throughput),
+                 Rgb(1.0f),
+                 s.direction,
+                 now_.medium};
+}
+
+template <class Decisions>
+bool PathTracer<Decisions>::Walk::survives() {
+    const float survival = survival_probability();
+    if (survival < 1) {
+        if (!(sampler_.uniform() < survival)) {
+            return false;
+        }
+        weigh(Rgb(1 / survival));
+    }
+    return true;
+}
+
+}  // namespace wend
