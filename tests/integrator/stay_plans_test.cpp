@@ -44,7 +44,7 @@ TEST(StayPlans, GiveTheSharesToWhatIsRight) {
         for (int i = 0; i < 20000; ++i) {
             moments.add(cell, stay(plans.plan(cell).shares, random));
         }
-        plans.learn(moments.of(0), NextStays::lessons);
+        plans.learn(moments.of(0), NextStays::beside_classical);
     }
     const SlabGuide::Shares& learned = plans.plan(cell).shares;
     EXPECT_GT(learned[1], 0.85f);
@@ -76,7 +76,7 @@ TEST(StayPlans, LeaveStaysToClassicalSamplingWhereGuidesDoNotPay) {
             plans.learn(moments.of(0), next);
         };
         const bool pays = spread > 1;
-        lesson(NextStays::lessons);
+        lesson(NextStays::beside_classical);
         const float probability = plans.plan(cell).unguided_probability;
         EXPECT_GT(probability, 0.01f);
         EXPECT_LE(probability, 0.0625f);
@@ -104,12 +104,43 @@ TEST(StayPlans, JudgeTheLearnedFieldByItsOwnStays) {
             plans.learn(moments.of(0), next);
         };
         // Whatever classical stays were like.
-        lesson(1.2f - spread / 6, NextStays::lessons);
+        lesson(1.2f - spread / 6, NextStays::beside_classical);
         EXPECT_TRUE(plans.plan(0).is_unguided_classical);
-        lesson(1.2f - spread / 6, NextStays::final_lessons);
+        lesson(1.2f - spread / 6, NextStays::beside_field);
         EXPECT_FALSE(plans.plan(0).is_unguided_classical);
         lesson(spread, NextStays::rendering);
         EXPECT_EQ(plans.plan(0).unguided_probability, spread > 1 ? 0 : 1);
+    }
+}
+
+TEST(StayPlans, GiveUpGuidesThatMissLightAsSoonAsTheFieldFindsIt) {
+    for (const bool guides_miss : {false, true}) {
+        StayPlans plans(box, {0.25f, 0.75f});
+        Pcg32 random(1);
+        const auto lesson = [&](NextStays next) {
+            StayMoments moments;
+            for (int i = 0; i < 40000; ++i) {
+                Stay one{.medium = 0, .entry = Vec3(0.1f)};
+                one.guided = i % 8 > 0;
+                one.flights = 4;
+                one.relative = {1, 1};
+                // Both kinds bring 1 on average: one in values that all count in full, the other mostly in so large
+                // ones that, cut off, they would seem to vary less.
+                const float u = random.uniform();
+                const bool misses = one.guided == guides_miss;
+                one.bring(misses ? (u < 0.002f ? 400.0f : 0.2f) : (u < 0.25f ? 4.0f : 0.0f), {one.relative, 0});
+                moments.add(plans.cell_at(one.entry), plans.relative(one));
+            }
+            plans.learn(moments.of(0), next);
+        };
+        lesson(NextStays::beside_classical);
+        lesson(NextStays::beside_field);
+        EXPECT_LE(plans.plan(0).unguided_probability, 0.0625f) << "classical stays are no measure";
+        lesson(NextStays::beside_field);
+        EXPECT_EQ(plans.plan(0).unguided_probability > 0.5f, guides_miss);
+        EXPECT_LT(plans.plan(0).unguided_probability, 1) << "both kinds are still watched";
+        lesson(NextStays::rendering);
+        EXPECT_EQ(plans.plan(0).unguided_probability, guides_miss ? 1 : 0);
     }
 }
 
@@ -129,7 +160,7 @@ TEST(StayPlans, CountWhatIsBroughtRelativeToWhatIsExpectedAndBoundIt) {
             moments.add(plans.cell_at(stay.entry), plans.relative(stay));
         }
     }
-    plans.learn(moments.of(0), NextStays::lessons);
+    plans.learn(moments.of(0), NextStays::beside_classical);
     for (const float x : {0.1f, 0.9f}) {
         const Stay twice = plans.relative(brings(Vec3(x), 2 * x));
         EXPECT_NEAR(twice.brought, 2, 0.01f);
@@ -156,8 +187,8 @@ TEST(StayPlans, HardlyConnectWhereNothingIsEverConnected) {
             one.connected_through = !connects && i == 0;
             moments.add(cell, one);
         }
-        plans.learn(moments.of(0), NextStays::lessons);
-        plans.learn({}, NextStays::lessons);
+        plans.learn(moments.of(0), NextStays::beside_classical);
+        plans.learn({}, NextStays::beside_classical);
         const float probability = plans.plan(cell).guided.probability;
         EXPECT_GT(probability, 0);
         EXPECT_EQ(probability < 0.1f, !connects);
@@ -172,12 +203,12 @@ TEST(StayPlans, LearnNothingFromNothingOrFromWhatIsNotANumber) {
     const SlabGuide::Shares start{0.25f, 0.75f};
     StayPlans plans(box, start);
     StayMoments moments;
-    plans.learn(moments.of(0), NextStays::lessons);
+    plans.learn(moments.of(0), NextStays::beside_classical);
     Stay bad{.medium = 0, .entry = Vec3(0.5f)};
     bad.relative = {1, 1};
     bad.bring(std::numeric_limits<float>::quiet_NaN(), {bad.relative, 0});
     moments.add(plans.cell_at(bad.entry), bad);
-    plans.learn(moments.of(0), NextStays::lessons);
+    plans.learn(moments.of(0), NextStays::beside_classical);
     EXPECT_EQ(plans.plan(0).shares, start);
 }
 

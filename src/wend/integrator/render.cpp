@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
-// Before, neither the field nor the pixels are known well enough to end or split walks by them.
+// Before, neither the field nor the pixels are known well enough to end or split walks by them, or to judge guides.
 constexpr int warm_up_samples = 7;
 
 void check_rejected(const WalkCounts& counts) {
@@ -116,11 +116,9 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             for (Tile& tile : tiles) {
                 moments += std::exchange(tile.stays, {});
             }
-            // Passes double: from half of the training on the next one is the last, and the field has learned enough.
-            const bool is_final = preset.direction && 2 * statistics.samples + 1 >= settings.training_samples;
-            subsurface.learn(moments, statistics.samples >= settings.training_samples ? NextStays::rendering
-                                      : is_final                                      ? NextStays::final_lessons
-                                                                                      : NextStays::lessons);
+            const bool knows_field = preset.direction && statistics.samples >= warm_up_samples;
+            const NextStays lessons = knows_field ? NextStays::beside_field : NextStays::beside_classical;
+            subsurface.learn(moments, statistics.samples >= settings.training_samples ? NextStays::rendering : lessons);
         }
         if (plan.record_lights) {
             for (Tile& tile : tiles) {

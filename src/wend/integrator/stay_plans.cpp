@@ -26,7 +26,8 @@ constexpr float variance_for_watching = 0.1f;
 constexpr float largest_share_for_watching = 0.0625f;
 /// How much of guided stays is told where they have this advantage.
 constexpr float least_told = 0.125f;
-constexpr double clear_advantage = 0.7;
+/// Of a logarithm.
+constexpr double clear_advantage = 0.5;
 constexpr float first_preference = 16;
 constexpr float largest_preference = 1000;
 /// Of connections, by preference; and where none has succeeded in so many stays.
@@ -67,6 +68,16 @@ Variance variance(const StayMoments::Kind& sums) {
     return value > 1e-6 * mean * mean ? Variance{value, fourth > 0 ? n * value * value / fourth : 0.0} : Variance{};
 }
 
+/// What the variance of a kind lacks at least because large values are cut off. Both kinds bring the same on average:
+/// of F, cut off at c, E[F²] lacks 2 c times what E[F] lacks, or more. Only what is significant counts.
+double cut_off(const StayMoments::Kind& kind, const StayMoments::Kind& other) {
+    const auto mean = [](const StayMoments::Kind& k) { return k.powers[1] / k.powers[0]; };
+    const auto square_error = [](const StayMoments::Kind& k) { return variance(k).value / k.powers[0]; };
+    const double deviation = std::sqrt(square_error(kind) + square_error(other));
+    const double lacks = std::max(0.0, mean(other) - mean(kind) - 2 * deviation);
+    return (2 * most_expected - mean(kind) - mean(other)) * lacks;
+}
+
 /// Of guided stays over others.
 struct Advantage {
     double efficiency = 0;  ///< logarithm of the ratio of variance times cost
@@ -74,12 +85,17 @@ struct Advantage {
     double variance = 0;    ///< logarithm of the ratio of the variances alone
     double over_field = 0;  ///< that of variance times cost, if every unguided flight followed the learned field
 
+    bool is_loss(double by) const { return efficiency < -by && deviation < 0.5; }
+
     /// The share of unguided stays: a few as long as both kinds are watched, and after that none or all. What is
-    /// rarely found by classical sampling may long seem not to be there: before the last lesson guides are never given
-    /// up.
-    float unguided_probability(NextStays next) const {
+    /// rarely found by classical sampling may long seem not to be there: while that is what guides are compared with
+    /// they are not given up.
+    float unguided_probability(NextStays seen, NextStays next) const {
         if (next == NextStays::rendering) {
-            return efficiency < 0 && deviation < 0.5 ? 1.0f : 0.0f;
+            return is_loss(0) ? 1.0f : 0.0f;
+        }
+        if (seen == NextStays::beside_field && is_loss(clear_advantage)) {
+            return 1 - largest_share_for_watching;
         }
         return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
     }
@@ -99,7 +115,8 @@ Advantage advantage(const StayMoments::Kind& guided, const StayMoments::Kind& un
     const auto cost = [ways](const StayMoments::Kind& kind, double flight) {
         return std::log(flights_outside + (flight + ways) * kind.flights / kind.powers[0]);
     };
-    const double ratio = std::log(unguided_variance / guided_variance);
+    const double ratio =
+        std::log((unguided_variance + cut_off(unguided, guided)) / (guided_variance + cut_off(guided, unguided)));
     const double saved = ratio - cost(guided, cost_of_guided_flight);
     return {saved + cost(unguided, cost_of_unguided_flight), std::sqrt(1 / guided_count + 1 / unguided_count), ratio,
             saved + cost(unguided, cost_of_field_flight)};
@@ -249,34 +266,28 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
-    const bool is_first = expected_.empty();
     expect(moments);
-    unguided_ += all.unguided;
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
     const bool is_early = all_brought().stays < enough_stays;
     const auto most = [is_early](bool connects) { return connects || is_early ? 1.0f : least_probability; };
     const float most_connected = most(connects_);
     const float through_boundaries = first_through_boundaries * most(connects_through_);
-    const Advantage guided =
-        advantage(all.guided, unguided_, seen_ == NextStays::lessons ? 1 : cost_of_field_flight, through_boundaries);
+    const Advantage guided = advantage(all.guided, all.unguided,
+                                       seen_ == NextStays::beside_field ? cost_of_field_flight : 1, through_boundaries);
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         StayPlan& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
-        plan.unguided_probability = guided.unguided_probability(next);
-        plan.is_unguided_classical = next == NextStays::lessons;
+        plan.unguided_probability = guided.unguided_probability(seen_, next);
+        plan.is_unguided_classical = next == NextStays::beside_classical;
         plan.told_probability = guided.told_probability();
         plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);
         plan.unguided.probability = most_connected;
         plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
     }
-    // Stays that follow the field are others, and the first were not relative to anything.
-    if (next != seen_ || is_first) {
-        seen_ = next;
-        unguided_ = {};
-    }
+    seen_ = next;
 }
 
 auto StayPlans::all_brought() const -> Brought {

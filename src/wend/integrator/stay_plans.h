@@ -119,9 +119,9 @@ private:
 
 /// What comes after what stays have taught.
 enum class NextStays {
-    lessons,        ///< stays to learn from
-    final_lessons,  ///< the same, and unguided ones follow the learned field, as they are going to
-    rendering,      ///< stays that teach nothing any more
+    beside_classical,  ///< stays to learn from; unguided ones are left to classical sampling alone
+    beside_field,      ///< the same, and unguided ones follow the learned field, as they are going to
+    rendering,         ///< stays that teach nothing any more
 };
 
 /// Plans in a grid of cells.
@@ -157,8 +157,7 @@ private:
 
     Box3 box_;
     std::vector<StayPlan> plans_;
-    StayMoments::Kind unguided_;  // seen so far, everywhere, of the kind that is seen now
-    NextStays seen_ = NextStays::lessons;
+    NextStays seen_ = NextStays::beside_classical;
     std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
     std::vector<float> expected_;   // by cell; empty before the first lesson
     bool connects_ = false;
