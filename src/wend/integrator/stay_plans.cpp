@@ -85,18 +85,16 @@ struct Advantage {
     double variance = 0;    ///< logarithm of the ratio of the variances alone
     double over_field = 0;  ///< that of variance times cost, if every unguided flight followed the learned field
 
-    bool is_loss(double by) const { return efficiency < -by && deviation < 0.5; }
+    /// What is rarely found by classical sampling may long seem not to be there: while that is what guides are compared
+    /// with they are not given up.
+    bool is_loss(NextStays seen, NextStays next) const {
+        return next == NextStays::rendering
+                   ? efficiency < 0 && deviation < 0.5
+                   : seen == NextStays::beside_field && efficiency < -clear_advantage - deviation;
+    }
 
-    /// The share of unguided stays: a few as long as both kinds are watched, and after that none or all. What is
-    /// rarely found by classical sampling may long seem not to be there: while that is what guides are compared with
-    /// they are not given up.
-    float unguided_probability(NextStays seen, NextStays next) const {
-        if (next == NextStays::rendering) {
-            return is_loss(0) ? 1.0f : 0.0f;
-        }
-        if (seen == NextStays::beside_field && is_loss(clear_advantage)) {
-            return 1 - largest_share_for_watching;
-        }
+    /// The share of unguided stays while both kinds are watched.
+    float share_for_watching() const {
         return std::min(largest_share_for_watching, variance_for_watching * std::exp(-static_cast<float>(variance)));
     }
 
@@ -275,12 +273,16 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     const float through_boundaries = first_through_boundaries * most(connects_through_);
     const Advantage guided = advantage(all.guided, all.unguided,
                                        seen_ == NextStays::beside_field ? cost_of_field_flight : 1, through_boundaries);
+    is_given_up_ = is_given_up_ || guided.is_loss(seen_, next);
+    const float unguided_probability = is_given_up_                   ? 1.0f
+                                       : next == NextStays::rendering ? 0.0f
+                                                                      : guided.share_for_watching();
     const Steps overall = steps(all, {});
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         StayPlan& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
-        plan.unguided_probability = guided.unguided_probability(seen_, next);
+        plan.unguided_probability = unguided_probability;
         plan.is_unguided_classical = next == NextStays::beside_classical;
         plan.told_probability = guided.told_probability();
         plan.guided.probability = std::min(connection_probability(plan.guided.preference), most_connected);

@@ -140,8 +140,8 @@ public:
     /// slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
     /// stays began in follow all others. Where no connection has ever succeeded, behind a boundary that refracts,
     /// hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
-    /// weights. A few stays are left unguided, to compare variance times cost; while `next` is rendering none are, or
-    /// all.
+    /// weights. A few stays are left unguided, to compare variance times cost. Where that is clearly less for those
+    /// that follow the learned field all are from then on, and if `next` is rendering where it is less at all.
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
@@ -158,6 +158,7 @@ private:
     Box3 box_;
     std::vector<StayPlan> plans_;
     NextStays seen_ = NextStays::beside_classical;
+    bool is_given_up_ = false;
     std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
     std::vector<float> expected_;   // by cell; empty before the first lesson
     bool connects_ = false;
