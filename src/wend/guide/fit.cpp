@@ -224,11 +224,11 @@ private:
         Field::Node& node = field_.nodes_[cell.node];
         node.plane = plane.position;
         node.axis = static_cast<std::uint32_t>(plane.axis) & 3u;
-        node.child = first & 0x3fffffffu;
+        node.child = first & Field::largest_child;
         Field::Node leaf;
-        leaf.child = region & 0x3fffffffu;
+        leaf.child = region & Field::largest_child;
         field_.nodes_.push_back(leaf);
-        leaf.child = other_region & 0x3fffffffu;
+        leaf.child = other_region & Field::largest_child;
         field_.nodes_.push_back(leaf);
         return first;
     }

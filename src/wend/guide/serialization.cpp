@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/guide/join_alike.h>
 #include <wend/guide/scatter_fit.h>
 #include <wend/guide/sealed_bytes.h>
 #include <wend/guide/serialization.h>
@@ -214,7 +215,7 @@ public:
         put(out, static_cast<std::uint64_t>(field.nodes_.size()));
         for (const Field::Node& node : field.nodes_) {
             put(out, node.plane);
-            put(out, static_cast<std::uint8_t>(node.axis));
+            put(out, static_cast<std::uint8_t>(node.axis | node.alike << 2));
             put(out, static_cast<std::uint32_t>(node.child));
         }
         put(out, static_cast<std::uint64_t>(field.regions_.size()));
@@ -244,8 +245,10 @@ public:
         field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
         for (Field::Node& node : field.nodes_) {
             node.plane = in.take_finite<float>();
-            node.axis = in.take<std::uint8_t>() & 3u;
-            node.child = in.take<std::uint32_t>() & 0x3fffffffu;
+            const auto kind = in.take<std::uint8_t>();
+            node.axis = kind & 3u;
+            node.alike = kind >> 2 & 1u;
+            node.child = in.take<std::uint32_t>() & Field::largest_child;
         }
         constexpr std::size_t least_region = 9 * sizeof(float);
         const std::uint64_t cells = in.take_count(least_region);
@@ -267,6 +270,11 @@ public:
         }
         require_tree(field);
         return field;
+    }
+
+    static bool is_joined(const Field& field) {
+        return std::any_of(field.nodes_.begin(), field.nodes_.end(),
+                           [](const Field::Node& node) { return node.alike != 0; });
     }
 
 private:
@@ -293,7 +301,12 @@ std::string to_bytes(const Field& field) {
 Field field_from_bytes(std::string_view bytes) {
     Reader in(unseal(kind, bytes));
     // What rays are told follows from the sums.
-    Field field = fit_scattered(FieldBytes::field(in), {}, 1);
+    Field field = FieldBytes::field(in);
+    const bool is_joined = FieldBytes::is_joined(field);
+    field = fit_scattered(std::move(field), {}, 1);
+    if (is_joined) {
+        field = join_alike(std::move(field));
+    }
     if (!in.empty()) {
         refuse("there are more bytes than a field has");
     }

@@ -1,4 +1,5 @@
 #include <wend/guide/fit.h>
+#include <wend/guide/join_alike.h>
 #include <wend/guide/scatter_fit.h>
 #include <wend/integrator/training.h>
 
@@ -16,7 +17,7 @@ GuidingFields learn(const GuidingFields& fields, std::span<const guide::PathReco
                                     threads);
     };
     return {next(fields.surface, all.surface(), all.surface_scattered()),
-            next(fields.volume, all.volume(), all.volume_scattered())};
+            guide::join_alike(next(fields.volume, all.volume(), all.volume_scattered()))};
 }
 
 }  // namespace wend
