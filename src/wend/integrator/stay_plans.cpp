@@ -264,6 +264,8 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     for (const auto& [cell, sums] : moments) {
         all += sums;
     }
+    // The first stays are not relative to anything, and cannot be compared.
+    const bool is_first = expected_.empty();
     expect(moments);
     connects_ = connects_ || all.connected > 0;
     connects_through_ = connects_through_ || all.connected_through > 0;
@@ -271,8 +273,9 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
     const auto most = [is_early](bool connects) { return connects || is_early ? 1.0f : least_probability; };
     const float most_connected = most(connects_);
     const float through_boundaries = first_through_boundaries * most(connects_through_);
-    const Advantage guided = advantage(all.guided, all.unguided,
-                                       seen_ == NextStays::beside_field ? cost_of_field_flight : 1, through_boundaries);
+    const double cost_of_unguided_flight = seen_ == NextStays::beside_field ? cost_of_field_flight : 1;
+    const Advantage guided =
+        is_first ? Advantage() : advantage(all.guided, all.unguided, cost_of_unguided_flight, through_boundaries);
     is_given_up_ = is_given_up_ || guided.is_loss(seen_, next);
     const float unguided_probability = is_given_up_                   ? 1.0f
                                        : next == NextStays::rendering ? 0.0f
