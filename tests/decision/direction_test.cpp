@@ -1,6 +1,7 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
+#include <wend/decision/trust.h>
 #include <wend/guide/product.h>
 #include <wend/medium/phase_lobes.h>
 
@@ -259,6 +260,29 @@ TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
         const Vec2 u2 = random.uniform2();
         EXPECT_EQ(guided.sample(u, u2)->direction, classical.sample(u, u2)->direction);
         EXPECT_EQ(guided.sample(u, u2)->density, classical.sample(u, u2)->density);
+    }
+}
+
+TEST(Direction, AWalkThatTheGuideFailedIsUnguidedButKnowsWhatToExpect) {
+    const Volume f;
+    const GuidedDirection guide(&wrong, &wrong, classical_share);
+    const auto trusting = guide.at(here, true, f, least_boost);
+    const auto failed = guide.at(here, true, f, 0.99f * least_boost);
+    const auto classical = ClassicalDirection().at(here, true, f);
+    ASSERT_TRUE(trusting.in_scattered() && failed.in_scattered());
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ((*failed.in_scattered())[c], (*trusting.in_scattered())[c]);
+    }
+    Pcg32 random(6);
+    for (int i = 0; i < 100; ++i) {
+        const float u = random.uniform();
+        const Vec2 u2 = random.uniform2();
+        const auto s = failed.sample(u, u2);
+        ASSERT_TRUE(s);
+        EXPECT_EQ(s->direction, classical.sample(u, u2)->direction);
+        EXPECT_EQ(s->density, classical.sample(u, u2)->density);
+        EXPECT_EQ(s->boost, 1);
+        EXPECT_NE(trusting.density(s->direction), s->density);
     }
 }
 

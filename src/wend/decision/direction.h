@@ -149,13 +149,14 @@ public:
         float classical_share_;
     };
 
-    /// `boost` is the product of the walk's boosts so far; a walk below least_boost goes on unguided.
+    /// `boost` is the product of the walk's boosts so far: below least_boost the scattering function alone is sampled,
+    /// and the adjoint tells no more than what is to be expected.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
-        const bool guidable = f.is_guidable() && boost >= least_boost;
-        const LocalAdjoint* adjoint = guidable ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
+        const LocalAdjoint* adjoint = f.is_guidable() ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
+        const bool guided = adjoint && boost >= least_boost;
         return Distribution<F>(f, adjoint, position,
-                               adjoint ? classical_share_.value_or(adjoint->classical_share()) : 1.0f);
+                               guided ? classical_share_.value_or(adjoint->classical_share()) : 1.0f);
     }
 
 private:
