@@ -72,5 +72,13 @@ TEST(AdjointSurvival, LeavesToTheWeightWhatItMayNotJudge) {
     EXPECT_EQ(AdjointSurvival(true, true).after_direction(state), ClassicalSurvival().after_direction(state));
 }
 
+TEST(AdjointSurvival, EndsButTheWorthlessOfThoseThatAreJudgedElsewhere) {
+    const AdjointSurvival survival(true, true);
+    EXPECT_EQ(survival.after_direction({Rgb(0.2f), 1, 1, 3, true}), 1);
+    EXPECT_FLOAT_EQ(survival.after_direction({Rgb(1e-6f), 1, 1, 3, true}), 0.01f);
+    const WalkState state{Rgb(0.2f), 1, 1, 3, true};
+    EXPECT_EQ(AdjointSurvival(false, true).after_direction(state), ClassicalSurvival().after_direction(state));
+}
+
 }  // namespace
 }  // namespace wend

@@ -21,6 +21,8 @@ struct WalkState {
     /// importance is not.
     float index_scale = 1;
     int depth = 0;  ///< vertices so far
+    /// Nothing is known of what to expect here, at a mirror or a boundary that refracts, but elsewhere.
+    bool is_judged_elsewhere = false;
 };
 
 /// Is asked twice at a vertex. `before_direction`: how many directions to draw, given the ratio of the walk's expected
@@ -53,7 +55,8 @@ public:
     }
 };
 
-/// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known.
+/// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known. Of walks that
+/// are judged elsewhere that ends but the worthless: what it lets through would come back with many times its weight.
 class AdjointSurvival {
 public:
     /// With either of the two off, its side of the window is open.
@@ -67,9 +70,13 @@ public:
         window.most = std::min(window.most, room);
         return window.sample(*ratio, random);
     }
-    float after_direction(const WalkState& state) const { return ClassicalSurvival().after_direction(state); }
+    float after_direction(const WalkState& state) const {
+        const float classical = ClassicalSurvival().after_direction(state);
+        return roulette_ && state.is_judged_elsewhere ? std::min(1.0f, classical / worthless) : classical;
+    }
 
 private:
+    static constexpr float worthless = 1e-4f;
     bool roulette_, splitting_;
     /// An estimate learned from noise calls too much worthless: what survives a less likely roulette would stand out.
     WeightWindow window_{.least = 0.5};

@@ -290,7 +290,7 @@ private:
     void remember_vertex(const F& f, const DirectionSample& s, const Vec3& position, const Vec3& normal,
                          bool in_volume);
     /// Roulette after the direction is drawn.
-    bool survives();
+    bool survives(bool is_judged_elsewhere);
 
     void note_reflection(const SurfaceScattering& f, const DirectionSample& s) {
         if (reflections_ && f.reflects_or_refracts()) {
@@ -310,10 +310,11 @@ private:
         return in_volume ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
     }
 
-    float survival_probability() {
-        const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth};
-        return now_.slab.is_inside() ? now_.slab.survival(max_value(now_.throughput) * now_.index_scale)
-                                     : d_.survival.after_direction(state);
+    float survival_probability(bool is_judged_elsewhere) {
+        const WalkState state{now_.throughput, now_.boost, now_.index_scale, now_.depth, is_judged_elsewhere};
+        return now_.slab.is_inside() && !is_judged_elsewhere
+                   ? now_.slab.survival(max_value(now_.throughput) * now_.index_scale)
+                   : d_.survival.after_direction(state);
     }
 
     /// What one connection to one light finds: its direction, an estimate of the light's fluence, weighted for multiple

@@ -64,7 +64,7 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
         now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
         now_.slab.turn(now_.ray.direction, s->direction);
     }
-    if (!judged && !survives()) {
+    if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
         return false;
     }
     if (in_volume) {
@@ -110,8 +110,8 @@ void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSam
 }
 
 template <class Decisions>
-bool PathTracer<Decisions>::Walk::survives() {
-    const float survival = survival_probability();
+bool PathTracer<Decisions>::Walk::survives(bool is_judged_elsewhere) {
+    const float survival = survival_probability(is_judged_elsewhere);
     if (survival < 1) {
         if (!(sampler_.uniform() < survival)) {
             return false;
