@@ -116,8 +116,9 @@ FlightPieces pieces_of(const Case& c) {
         const Stretch& s = c.stretches[i];
         for (const Lamp& lamp : c.lamps) {
             if (lamp.piece == i) {
-                pieces.add_near(Equiangular({{0, 0, 0}, {1, 0, 0}}, {lamp.x, lamp.y, 0}, 0, t_in, s.t_out),
-                                lamp.strength);
+                pieces.add_near(
+                    Equiangular(ClosestApproach({{0, 0, 0}, {1, 0, 0}}, {lamp.x, lamp.y, 0}, 0), t_in, s.t_out),
+                    lamp.strength);
             }
         }
         if (!pieces.add(s.t_out, s.in_scattered)) {
@@ -308,7 +309,7 @@ TEST(FlightPieces, ThereIsRoomForAFewLamps) {
     int lamps = 0;
     for (; pieces.has_room_for_near(); ++lamps) {
         const auto t = static_cast<float>(lamps);
-        pieces.add_near(Equiangular({{0, 0, 0}, {1, 0, 0}}, {t, 0.1f, 0}, 0, t, t + 1), 1);
+        pieces.add_near(Equiangular(ClosestApproach({{0, 0, 0}, {1, 0, 0}}, {t, 0.1f, 0}, 0), t, t + 1), 1);
         pieces.add(t + 1, 0);
     }
     EXPECT_GE(lamps, 4);

@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"homogeneous", homogeneous(Rgb(0.1f), Rgb(0.4f)), uneven()},
                     Case{"homogeneous_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(uneven())},
                     Case{"homogeneous_many_slices_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(very_many()),
-                         DistanceGuiding::scatter_and_distance, Rgb(1), 1500000},
+                         DistanceGuiding::scatter_and_distance, Rgb(1), 2000000},
                     Case{"chromatic_lamp", homogeneous(red_absorption, blue_scattering), with_lamp(uneven())},
                     Case{"homogeneous_level", homogeneous(Rgb(0.1f), Rgb(0.4f)), uneven(), scatter_alone},
                     Case{"homogeneous_many_slices", homogeneous(Rgb(0.1f), Rgb(0.4f)), very_many(),

@@ -23,7 +23,8 @@ struct Case {
     float t_in, t_out;
 
     Vec3 light() const { return ray.at(along) + across * beside; }
-    Equiangular distances() const { return {ray, light(), extent_squared, t_in, t_out}; }
+    ClosestApproach approach() const { return {ray, light(), extent_squared}; }
+    Equiangular distances() const { return {approach(), t_in, t_out}; }
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
@@ -102,9 +103,45 @@ TEST_P(EquiangularCases, TheCosineIsThatInTheMiddleOfTheAngle) {
     EXPECT_NEAR(c.distances().cosine(), expected, 2e-3f);
 }
 
+TEST_P(EquiangularCases, TheApproachKnowsDistanceAndCosine) {
+    const Case& c = GetParam();
+    for (const float t : {c.t_in, 0.3f, 1.7f}) {
+        const double square = square_of_distance(c, t);
+        EXPECT_NEAR(c.approach().squared_distance(t), square, 1e-5 * square + 1e-6);
+        EXPECT_NEAR(c.approach().cosine(t), (c.along - t) / static_cast<float>(std::sqrt(square)), 1e-4f);
+    }
+}
+
+TEST(ClosestApproach, WhereTheLightIsAboutAsFarItsMeanIsKnown) {
+    int even = 0;
+    Pcg32 random(3);
+    for (int i = 0; i < 10000; ++i) {
+        const float t_in = 4 * random.uniform();
+        const Case c{"", 4 * random.uniform(), random.uniform(), 0.01f, t_in, t_in + 2 * random.uniform() + 0.01f};
+        const ClosestApproach approach = c.approach();
+        double nearest = infinity, farthest = 0;
+        for (int step = 0; step <= 100; ++step) {
+            const double square = square_of_distance(c, c.t_in + 0.01f * static_cast<float>(step) * (c.t_out - c.t_in));
+            nearest = std::min(nearest, square);
+            farthest = std::max(farthest, square);
+        }
+        if (farthest > 4.1 * nearest) {
+            EXPECT_FALSE(approach.is_about_as_far(c.t_in, c.t_out)) << i;
+        } else if (farthest < 3.9 * nearest) {
+            EXPECT_TRUE(approach.is_about_as_far(c.t_in, c.t_out)) << i;
+            const float mean = c.distances().integral() / (c.t_out - c.t_in);
+            EXPECT_NEAR(approach.mean_inverse_square(c.t_in, c.t_out), mean, 0.26f * mean) << i;
+            ++even;
+        }
+    }
+    EXPECT_GT(even, 1000);
+    EXPECT_LT(even, 9000);
+    EXPECT_FALSE(ClosestApproach(ray, ray.at(1), 0.1f).is_about_as_far(0, infinity));
+}
+
 TEST(Equiangular, ALightOnTheRayOrAtItsOriginIsSurvived) {
     for (const float along : {0.0f, 1.0f}) {
-        const Equiangular distances(ray, ray.at(along), 0, 0, 2);
+        const Equiangular distances(ClosestApproach(ray, ray.at(along), 0), 0, 2);
         Pcg32 random(2);
         for (int i = 0; i < 1000; ++i) {
             const float t = distances.sample(random.uniform());

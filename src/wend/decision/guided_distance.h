@@ -81,12 +81,21 @@ private:
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
         volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
             const Vec3& before = start.ray.direction;
-            if (!(light.near.intensity > 0 && pieces.has_room_for_near())) {
-                return pieces.add(t_out, light.in_scattered(before, medium.phase));
+            if (light.near.intensity > 0) {
+                const ClosestApproach approach(start.ray, light.near.position, light.near.extent_squared);
+                const float afar = light.in_scattered_from_afar(before, medium.phase);
+                if (approach.is_about_as_far(t_in, t_out)) {
+                    const float fluence = light.near.intensity * approach.mean_inverse_square(t_in, t_out);
+                    const float cosine = approach.cosine(0.5f * (t_in + t_out));
+                    return pieces.add(t_out, afar + fluence * medium.phase.evaluate(cosine));
+                }
+                if (pieces.has_room_for_near()) {
+                    const Equiangular along(approach, t_in, t_out);
+                    pieces.add_near(along, light.near.intensity * medium.phase.evaluate(along.cosine()));
+                    return pieces.add(t_out, afar);
+                }
             }
-            const Equiangular along(start.ray, light.near.position, light.near.extent_squared, t_in, t_out);
-            pieces.add_near(along, light.near.intensity * medium.phase.evaluate(along.cosine()));
-            return pieces.add(t_out, light.in_scattered_from_afar(before, medium.phase));
+            return pieces.add(t_out, light.in_scattered(before, medium.phase));
         });
         pieces.finish(start.length, ahead(start), levels());
         const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share : 1.0f, u);
