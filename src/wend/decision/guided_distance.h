@@ -37,13 +37,14 @@ public:
     GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding)
         : surface_(surface), volume_(volume), classical_share_(classical_share), guiding_(guiding) {}
 
-    /// Whether a flight is guided: not once a walk has lost its trust, nor while nothing is known.
+    /// Whether a flight is guided as soon as something is known: not once a walk has lost its trust.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
-        return guide_of(medium, start) != nullptr;
+        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
+        return guidable && start.boost >= least_boost && start.length > 0;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        const Light here = guide_of(medium, start);
+        const auto* here = looks_ahead(medium, start) ? volume_->scattered_light(start.ray.origin) : nullptr;
         if (!here) {
             return classical_.sample(medium, start, u, random);
         }
@@ -67,15 +68,6 @@ private:
     /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
     /// next.
     static constexpr float share_in_grids = 0.5f;
-
-    using Light = decltype(std::declval<const Field&>().scattered_light(Vec3()));
-
-    /// The light where a guided flight begins; null for others.
-    Light guide_of(const Medium& medium, const FlightStart& start) const {
-        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
-        return guidable && start.boost >= least_boost && start.length > 0 ? volume_->scattered_light(start.ray.origin)
-                                                                          : nullptr;
-    }
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float share, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
