@@ -1,10 +1,14 @@
 // Every sampler's mean is the exact one, over media, boundaries, tallies and incidences.
 #include <tests/integrator/planar_experiments.h>
+#include <wend/medium/fresnel.h>
 #include <wend/stats/chi_square.h>
+#include <wend/stats/significance.h>
+#include <wend/theory/albedo_inversion.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -70,6 +74,26 @@ private:
 };
 
 const std::vector<std::optional<double>> incidences = {1.0, 0.5, 1e-3, std::nullopt};
+
+// Of the light that has entered a half-space whose albedo was made for a colour, that colour comes back.
+TEST(PlanarMeans, AlbedosForAColour) {
+    for (const auto& [g, ior] : {std::pair{0.0, 1.33}, {0.8, 1.4}, {-0.5, 1.5}, {0.9, 1.0}}) {
+        const AlbedoInversion albedo_of(g, ior);
+        for (const float colour : {0.1f, 0.5f, 0.95f}) {
+            PlanarExperiment e = half_space(static_cast<double>(albedo_of(colour)), "modes");
+            e.g = g;
+            e.ior = ior;
+            e.mu0 = std::nullopt;
+            const Moments m = run(e, 10000, 5).channels[0];
+            const double outside = fresnel_diffuse_reflectance(static_cast<float>(ior));
+            const double returned = (m.mean() - outside) / (1 - outside);
+            const double error = m.standard_error() / (1 - outside);
+            EXPECT_TRUE(agrees(returned, error, colour, 4, 1e-3))
+                << returned << " +- " << error << " for " << colour << ", g " << g << ", ior " << ior;
+            EXPECT_LT(error, 2e-3);
+        }
+    }
+}
 
 TEST(PlanarMeans, IsotropicHalfSpace) {
     MeansOf means(20000);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -288,6 +289,87 @@ TEST(GuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
         for (const Moments& m : by_share) {
             expect_none(m);
         }
+    }
+}
+
+/// A box of two colours, where x is negative and where it is positive.
+SceneDescription two_coloured(float ior, const Rgb& left, const Rgb& right) {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, {0.4f, 1, 2}, {8, 9, 10}, 0.4f);
+    const int boundary = test::add_dielectric(s, ior);
+    CheckerboardTexture board{s.textures.add_constant(right), s.textures.add_constant(left), 3, {}, {}};
+    board.texture_from_world = AffineMap(Transform::scale(0.1, 0.1, 0.1) * Transform::translate(0, 5, 5));
+    std::get<DielectricMaterial>(s.materials.back()).relative_albedo = s.textures.add(board);
+    test::add_box(s, Box3(Vec3(-1, -1, -0.4f), Vec3(1, 1, 0.4f)), boundary, medium);
+    test::add_environment(s, {0.8f, 1.0f, 1.2f});
+    s.lights.push_back(PointLight{{2, 2, -3}, {3, 6, 4}});
+    return s;
+}
+
+// A walk finds the albedo of where it entered, so that each half looks as if all were of its colour.
+TEST(GuidedObject, HasTheColourOfWhereItIsEntered) {
+    const Rgb red(1.04f, 0.6f, 0.3f), dark(0.2f);
+    constexpr float ior = 1.4f;
+    const Scene both(two_coloured(ior, dark, red)), all_red(two_coloured(ior, red, red));
+    const Ray to_the_right{{0.25f, 0.1f, -4}, {0, 0, 1}}, to_the_left{{-0.25f, 0.1f, -4}, {0, 0, 1}};
+    constexpr int walks = 100000;
+    const Measured expected = test::measure_radiance(all_red, to_the_right, walks);
+    const Measured elsewhere = test::measure_radiance(both, to_the_left, walks);
+    EXPECT_LT(elsewhere.mean, 0.8 * expected.mean);
+    for (const char* strategy : {"classical", "planar", "auto"}) {
+        SCOPED_TRACE(strategy);
+        const Measured m = test::measure_radiance(both, to_the_right, walks, 100000, 2, parse_subsurface(strategy));
+        const double error = std::hypot(m.standard_error, expected.standard_error);
+        EXPECT_TRUE(agrees(m.mean - expected.mean, error, 0, 4))
+            << m.mean << " and " << expected.mean << " +- " << error;
+        EXPECT_LT(4 * error, 0.03 * expected.mean);
+    }
+    // The same as a medium that is red itself.
+    SceneDescription red_medium = two_coloured(ior, Rgb(1.0f), Rgb(1.0f));
+    auto& medium = std::get<HomogeneousMedium>(red_medium.media.front());
+    const Rgb extinction = medium.extinction();
+    medium.scattering *= red;
+    medium.absorption = extinction - medium.scattering;
+    const Measured m = test::measure_radiance(Scene(red_medium), to_the_right, walks, 100000, 3);
+    const double error = std::hypot(m.standard_error, expected.standard_error);
+    EXPECT_TRUE(agrees(m.mean - expected.mean, error, 0, 4)) << m.mean << " and " << expected.mean << " +- " << error;
+}
+
+// Where a stay counts as one event, that of entering, a walk that may have no more than this loses nothing.
+TEST(GuidedObject, MayCountAsOneVertex) {
+    for (const auto& [ior, alpha] : {std::pair{1.4f, 0.0f}, {1.4f, 0.3f}}) {
+        SceneDescription s;
+        const MediumId medium = test::add_homogeneous(s, {0.1f, 0.2f, 0.4f}, Rgb(9.0f), 0.3f);
+        test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, ior, alpha), medium);
+        test::add_lamp(s, {-2.5f, 2.2f, -2.5f}, 4, Rgb(2.0f), test::add_diffuse(s, Rgb(0.0f)));
+        const Ray ray{{0.2f, 0.1f, -4}, {0, 0, 1}};
+        const auto measure = [&](bool counts, int max_depth, const char* strategy) {
+            std::get<HomogeneousMedium>(s.media.front()).counts_vertices = counts;
+            return test::measure_radiance(Scene(s), ray, 3000, max_depth, 1, parse_subsurface(strategy)).mean;
+        };
+        for (const char* strategy : {"classical", "auto"}) {
+            SCOPED_TRACE(strategy);
+            const double whole = measure(true, 100000, strategy);
+            EXPECT_GT(whole, 0);
+            EXPECT_EQ(measure(false, 100000, strategy), whole);
+            EXPECT_EQ(measure(false, 1, strategy), whole);
+            EXPECT_LT(measure(true, 5, strategy), 0.9 * whole);
+        }
+    }
+}
+
+TEST(GuidedObject, EndsThoughItIsOpenAndAbsorbsNothing) {
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, Rgb(0.0f), Rgb(20.0f));
+    std::get<HomogeneousMedium>(s.media.front()).counts_vertices = false;
+    test::add_parallelogram(s, {-1, -1, 0}, {0, 2, 0}, {2, 0, 0}, test::add_dielectric(s, 1.4f), medium);
+    test::add_environment(s, Rgb(1.0f));
+    const Scene scene(std::move(s));
+    for (const char* strategy : {"classical", "auto"}) {
+        const Measured m =
+            test::measure_radiance(scene, {{0.2f, 0.1f, -4}, {0, 0, 1}}, 200, 5, 1, parse_subsurface(strategy));
+        EXPECT_TRUE(std::isfinite(m.mean));
+        EXPECT_GT(m.mean, 0.02);
     }
 }
 

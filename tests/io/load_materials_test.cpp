@@ -2,8 +2,8 @@
 #include "pbrt_support.h"
 
 #include <wend/io/image_file.h>
-#include <wend/io/load/subsurface.h>
 #include <wend/medium/fresnel.h>
+#include <wend/theory/albedo_inversion.h>
 
 #include <gtest/gtest.h>
 
@@ -138,7 +138,10 @@ TEST(LoadMaterials, SubsurfaceIsAMediumBehindADielectric) {
         EXPECT_FLOAT_EQ(loaded.as<DielectricMaterial>().ior, 1.33f);
         const Surface& surface = loaded.scene.scene.surfaces.at(0);
         EXPECT_EQ(surface.exterior, vacuum);
-        return std::get<HomogeneousMedium>(loaded.scene.scene.media.at(static_cast<std::size_t>(surface.interior)));
+        const auto medium =
+            std::get<HomogeneousMedium>(loaded.scene.scene.media.at(static_cast<std::size_t>(surface.interior)));
+        EXPECT_FALSE(medium.counts_vertices);
+        return medium;
     };
     expect_near(inside("").scattering, {2.55f, 3.21f, 3.77f});
     expect_near(inside("\"string name\" \"Skin1\" \"float scale\" 10").absorption, {0.32f, 1.7f, 4.8f});
@@ -149,48 +152,38 @@ TEST(LoadMaterials, SubsurfaceIsAMediumBehindADielectric) {
     const auto coloured = inside("\"rgb reflectance\" [ 0 0.5 1 ] \"rgb mfp\" [ 2 2 2 ]");
     expect_near(coloured.extinction(), Rgb(0.5f));
     EXPECT_NEAR(coloured.scattering.r, 0, 1e-4f);
-    EXPECT_NEAR(coloured.scattering.g, 0.5f * albedo_of_reflectance(0.5f, 0), 1e-5f);
+    EXPECT_NEAR(coloured.scattering.g, 0.5f * AlbedoInversion(0, 1.33)(0.5f), 1e-5f);
     EXPECT_NEAR(coloured.scattering.b, 0.5f, 1e-4f);
     EXPECT_PRED2(contains, message_of([&] { inside("\"rgb sigma_a\" [ 1 1 1 ]"); }), "both");
     EXPECT_PRED2(contains, message_of([&] { inside("\"string name\" \"Gravel\""); }), "known are Apple");
     EXPECT_PRED2(contains, message_of([&] { inside("\"float g\" 1"); }), "\"g\" must lie between");
 }
 
-/// Share of diffuse light that an isotropic half-space reflects: 1 - 2 sqrt(1 - c) times the first moment of the H
-/// function (chandrasekhar1960), whose equation is solved by iteration.
-float diffuse_reflectance(double albedo) {
-    constexpr int n = 200;
-    constexpr auto mu = [](int i) { return (i + 0.5) / n; };
-    std::vector<double> h(n, 1.0);
-    const double root = std::sqrt(1 - albedo);
-    for (int iteration = 0; iteration < 100; ++iteration) {
-        std::vector<double> next(n);
-        for (int i = 0; i < n; ++i) {
-            double sum = 0;
-            for (int j = 0; j < n; ++j) {
-                sum += mu(j) * h[static_cast<std::size_t>(j)] / (mu(i) + mu(j));
-            }
-            next[static_cast<std::size_t>(i)] = 1 / (root + 0.5 * albedo * sum / n);
-        }
-        h = next;
-    }
-    double moment = 0;
-    for (int i = 0; i < n; ++i) {
-        moment += mu(i) * h[static_cast<std::size_t>(i)] / n;
-    }
-    return static_cast<float>(1 - 2 * root * moment);
-}
+TEST(LoadMaterials, SubsurfaceColoursMayVary) {
+    const std::string board =
+        "Texture \"board\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [ 0.8 0.5 0.1 ] \"rgb tex2\" [ 0.2 0.5 0 ] "
+        "Texture \"plain\" \"spectrum\" \"constant\" \"rgb value\" [ 0.8 0.5 0.1 ] ";
+    const Loaded loaded(board +
+                        "Material \"subsurface\" \"texture reflectance\" \"board\" \"float eta\" 1.4 \"float g\" 0.6 "
+                        "\"rgb mfp\" [ 2 4 8 ]");
+    EXPECT_TRUE(loaded.scene.warnings.empty());
+    // The squares of a sphere's parameters are all even ones; the mean is that of the unit square, even as well.
+    const AlbedoInversion albedo_of(0.6, 1.4);
+    const auto& medium = std::get<HomogeneousMedium>(loaded.scene.scene.media.at(0));
+    expect_near(medium.extinction(), {0.5f, 0.25f, 0.125f});
+    expect_near(medium.scattering / medium.extinction(), {albedo_of(0.8f), albedo_of(0.5f), albedo_of(0.1f)});
+    const TextureId relative = loaded.as<DielectricMaterial>().relative_albedo;
+    ASSERT_GE(relative, 0);
+    expect_near(loaded.value(relative, {0.5f, 0.5f}), Rgb(1.0f));
+    expect_near(loaded.value(relative, {1.5f, 0.5f}), {albedo_of(0.2f) / albedo_of(0.8f), 1, 0});
 
-TEST(LoadMaterials, AlbedoOfReflectanceInvertsTheDiffuseReflectanceOfHalfSpaces) {
-    for (const float reflectance : {0.05f, 0.2f, 0.5f, 0.8f}) {
-        const float albedo = albedo_of_reflectance(reflectance, 0);
-        EXPECT_NEAR(diffuse_reflectance(static_cast<double>(albedo)), reflectance, 0.0025f);
-    }
-    EXPECT_NEAR(albedo_of_reflectance(0, 0.5f), 0, 1e-4f);
-    EXPECT_NEAR(albedo_of_reflectance(1, 0.5f), 1, 1e-4f);
-    // Forward scattering reflects less, so it takes a higher albedo: by similarity, (1 - g) c / (1 - g c) is kept.
-    const float c = albedo_of_reflectance(0.5f, 0.5f);
-    EXPECT_NEAR(0.5f * c / (1 - 0.5f * c), albedo_of_reflectance(0.5f, 0), 1e-5f);
+    // What does not vary has nothing to tell; what cannot is named.
+    EXPECT_LT(Loaded(board + "Material \"subsurface\" \"texture reflectance\" \"plain\"")
+                  .as<DielectricMaterial>()
+                  .relative_albedo,
+              0);
+    const Loaded radius(board + "Material \"subsurface\" \"texture reflectance\" \"board\" \"texture mfp\" \"board\"");
+    EXPECT_EQ(warnings_with(radius.scene, "mean of the texture \"mfp\""), 1);
 }
 
 TEST(LoadMaterials, SubstitutesAreNamedOnce) {

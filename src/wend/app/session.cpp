@@ -54,7 +54,8 @@ void SceneOptions::add_to(CLI::App& command) {
     command.add_option("--crop", crop, "part of the picture to render: X0,X1,Y0,Y1 as fractions");
     command
         .add_option("--max-depth", max_depth,
-                    "largest number of scattering events of a walk; 0: no limit (default: the scene's)")
+                    "largest number of scattering events of a walk, a stay inside a \"subsurface\" material being "
+                    "one; 0: no limit (default: the scene's)")
         ->check(CLI::Range(0, 1 << 30));
     command.add_option("--sampler", sampler, "random numbers: sobol or independent (default: the scene's)");
 }

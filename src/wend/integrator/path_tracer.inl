@@ -58,6 +58,7 @@ private:
         float boost = 1;
         float index_scale = 1;
         int depth = 0;
+        int uncounted = 0;  ///< vertices, of those, that do not count towards the largest depth
         int interfaces = 0;
         float travelled = 0;                ///< since the last vertex
         SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
@@ -77,6 +78,9 @@ private:
 
         guide::PathLog::Branch logged{};
         int boundary = ReflectionLog::none;  ///< the last one that was passed
+
+        MediumId coloured = vacuum;  ///< the last medium that was entered where the boundary has a colour
+        Rgb relative_albedo{1.0f};   ///< in it, over that of the medium
     };
     static constexpr int none = -1;
 
@@ -181,12 +185,18 @@ private:
     Vec3 faced(const Hit& hit) const { return dot(hit.normal, now_.ray.direction) < 0 ? hit.normal : -hit.normal; }
 
     bool scatter_in(const Medium& medium, float distance) {
+        if (now_.medium == now_.coloured) {
+            weigh(now_.relative_albedo);
+            if (is_black(now_.throughput)) {
+                return false;
+            }
+        }
         meet();
         if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
             result_.sample.scattered = true;
         }
-        if (now_.depth++ >= tracer_.max_depth_) {
+        if (!count_vertex()) {
             return false;
         }
         const Vec3 position = now_.ray.at(distance);
@@ -207,7 +217,7 @@ private:
         if (now_.depth == 0) {
             remember_first(f.albedo(), hit.shading.n);
         }
-        if (now_.depth++ >= tracer_.max_depth_) {
+        if (!count_vertex()) {
             return false;
         }
         hit_ = &hit;
@@ -215,6 +225,27 @@ private:
             log_->face(faced(hit));
         }
         return scatter(f, hit.position, hit.normal, false);
+    }
+
+    /// Whether so many vertices more, that count, are not too many.
+    bool has_depth_for(int vertices) const { return now_.depth - now_.uncounted + vertices <= tracer_.max_depth_; }
+
+    /// Counts the vertex at hand in the medium at hand; false where the walk ends.
+    bool count_vertex() {
+        if (scene_.counts_vertices_in(now_.medium)) {
+            const bool goes_on = has_depth_for(1);
+            ++now_.depth;
+            return goes_on;
+        }
+        ++now_.depth;
+        // Through a hole in its boundary, where nothing is absorbed, a walk would never end.
+        constexpr int long_stay = 10000;
+        constexpr float survival = 0.9999f;
+        if (++now_.uncounted <= long_stay) {
+            return true;
+        }
+        weigh(Rgb(1 / survival));
+        return sampler_.random().uniform() < survival;
     }
 
     SurfaceScattering scattering_at(const Hit& hit) const {

@@ -130,6 +130,8 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
             beam.ray = spawn_ray(hit->position, hit->normal, beam.ray.direction);
         } else if (!refract_at(scene, *hit, dielectric->ior, beam, trial.way)) {
             return std::nullopt;
+        } else if (scene.counts_vertices_in(medium)) {
+            ++trial.way.vertices;
         }
         medium = scene.medium_beyond(*hit, beam.ray.direction, medium);
     }

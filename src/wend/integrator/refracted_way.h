@@ -26,7 +26,8 @@ struct RefractedWay {
     /// drawn.
     float density_ratio = 1;
     int refractions = 0;
-    Hit end;  ///< on the light, if it is not at infinity
+    int vertices = 0;  ///< of those, what counts towards a walk's largest depth
+    Hit end;           ///< on the light, if it is not at infinity
 
     std::span<const Leg> legs() const { return {storage_.data(), static_cast<std::size_t>(count_)}; }
     /// Whether there was room for one more.

@@ -155,7 +155,7 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
     const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
     const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
     const bool is_far = light.distance == infinity;
-    if (!way || (!is_far && way->end.light != chosen.index) || now_.depth + way->refractions > tracer_.max_depth_) {
+    if (!way || (!is_far && way->end.light != chosen.index) || !has_depth_for(way->vertices)) {
         return std::nullopt;
     }
     const Vec3 arriving = -way->legs().back().ray.direction;

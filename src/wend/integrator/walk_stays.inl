@@ -14,6 +14,12 @@ namespace wend {
 
 template <class Decisions>
 void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
+    if (now_.medium != from && now_.medium == hit.surface->interior) {
+        if (const auto relative = scene_.relative_albedo(hit)) {
+            now_.coloured = now_.medium;
+            now_.relative_albedo = *relative;
+        }
+    }
     if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
         return;
     }
@@ -62,7 +68,7 @@ std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& a
 template <class Decisions>
 void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
                                                       const Vec3& position) {
-    if (now_.depth >= tracer_.max_depth_) {
+    if (!has_depth_for(scene_.counts_vertices_in(now_.medium) ? 1 : 0)) {
         return;
     }
     const std::optional<Vec3> w = directions.sample_lamps();

@@ -21,6 +21,9 @@ struct HomogeneousMedium {
     Rgb scattering;
     Rgb emission;  ///< radiance emitted per unit length: absorption coefficient times the emitter's radiance
     PhaseFunction phase;
+    /// Whether what a walk meets inside counts towards its largest depth. (Not in pbrt's `subsurface`, where each stay
+    /// is one event, that of entering.)
+    bool counts_vertices = true;
 
     Rgb extinction() const { return absorption + scattering; }
 };

@@ -31,6 +31,9 @@ struct ConductorMaterial {
 struct DielectricMaterial {
     float ior = 1.5f;
     Roughness roughness;
+    /// Of the medium inside, where a walk enters it: the albedo that the walk finds there until it enters anew, over
+    /// that of the medium; -1: 1.
+    TextureId relative_albedo = -1;
 };
 
 struct CoatedDiffuseMaterial {

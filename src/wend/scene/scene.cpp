@@ -104,6 +104,14 @@ std::optional<Hit> Scene::intersect(const Ray& ray, float distance) const {
     }
 }
 
+std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {
+    const auto* boundary = std::get_if<DielectricMaterial>(&material(hit));
+    if (!boundary || boundary->relative_albedo < 0) {
+        return std::nullopt;
+    }
+    return d_.textures.evaluate(boundary->relative_albedo, {hit.uv, hit.position});
+}
+
 Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {
     return caster_->normal_change(hit, displacement);
 }

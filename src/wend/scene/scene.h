@@ -108,6 +108,9 @@ public:
     }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
     Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, {hit.uv, hit.position}); }
+    /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
+    /// does not say.
+    std::optional<Rgb> relative_albedo(const Hit& hit) const;
     /// The medium on the side of the surface that `w` points to, given the one the walk is in.
     MediumId medium_beyond(const Hit& hit, const Vec3& w, MediumId current) const {
         if (!hit.surface->bounds_medium()) {
@@ -118,6 +121,11 @@ public:
 
     const Medium& medium(MediumId id) const { return d_.media[static_cast<std::size_t>(id)]; }
     const std::vector<Medium>& media() const { return d_.media; }
+    /// Whether what a walk meets in this medium, or in vacuum, counts towards its largest depth.
+    bool counts_vertices_in(MediumId id) const {
+        const auto* inside = id != vacuum ? std::get_if<HomogeneousMedium>(&medium(id)) : nullptr;
+        return !inside || inside->counts_vertices;
+    }
     /// What the scene was built from.
     const SceneDescription& description() const { return d_; }
     const Camera& camera() const { return d_.camera; }

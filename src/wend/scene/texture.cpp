@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/scene/texture.h>
+#include <wend/theory/albedo_inversion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,14 @@ Rgb Textures::evaluate(TextureId id, const TexturePoint& p) const {
         const Rgb value = bilinear(*i, i->mapping(p)) * i->scale;
         return i->invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b))
                          : value;
+    }
+    if (const auto* a = std::get_if<RelativeAlbedoTexture>(&texture)) {
+        const Rgb reflectance = evaluate(a->reflectance, p);
+        Rgb relative;
+        for (int c = 0; c < 3; ++c) {
+            relative[c] = a->albedo[c] > 0 ? (*a->albedo_of)(reflectance[c]) / a->albedo[c] : 0.0f;
+        }
+        return relative;
     }
     const auto& board = std::get<CheckerboardTexture>(texture);
     bool odd;

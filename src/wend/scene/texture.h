@@ -12,6 +12,8 @@
 
 namespace wend {
 
+class AlbedoInversion;
+
 /// What a texture is evaluated at.
 struct TexturePoint {
     Vec2 uv;
@@ -65,7 +67,15 @@ struct CheckerboardTexture {
     AffineMap texture_from_world;
 };
 
-using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageTexture, CheckerboardTexture>;
+/// The albedo that gives a medium the colour of another texture, over the medium's own.
+struct RelativeAlbedoTexture {
+    TextureId reflectance = 0;
+    std::shared_ptr<const AlbedoInversion> albedo_of;
+    Rgb albedo;
+};
+
+using Texture =
+    std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageTexture, CheckerboardTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {

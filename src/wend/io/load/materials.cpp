@@ -1,9 +1,9 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
-#include <wend/io/load/subsurface.h>
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
+#include <wend/theory/albedo_inversion.h>
 
 #include <fmt/format.h>
 
@@ -87,12 +87,14 @@ private:
     }
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
-        return {DielectricMaterial{load_ior(entity.parameters, 1.33f), load_roughness(entity.parameters, "")},
-                load_inside(entity)};
+        DielectricMaterial boundary{load_ior(entity.parameters, 1.33f), load_roughness(entity.parameters, "")};
+        const HomogeneousMedium inside = load_inside(entity, boundary);
+        return {boundary, inside};
     }
 
-    /// pbrt's four ways to say what is inside: by name, by coefficients, by colour and mean free path, or not at all.
-    HomogeneousMedium load_inside(const pbrt::MaterialEntity& entity) {
+    /// pbrt's four ways to say what is inside: by name, by coefficients, by colour and mean free path, or not at all. A
+    /// colour that varies goes to the boundary.
+    HomogeneousMedium load_inside(const pbrt::MaterialEntity& entity, DielectricMaterial& boundary) {
         const pbrt::ParameterSet& p = entity.parameters;
         HomogeneousMedium medium;
         float g = load_mean_cosine(context_, p);
@@ -111,33 +113,41 @@ private:
             medium.absorption = mean_of(p, "sigma_a", *absorption) * scale;
             medium.scattering = mean_of(p, "sigma_s", *scattering) * scale;
         } else if (const auto reflectance = textures_.find_colour(p, "reflectance", SpectrumKind::reflectance)) {
-            const Rgb colour = mean_of(p, "reflectance", *reflectance);
-            const Rgb mean_free_path =
-                mean_of(
-                    p, "mfp",
-                    textures_.find_colour(p, "mfp", SpectrumKind::unbounded).value_or(textures_.constant(Rgb(1.0f)))) *
-                scale;
-            for (int c = 0; c < 3; ++c) {
-                if (!(mean_free_path[c] > 0)) {
-                    throw InputError(p.place_of("mfp"), "the mean free path must be above 0");
-                }
-                const float albedo = albedo_of_reflectance(colour[c], g);
-                medium.scattering[c] = albedo / mean_free_path[c];
-                medium.absorption[c] = (1 - albedo) / mean_free_path[c];
+            const auto albedo_of = std::make_shared<AlbedoInversion>(g, boundary.ior);
+            const Rgb colour = textures_.mean(*reflectance);
+            const Rgb albedo((*albedo_of)(colour.r), (*albedo_of)(colour.g), (*albedo_of)(colour.b));
+            const Rgb extinction = Rgb(1.0f) / load_mean_free_path(p, scale);
+            medium.scattering = albedo * extinction;
+            medium.absorption = (Rgb(1.0f) - albedo) * extinction;
+            if (textures_.varies(*reflectance)) {
+                boundary.relative_albedo = textures_.relative_albedo(*reflectance, albedo_of, albedo);
             }
         } else {
             medium.absorption = Rgb(0.0011f, 0.0024f, 0.014f) * scale;
             medium.scattering = Rgb(2.55f, 3.21f, 3.77f) * scale;
         }
         medium.phase = PhaseFunction(HenyeyGreenstein{g});
+        medium.counts_vertices = false;
         return medium;
     }
 
+    Rgb load_mean_free_path(const pbrt::ParameterSet& p, float scale) {
+        const auto given = textures_.find_colour(p, "mfp", SpectrumKind::unbounded);
+        const Rgb mean_free_path = (given ? mean_of(p, "mfp", *given) : Rgb(1.0f)) * scale;
+        for (int c = 0; c < 3; ++c) {
+            if (!(mean_free_path[c] > 0)) {
+                throw InputError(p.place_of("mfp"), "the mean free path must be above 0");
+            }
+        }
+        return mean_free_path;
+    }
+
     Rgb mean_of(const pbrt::ParameterSet& p, std::string_view name, TextureId texture) {
-        if (p.type_of(name) == pbrt::ParameterType::texture) {
+        if (textures_.varies(texture)) {
             context_.warnings.add(
                 p.place_of(name),
-                fmt::format("what is inside an object is the same everywhere: the mean of the texture \"{}\" is taken",
+                fmt::format("only the \"reflectance\" of what is inside an object can vary: the mean of the texture "
+                            "\"{}\" is taken",
                             name));
         }
         return textures_.mean(texture);

@@ -32,6 +32,13 @@ public:
                                          SpectrumKind kind);
     std::optional<TextureId> find_real(const pbrt::ParameterSet& parameters, std::string_view name);
 
+    /// The albedo that colours a medium of the given one by a texture, over its own.
+    TextureId relative_albedo(TextureId reflectance, std::shared_ptr<const AlbedoInversion> albedo_of,
+                              const Rgb& albedo) {
+        return textures_.add(RelativeAlbedoTexture{reflectance, std::move(albedo_of), albedo});
+    }
+
+    bool varies(TextureId id) const { return !textures_.constant(id); }
     /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
     Rgb mean(TextureId id) const;
 
