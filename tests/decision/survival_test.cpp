@@ -20,6 +20,13 @@ TEST(ClassicalSurvival, EnteringADenserMediumDoesNotEndWalks) {
     EXPECT_FLOAT_EQ(ClassicalSurvival().after_direction({Rgb(1 / 2.25f), 1, 2.25f, 2}), 1);
 }
 
+TEST(ClassicalSurvival, SparesGuidedWalksUntilLittleIsLeft) {
+    EXPECT_EQ(guided_walks_end.after_direction({Rgb(0.13f), 1, 1, 5}), 1);
+    EXPECT_FLOAT_EQ(guided_walks_end.after_direction({Rgb(0.05f), 1, 1, 5}), 0.4f);
+    // What a guide's densities took from the throughput does not count.
+    EXPECT_EQ(guided_walks_end.after_direction({Rgb(0.05f), 3, 1, 5}), 1);
+}
+
 /// Continuations in the mean, each counted with the weight it goes on with.
 struct Continuations {
     double weight = 0, copies = 0;
@@ -68,16 +75,16 @@ TEST(AdjointSurvival, LeavesToTheWeightWhatItMayNotJudge) {
     EXPECT_TRUE(mean_continuations(AdjointSurvival(false, true), 3.0f).judged);
     EXPECT_FALSE(mean_continuations(AdjointSurvival(true, false), 3.0f).judged);
     EXPECT_TRUE(mean_continuations(AdjointSurvival(true, false), 0.1f).judged);
-    const WalkState state{Rgb(0.2f), 1, 1, 3};
-    EXPECT_EQ(AdjointSurvival(true, true).after_direction(state), ClassicalSurvival().after_direction(state));
+    const WalkState state{Rgb(0.02f), 1, 1, 3};
+    EXPECT_EQ(AdjointSurvival(true, true).after_direction(state), guided_walks_end.after_direction(state));
 }
 
 TEST(AdjointSurvival, EndsButTheWorthlessOfThoseThatAreJudgedElsewhere) {
     const AdjointSurvival survival(true, true);
     EXPECT_EQ(survival.after_direction({Rgb(0.2f), 1, 1, 3, true}), 1);
     EXPECT_FLOAT_EQ(survival.after_direction({Rgb(1e-6f), 1, 1, 3, true}), 0.01f);
-    const WalkState state{Rgb(0.2f), 1, 1, 3, true};
-    EXPECT_EQ(AdjointSurvival(false, true).after_direction(state), ClassicalSurvival().after_direction(state));
+    const WalkState state{Rgb(0.02f), 1, 1, 3, true};
+    EXPECT_EQ(AdjointSurvival(false, true).after_direction(state), guided_walks_end.after_direction(state));
 }
 
 }  // namespace

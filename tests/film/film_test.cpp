@@ -176,6 +176,27 @@ TEST(Film, WeightsOfStagesDoNotDarkenThePicture) {
     EXPECT_FALSE(agrees(naive, 1, 5)) << naive.mean();
 }
 
+TEST(Film, AStageThatLacksLightCountsLess) {
+    // In the first stage nearly all light comes with values that are too rare to have come yet: it seems to vary little.
+    constexpr int side = 64, samples = 16;
+    Film film({side, side}, {{0, 0}, {side, side}});
+    Pcg32 random(4);
+    for (int stage = 0; stage < 2; ++stage) {
+        for (int k = 0; k < side * side * samples; ++k) {
+            const float u = random.uniform();
+            film.add({k % side, k / side % side}, sample_of(Rgb(stage == 0 ? 0.1f * (0.5f + u) : 2 * u)));
+        }
+        if (stage == 0) {
+            film.begin_stage();
+        }
+    }
+    double mean = 0;
+    for (const Rgb& pixel : film.beauty().pixels) {
+        mean += static_cast<double>(pixel.g) / (side * side);
+    }
+    EXPECT_NEAR(mean, 1, 0.01);
+}
+
 TEST(Film, AStageOfOneSampleCountsAsTheOneBefore) {
     Film film({2, 1}, {{0, 0}, {2, 1}});
     for (const float value : {1.0f, 3.0f}) {

@@ -2,6 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
+#include <wend/guide/lobe_fit.h>
 
 #include <gtest/gtest.h>
 
@@ -475,6 +476,30 @@ TEST(Fit, OneFreakAmongManyDoesNotTakeOver) {
     records[5000].radiance *= 1e6f;
     const Field field = trained(records, one_cell());
     EXPECT_LT(test::divergence(target(), field.find({0, 0, 0})->mixture()), 0.03);
+}
+
+TEST(Fit, AForgottenFreakIsNoMeasureOfWhatFollows) {
+    // What is left has squares below the range of single precision.
+    LobeModel model = initial_lobes(2);
+    std::array<LobeSums, max_lobes> sums{};
+    sums[0].weight = 1e-24f;
+    sums[0].direction = Vec3(0, 0, 1e-24f);
+    EXPECT_TRUE(is_valid(maximization(sums, model, {}, 1).mixture));
+
+    const auto ordinary = [](std::uint64_t seed) {
+        Records records = records_of(target(), 20000, seed, true);
+        for (Record& r : records) {
+            r.radiance *= 1e-15f;
+        }
+        return records;
+    };
+    Records first = ordinary(1);
+    first[7].radiance = 1e15f;
+    Field field = trained(first, one_cell());
+    for (std::uint64_t pass = 2; pass < 40; ++pass) {
+        field = fit(field, ordinary(pass), one_cell(), 1).field;
+        ASSERT_TRUE(is_valid(field.find({0.5f, 0.5f, 0.5f})->mixture())) << pass;
+    }
 }
 
 TEST(Fit, SurvivesExtremeNumbers) {

@@ -12,7 +12,7 @@ namespace wend {
 namespace {
 
 // The optical depth to which cells are told apart.
-constexpr float deepest = 12;
+constexpr float deepest = 50;
 
 float into_unit(float u) {
     return std::clamp(u, 0.0f, 0x1.fffffep-1f);

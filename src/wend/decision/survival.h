@@ -37,9 +37,14 @@ concept SurvivalDecision = requires(const D& d, std::optional<float> ratio, int 
 };
 
 /// Classical roulette: survive in proportion to the throughput that unguided directions would have left, once the walk
-/// has made a start.
+/// has made a start and has less than `ends_below` of it.
 class ClassicalSurvival {
 public:
+    /// Ends walks as absorption would, from their first loss on.
+    constexpr ClassicalSurvival() = default;
+    /// In (0,1].
+    constexpr explicit ClassicalSurvival(float ends_below) : ends_below_(ends_below) {}
+
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_boost = 1e4f;
 
@@ -51,9 +56,17 @@ public:
         if (state.depth <= 1) {
             return 1;
         }
-        return std::min(1.0f, max_value(state.throughput) * std::min(state.boost, max_boost) * state.index_scale);
+        return std::min(
+            1.0f, max_value(state.throughput) * std::min(state.boost, max_boost) * state.index_scale / ends_below_);
     }
+
+private:
+    float ends_below_ = 1;
 };
+
+/// Classical roulette of a guided walk. It is on its way to light, and to end it at its first losses would be a noise
+/// that its directions had just avoided: an eighth is the best in six scenes (docs/theory/survival.md).
+inline constexpr ClassicalSurvival guided_walks_end{1.0f / 8};
 
 /// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known. Of walks that
 /// are judged elsewhere that ends but the worthless: what it lets through would come back with many times its weight.
@@ -71,15 +84,14 @@ public:
         return window.sample(*ratio, random);
     }
     float after_direction(const WalkState& state) const {
-        const float classical = ClassicalSurvival().after_direction(state);
-        return roulette_ && state.is_judged_elsewhere ? std::min(1.0f, classical / worthless) : classical;
+        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end).after_direction(state);
     }
 
 private:
-    static constexpr float worthless = 1e-4f;
     bool roulette_, splitting_;
     /// An estimate learned from noise calls too much worthless: what survives a less likely roulette would stand out.
     WeightWindow window_{.least = 0.5};
+    ClassicalSurvival worthless_walks_end_{1e-4f};
 };
 
 static_assert(SurvivalDecision<ClassicalSurvival>);

@@ -104,35 +104,50 @@ Image Film::filled_from(std::size_t half, double weight) const {
     return image;
 }
 
-Film::Halves Film::relative_variances(const Halves& weights) const {
-    Halves variances{0, 0};
+std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) const {
+    std::array<Comparison, 2> result;
     for (std::size_t half = 0; half < 2; ++half) {
         const std::vector<float> estimates =
             pixel_estimates(filled_from(half, weights[half]), static_cast<int>(pixels_.front().samples()));
-        double sum = 0, count = 0;
+        double variance = 0, now = 0, before = 0, count = 0, samples = 0, earlier_samples = 0;
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Pixel& p = pixels_[i];
             const double scale = static_cast<double>(estimates[i]);
             if (half_of(i) == half && p.count > 1 && scale > 0) {
-                sum += (p.variance(0) + p.variance(1) + p.variance(2)) / (scale * scale);
+                variance += (p.variance(0) + p.variance(1) + p.variance(2)) / (scale * scale);
+                now += (p.sum[0] + p.sum[1] + p.sum[2]) / (p.count * scale);
+                if (p.earlier_weight > 0) {
+                    before += (p.earlier_sum[0] + p.earlier_sum[1] + p.earlier_sum[2]) / (p.earlier_weight * scale);
+                }
+                samples += p.count;
+                earlier_samples += p.earlier_count;
                 ++count;
             }
         }
-        variances[half] = count > 0 ? sum / count : 0;
+        if (count == 0) {
+            continue;
+        }
+        result[half].variance = variance / count;
+        // All stages have the same mean. What is missing in a sum of n samples comes once in n of them, or more seldom.
+        constexpr double channels = 3;
+        const double missing =
+            (now - before) / (channels * count) - 2 * std::sqrt(result[half].variance / (channels * samples));
+        result[half].lack = missing > 0 ? channels * earlier_samples * missing * missing : 0;
     }
-    return variances;
+    return result;
 }
 
 Film::Halves Film::stage_weights() const {
     if (earlier_weights_[0] == 0) {
         return {1, 1};
     }
-    const Halves variances = relative_variances(earlier_weights_);
+    const std::array<Comparison, 2> shown = compare_stages(earlier_weights_);
     Halves weights = earlier_weights_;
     for (std::size_t half = 0; half < 2; ++half) {
-        const std::size_t other = 1 - half;
-        if (variances[other] > 0) {
-            weights[half] = std::max(weights[half], first_variances_[other] / variances[other]);
+        const Comparison& other = shown[1 - half];
+        if (other.variance > 0) {
+            weights[half] = std::max({weights[half], first_variances_[1 - half] / other.variance,
+                                      earlier_weights_[half] * other.lack / other.variance});
         }
     }
     return weights;
@@ -141,7 +156,8 @@ Film::Halves Film::stage_weights() const {
 void Film::begin_stage() {
     const Halves weights = stage_weights();
     if (earlier_weights_[0] == 0) {
-        first_variances_ = relative_variances(weights);
+        const std::array<Comparison, 2> shown = compare_stages(weights);
+        first_variances_ = {shown[0].variance, shown[1].variance};
     }
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         Pixel& p = pixels_[i];

@@ -34,9 +34,10 @@ struct PixelRect {
 /// Sums of samples, pixel by pixel. Two threads must not add to the same pixel.
 ///
 /// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, and no less than
-/// the one before: by few samples, noise that comes with rare values is easily missed. So that no sample has a say in
-/// its own weight, which would darken the picture, the pixels are divided like the fields of a chess board, and those
-/// of one colour are weighted by the variance among the other.
+/// the one before: by few samples, noise that comes with rare values is easily missed. What earlier stages clearly lack
+/// of the light of the last one is such noise, and makes them count less. So that no sample has a say in its own weight,
+/// which would darken the picture, the pixels are divided like the fields of a chess board, and those of one colour are
+/// weighted by what the other shows.
 class Film {
 public:
     /// Throws InputError if the crop window is empty, outside the picture, or larger than max_pixels.
@@ -101,8 +102,12 @@ private:
     Image beauty(const Halves& weights) const;
     /// The picture as the pixels of one half tell it.
     Image filled_from(std::size_t half, double weight) const;
-    /// Variance of one sample of this stage over the squared picture, in each half by itself.
-    Halves relative_variances(const Halves& weights) const;
+    /// What one half of the pixels tells of this stage and those before, relative to the picture.
+    struct Comparison {
+        double variance = 0;  ///< of one sample of this stage, summed over the channels
+        double lack = 0;      ///< the least variance that earlier samples must have for the light that they lack
+    };
+    std::array<Comparison, 2> compare_stages(const Halves& weights) const;
     Halves stage_weights() const;
 
     Pixel& at(const Vec2i& p) {

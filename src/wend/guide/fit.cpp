@@ -168,7 +168,7 @@ private:
             return {};
         }
         Statistics& statistics = memory_of(cell).statistics;
-        statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+        statistics = statistics.in_unit(statistics.unit_with(view.unit));
         std::array<LobeSums, max_lobes> earlier = statistics.lobe_sums();
         const LobeLearning learning(settings_, view.unit / statistics.unit * static_cast<double>(stride), seen.radius);
         const LearnedLobes learned = learning.learn(start(region), earlier, view.observations);
@@ -247,7 +247,7 @@ private:
         LobeModel model{region.mixture(), region.inverse_distance()};
         LobeColours colours = region.colours();
         if (!view.observations.empty()) {
-            statistics = statistics.in_unit(std::max(view.unit, statistics.unit));
+            statistics = statistics.in_unit(statistics.unit_with(view.unit));
             const LobeLearning learning(settings_, view.unit / statistics.unit, memory.radius);
             const LearnedLobes learned =
                 learning.learn_by_sample(start(region), statistics.lobe_sums(), view.observations);

@@ -134,7 +134,8 @@ LobeModel maximization(const std::array<LobeSums, max_lobes>& sums, const LobeMo
         weight_square += s.weight_square;
     }
     WEND_EXPECT(weight > 0);
-    const double records = weight * weight / weight_square;
+    // Squares of what is left beside a freak that has been forgotten may be too small for single precision.
+    const double records = weight_square > 0 ? weight * weight / weight_square : 1.0;
 
     LobeModel model;
     std::array<WeightedVmf, max_lobes> lobes{};

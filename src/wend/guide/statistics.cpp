@@ -110,4 +110,12 @@ Statistics Statistics::in_unit(double other) const {
     return s;
 }
 
+double Statistics::unit_with(double mean_weight) const {
+    double remembered = 0;
+    for (const KeptLobeSums& lobe : lobes) {
+        remembered += static_cast<double>(lobe.weight);
+    }
+    return std::max(mean_weight, unit * std::min(1.0, remembered));
+}
+
 }  // namespace wend::guide

@@ -83,6 +83,10 @@ struct Statistics {
     Statistics share(double share) const;
     /// The lobes in another unit, which must be positive.
     Statistics in_unit(double other) const;
+    /// A unit for new records of this mean weight, which must be positive, on top of what is remembered: neither may
+    /// become so small that single precision loses its squares. A freak would else be the unit long after it has been
+    /// forgotten.
+    double unit_with(double mean_weight) const;
 };
 
 }  // namespace wend::guide

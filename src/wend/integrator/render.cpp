@@ -93,7 +93,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             }
             run_guided(AdjointSurvival(preset.roulette, preset.splitting));
         } else if (!preset.is_classical()) {
-            run_guided(ClassicalSurvival());
+            run_guided(guided_walks_end);
         } else {
             run_with(ClassicalDecisions{});
         }
