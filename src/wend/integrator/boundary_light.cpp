@@ -1,8 +1,10 @@
 #include <wend/integrator/boundary_light.h>
+#include <wend/integrator/scattering.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace wend {
 namespace {
@@ -36,45 +38,65 @@ public:
         : scene_(scene), point_(point), frame_(Frame::from_z(point.normal)), boundary_(boundary.bsdf()) {}
 
     void add_sample(Pcg32& random) {
-        const LightReceiver receiver{point_.position, point_.normal};
-        const float u = random.uniform();
-        const Vec2 u2 = random.uniform2();
-        const ChosenLight chosen =
-            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
-        if (chosen.index < 0) {
+        const auto seen = see_light({point_.position, point_.normal}, random);
+        const float cosine = seen ? dot(seen->light.direction, point_.normal) : 0.0f;
+        if (!(cosine > 0)) {
             return;
         }
-        const auto light =
-            sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], point_.position, u2, random);
-        const float cosine = light ? dot(light->direction, point_.normal) : 0.0f;
-        if (!(cosine > 0) || scene_.is_occluded(spawn_ray(point_.position, point_.normal, light->direction),
-                                                light->distance * (1 - 1e-3f))) {
-            return;
-        }
-        const float brought = mean_value(light->radiance) * cosine / (light->density * chosen.probability);
+        const LightSample& light = seen->light;
+        const float brought = mean_value(light.radiance) * cosine / seen->density;
         if (!std::isfinite(brought)) {
             return;
         }
         irradiance_ += brought;
         // Walks cannot find what only connections reach, unless they can be connected at the boundary.
-        if (light->point_like && boundary_.is_specular()) {
+        if (light.point_like && boundary_.is_specular()) {
             return;
         }
         for (int k = 0; k < refractions; ++k) {
-            const auto s = boundary_.sample(frame_.to_local(light->direction), random.uniform(), random.uniform2());
+            const auto s = boundary_.sample(frame_.to_local(light.direction), random.uniform(), random.uniform2());
             if (!s || s->direction.z > 0) {
                 continue;
             }
             // Of radiance a square of the index is lost to the BSDF, and regained by the walk that looks out.
             const float transmitted = sqr(boundary_.ior) * mean_value(s->value) / s->density;
             const float fluence = brought * transmitted / (refractions * std::max(least_cosine, -s->direction.z));
-            Refracted& sum = by_light_[chosen.index];
+            Refracted& sum = by_light_[seen->index];
             sum.fluence += fluence;
             sum.towards -= frame_.to_world(s->direction) * fluence;
         }
     }
 
+    /// Looks outwards for light that does not come straight from lights.
+    void look_around(Pcg32& random) {
+        const Vec3 w = frame_.to_world(to_cosine_hemisphere(random.uniform2()));
+        const std::optional<Hit> hit = scene_.intersect(spawn_ray(point_.position, point_.normal, w));
+        const MediumId outside = scene_.camera_medium();
+        if ((hit ? scene_.medium_beyond(*hit, -w, outside) : outside) != vacuum) {
+            ++unknown_;
+            return;
+        }
+        if (!hit) {
+            return;
+        }
+        if (scene_.is_interface(*hit)) {
+            ++unknown_;
+            return;
+        }
+        const SurfaceScattering f(scene_.bsdf(*hit), hit->shading, w);
+        if (f.is_specular() || f.reflects_or_refracts()) {
+            ++unknown_;
+            return;
+        }
+        if (const auto seen = see_light({hit->position, hit->normal}, random)) {
+            const float radiance = mean_value(f.evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
+            reflected_ += std::isfinite(radiance) ? std::numbers::pi_v<float> * radiance : 0.0f;
+        }
+    }
+
     float irradiance(int samples) const { return irradiance_ / static_cast<float>(samples); }
+    float reflected(int looks) const { return reflected_ / static_cast<float>(looks); }
+    float unknown(int looks) const { return static_cast<float>(unknown_) / static_cast<float>(looks); }
 
     /// The strongest lamps; lights that are close to each other, such as triangles of a mesh, are one.
     void write_lamps(int samples, LitPoint& lit) const {
@@ -114,6 +136,30 @@ public:
     }
 
 private:
+    struct SeenLight {
+        int index;
+        LightSample light;
+        float density;  ///< of the choice and the sample
+    };
+
+    /// One of the lights, if nothing stands before it.
+    std::optional<SeenLight> see_light(const LightReceiver& receiver, Pcg32& random) const {
+        const float u = random.uniform();
+        const Vec2 u2 = random.uniform2();
+        const ChosenLight chosen =
+            std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene_.light_sampler());
+        if (chosen.index < 0) {
+            return std::nullopt;
+        }
+        const auto light =
+            sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
+        if (!light || scene_.is_occluded(spawn_ray(receiver.position, receiver.normal, light->direction),
+                                         light->distance * (1 - 1e-3f))) {
+            return std::nullopt;
+        }
+        return SeenLight{chosen.index, *light, light->density * chosen.probability};
+    }
+
     // What is so wide that the diffuse light does as well.
     static constexpr float least_kappa = 4;
     // Cosine between lights that are taken for one.
@@ -135,6 +181,8 @@ private:
     Frame frame_;
     DielectricBsdf boundary_;
     float irradiance_ = 0;
+    float reflected_ = 0;
+    int unknown_ = 0;
     std::map<int, Refracted> by_light_;
 };
 
@@ -145,6 +193,9 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     std::vector<LitPoint> result;
     const float diameter = length(bounds_of(points).size());
     const std::vector<float> curvatures = mean_curvatures(points);
+    std::vector<float> unknown;  // by point, the share of ways outwards that it may come from
+    // Looks around from a point.
+    constexpr int looks = 16;
     float total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const BoundaryPoint& point = points[i];
@@ -153,13 +204,19 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
         for (int k = 0; k < samples; ++k) {
             light.add_sample(random);
         }
-        result.push_back({point, curvatures[i], light.irradiance(samples), thickness, 0});
+        for (int k = 0; k < looks; ++k) {
+            light.look_around(random);
+        }
+        result.push_back({point, curvatures[i], light.irradiance(samples) + light.reflected(looks), thickness, 0});
         light.write_lamps(samples, result.back());
         total += result.back().irradiance;
+        unknown.push_back(light.unknown(looks));
     }
-    const float least = total > 0 ? 0.02f * total / static_cast<float>(result.size()) : 1.0f;
-    for (LitPoint& lit : result) {
-        lit.irradiance += least;
+    // Beside what is known of the light. In the shadow of a shield even a little more would lead all walks astray.
+    constexpr float mean_of_unknown = 0.02f, never_nothing = 1e-20f;
+    const float mean = total > 0 ? total / static_cast<float>(result.size()) : 1 / never_nothing;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i].irradiance += mean * (mean_of_unknown * unknown[i] + never_nothing);
     }
     for (LitPoint& lit : result) {
         const Vec3 behind = lit.point.position - lit.point.normal * lit.thickness;

@@ -15,7 +15,7 @@ namespace wend {
 struct LitPoint {
     BoundaryPoint point;
     float curvature = 0;          ///< of the boundary, its mean (mean_curvatures)
-    float irradiance = 0;         ///< of light from outside
+    float irradiance = 0;         ///< of light from outside, directly or reflected once
     float thickness = 0;          ///< of the object, straight inwards
     float irradiance_behind = 0;  ///< where that way leaves the object
     /// Lights outside that walks may run into, or be connected to at the boundary; the strongest come first.
@@ -31,8 +31,9 @@ struct BoundarySurface {
     DielectricBsdf bsdf() const { return {ior, alpha, alpha}; }
 };
 
-/// Points with the irradiance by lights outside, directly, as a scalar; never quite 0, for the light that comes
-/// otherwise. Ways that leave an open object count as its diameter.
+/// Points with the irradiance by lights outside and by what reflects it, as a scalar. Where a point sees a medium or a
+/// boundary that refracts, from where more may come, a little is added; else it may be next to nothing. Ways that leave
+/// an open object count as its diameter.
 std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
                                  const BoundarySurface& boundary, int samples, Pcg32& random);
 
