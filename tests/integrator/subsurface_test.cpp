@@ -101,6 +101,28 @@ TEST(GuidedSlab, HasLessVarianceThanClassicalSampling) {
     EXPECT_LT(dwivedi * dwivedi, classical * classical / 4);
 }
 
+TEST(GuidedSlab, LeadsThroughAShieldThatABillionthPasses) {
+    // Twenty mean free paths of albedo 1/2, between a white sky and a black wall; the value by analytic discrete
+    // ordinates, the 2.06e-9 of light that never collides included.
+    constexpr double transmittance = 1.0479658e-8;
+    SceneDescription s;
+    const MediumId medium = test::add_homogeneous(s, Rgb(10.0f), Rgb(10.0f), 0);
+    test::add_box(s, Box3(Vec3(-3, -3, 0), Vec3(3, 3, 1)), test::add_interface(s), medium);
+    test::add_parallelogram(s, {-1e5f, -1e5f, -0.5f}, {2e5f, 0, 0}, {0, 2e5f, 0}, test::add_diffuse(s, Rgb(0.0f)));
+    test::add_environment(s, Rgb(1.0f));
+    const Scene scene(std::move(s));
+    const auto through = [&](const char* strategy) {
+        return test::measure_radiance(scene, {{0.3f, 0.1f, -0.2f}, {0, 0, 1}}, 400000, 100000, 1,
+                                      parse_subsurface(strategy));
+    };
+    for (const char* strategy : {"incident", "learned", "auto"}) {
+        const Measured m = through(strategy);
+        EXPECT_LT(m.standard_error, 0.03 * transmittance) << strategy;
+        EXPECT_TRUE(agrees(m.mean, m.standard_error, transmittance, 4, 0)) << strategy << ' ' << m.mean;
+    }
+    EXPECT_GT(through("classical").standard_error, 0.3 * transmittance) << "not a billionth";
+}
+
 struct Object {
     const char* name;
     float g, ior, roughness;
