@@ -61,10 +61,58 @@ TEST(LitPoints, SeeLampsThroughTheBoundary) {
         EXPECT_NEAR(lamp.fluence, 0.2f * expected, 0.15f * 0.2f * expected);
         EXPECT_GT(lamp.lobe.kappa, 100);
         EXPECT_FLOAT_EQ(lamp.peak, vmf_peak(lamp.lobe.kappa));
-        // The least irradiance is that of light that comes otherwise.
         EXPECT_GT(p.irradiance, 0.85f * irradiance);
     }
     EXPECT_GT(seen, points / 4);
+}
+
+/// A ball high above the floor, if there is one, in sunlight.
+SceneDescription ball_in_the_sun(float reflectance) {
+    SceneDescription s;
+    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), medium);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_interface(s), medium);
+    s.lights.push_back(DistantLight{normalize(Vec3(1, 1, 0)), Rgb(2.0f)});
+    if (reflectance > 0) {
+        test::add_parallelogram(s, {-1e4f, -20, -1e4f}, {0, 0, 2e4f}, {2e4f, 0, 0},
+                                test::add_diffuse(s, Rgb(reflectance)));
+    }
+    return s;
+}
+
+TEST(LitPoints, KnowWhatIsReflectedOntoThem) {
+    constexpr float reflectance = 0.6f;
+    const Scene scene(ball_in_the_sun(reflectance));
+    const float reflected = reflectance * 2 * std::sqrt(0.5f);
+    double found = 0, expected = 0;
+    for (const LitPoint& p : lit(scene, {1, 0})) {
+        const Vec3& n = p.point.normal;
+        if (n.x + n.y < -0.1f) {
+            found += p.irradiance;
+            // The floor fills the part of the hemisphere around n that is below the horizon.
+            expected += reflected * (1 - n.y) / 2;
+        }
+    }
+    EXPECT_NEAR(found, expected, 0.04 * expected);
+}
+
+TEST(LitPoints, ExpectNextToNothingWhereNoLightCanCome) {
+    int dark = 0;
+    const Scene alone(ball_in_the_sun(0));
+    for (const LitPoint& p : lit(alone, {1, 0})) {
+        EXPECT_GT(p.irradiance, 0);
+        if (p.point.normal.x + p.point.normal.y < -0.1f) {
+            EXPECT_LT(p.irradiance, 1e-15f);
+            ++dark;
+        }
+    }
+    EXPECT_GT(dark, points / 4);
+    // Fog around it scatters light to every side.
+    SceneDescription fog = ball_in_the_sun(0);
+    fog.camera_medium = test::add_homogeneous(fog, Rgb(0.0f), Rgb(0.1f));
+    const Scene hazy(std::move(fog));
+    for (const LitPoint& p : lit(hazy, {1, 0})) {
+        EXPECT_GT(p.irradiance, 0.005f);
+    }
 }
 
 TEST(LitPoints, BlurLampsByTheRoughnessOfTheBoundary) {
