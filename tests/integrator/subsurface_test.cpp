@@ -189,19 +189,19 @@ TEST(GuidedObject, MayHoldALampAndOtherObjects) {
     const MediumId inner = test::add_homogeneous(s, {1, 0.5f, 0.2f}, Rgb(12.0f));
     test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.4f, 0.2f), outer);
     test::add_sphere(s, {0.3f, 0.2f, -0.3f}, 0.35f, test::add_dielectric(s, 1.2f), inner, outer);
-    test::add_lamp(s, {-0.6f, 0.1f, -0.4f}, 0.3f, Rgb(20.0f), test::add_diffuse(s, Rgb(0.4f)));
+    test::add_lamp(s, {-0.6f, 0.1f, -0.4f}, 0.5f, Rgb(5.0f), test::add_diffuse(s, Rgb(0.4f)));
     s.surfaces.back().interior = s.surfaces.back().exterior = outer;
-    test::add_environment(s, Rgb(0.1f));
+    test::add_environment(s, Rgb(0.5f));
     const Scene scene(std::move(s));
     const Ray ray{{0.1f, 0.1f, -4}, {0, 0, 1}};
-    constexpr int walks = 200000;
+    constexpr int walks = 60000;
     const Measured classical = test::measure_radiance(scene, ray, walks);
     for (const char* strategy : guided) {
         const Measured m = test::measure_radiance(scene, ray, walks, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
         EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
             << strategy << ": " << m.mean << " and " << classical.mean << " +- " << error;
-        EXPECT_LT(4 * error, 0.08 * classical.mean) << strategy;
+        EXPECT_LT(4 * error, 0.1 * classical.mean) << strategy;
     }
 }
 
