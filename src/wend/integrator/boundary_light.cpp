@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 namespace wend {
 namespace {
@@ -67,29 +68,26 @@ public:
         }
     }
 
-    /// Looks outwards for light that does not come straight from lights.
+    /// Looks outwards for light that is reflected once. It is not known what comes through media and boundaries, or from
+    /// mirrors.
     void look_around(Pcg32& random) {
         const Vec3 w = frame_.to_world(to_cosine_hemisphere(random.uniform2()));
         const std::optional<Hit> hit = scene_.intersect(spawn_ray(point_.position, point_.normal, w));
         const MediumId outside = scene_.camera_medium();
-        if ((hit ? scene_.medium_beyond(*hit, -w, outside) : outside) != vacuum) {
-            ++unknown_;
+        const bool is_clear = (hit ? scene_.medium_beyond(*hit, -w, outside) : outside) == vacuum;
+        if (is_clear && !hit) {
             return;
         }
-        if (!hit) {
-            return;
+        std::optional<SurfaceScattering> f;
+        if (is_clear && !scene_.is_interface(*hit)) {
+            f.emplace(scene_.bsdf(*hit), hit->shading, w);
         }
-        if (scene_.is_interface(*hit)) {
-            ++unknown_;
-            return;
-        }
-        const SurfaceScattering f(scene_.bsdf(*hit), hit->shading, w);
-        if (f.is_specular() || f.reflects_or_refracts()) {
+        if (!f || f->is_specular() || f->reflects_or_refracts()) {
             ++unknown_;
             return;
         }
         if (const auto seen = see_light({hit->position, hit->normal}, random)) {
-            const float radiance = mean_value(f.evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
+            const float radiance = mean_value(f->evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
             reflected_ += std::isfinite(radiance) ? std::numbers::pi_v<float> * radiance : 0.0f;
         }
     }
@@ -193,8 +191,7 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     std::vector<LitPoint> result;
     const float diameter = length(bounds_of(points).size());
     const std::vector<float> curvatures = mean_curvatures(points);
-    std::vector<float> unknown;  // by point, the share of ways outwards that it may come from
-    // Looks around from a point.
+    std::vector<float> unknown;  // by point, the share of ways outwards on which light may come that is not known
     constexpr int looks = 16;
     float total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {

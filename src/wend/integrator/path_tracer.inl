@@ -323,15 +323,6 @@ private:
     /// Roulette after the direction is drawn.
     bool survives(bool is_judged_elsewhere);
 
-    void note_reflection(const SurfaceScattering& f, const DirectionSample& s) {
-        if (reflections_ && f.reflects_or_refracts()) {
-            const Vec3 normal = faced(*hit_);
-            const ReflectionRecord record =
-                tracer_.reflections_.record({hit_->position, normal}, dot(s.direction, normal) > 0, 0);
-            now_.boundary = boundaries_.note(now_.boundary, record, mean_value(now_.throughput) / s.boost);
-        }
-    }
-
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
     float preference(bool in_volume) const { return in_volume ? now_.connecting.preference : 1.0f; }
@@ -396,52 +387,14 @@ private:
         result_.sample.depth = now_.travelled;
     }
 
-    // What the walk multiplies and adds, told to the log as well.
-    void weigh(const Rgb& weight) {
-        now_.throughput *= weight;
-        if (log_) {
-            log_->weigh(weight);
-        }
-    }
-    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {}) {
-        bring(now_.throughput * radiance, slope);
-        if (log_) {
-            log_->gather(radiance);
-        }
-    }
-    void glow(const Rgb& radiance, float distance) {
-        bring(now_.throughput * radiance, {});
-        if (log_) {
-            log_->glow(radiance, distance);
-        }
-    }
-    void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
-        radiance_ += light;
-        boundaries_.bring(now_.boundary, mean_value(light));
-        if (Stay* const stay = last_stay()) {
-            update_stay();
-            stay->bring(mean_value(light), slope.value_or(StaySlope{now_.relative, 0}));
-        }
-    }
-    void meet() {
-        if (log_) {
-            log_->meet(now_.travelled);
-        }
-    }
-    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
-        now_.throughput *= s.weight();
-        if (log_) {
-            if (in_volume && !now_.is_told) {
-                log_->weigh(s.weight());
-            } else {
-                log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
-                              s.classical_density, s.guided_density);
-            }
-            // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
-            log_->weigh({now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f,
-                         now_.throughput.b > 0 ? 1.0f : 0.0f});
-        }
-    }
+    // What the walk multiplies and adds, and tells those that learn from it.
+    void weigh(const Rgb& weight);
+    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {});
+    void glow(const Rgb& radiance, float distance);
+    void bring(const Rgb& light, const std::optional<StaySlope>& slope);
+    void meet();
+    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume);
+    void note_reflection(const SurfaceScattering& f, const DirectionSample& s);
 
     static constexpr int max_pending = 64;
     /// For each flight out to a lamp.
@@ -471,6 +424,7 @@ private:
 
 #include <wend/integrator/walk_connections.inl>
 #include <wend/integrator/walk_directions.inl>
+#include <wend/integrator/walk_lessons.inl>
 #include <wend/integrator/walk_stays.inl>
 
 namespace wend {
