@@ -62,9 +62,9 @@ public:
     }
 
 private:
-    /// Through grids only the first flights are guided. Later ones would gain less than the cells on their way cost
+    /// Through grids only the first flight is guided. Later ones would gain less than the cells on their way cost
     /// (docs/theory/distance.md).
-    static constexpr int guided_in_grids = 2;
+    static constexpr int guided_in_grids = 1;
     /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
     /// next.
     static constexpr float share_in_grids = 0.5f;
