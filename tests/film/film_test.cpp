@@ -177,7 +177,8 @@ TEST(Film, WeightsOfStagesDoNotDarkenThePicture) {
 }
 
 TEST(Film, AStageThatLacksLightCountsLess) {
-    // In the first stage nearly all light comes with values that are too rare to have come yet: it seems to vary little.
+    // In the first stage nearly all light comes with values that are too rare to have come yet: it seems to vary
+    // little.
     constexpr int side = 64, samples = 16;
     Film film({side, side}, {{0, 0}, {side, side}});
     Pcg32 random(4);

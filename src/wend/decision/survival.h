@@ -84,7 +84,8 @@ public:
         return window.sample(*ratio, random);
     }
     float after_direction(const WalkState& state) const {
-        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end).after_direction(state);
+        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end)
+            .after_direction(state);
     }
 
 private:

@@ -35,9 +35,9 @@ struct PixelRect {
 ///
 /// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, and no less than
 /// the one before: by few samples, noise that comes with rare values is easily missed. What earlier stages clearly lack
-/// of the light of the last one is such noise, and makes them count less. So that no sample has a say in its own weight,
-/// which would darken the picture, the pixels are divided like the fields of a chess board, and those of one colour are
-/// weighted by what the other shows.
+/// of the light of the last one is such noise, and makes them count less. So that no sample has a say in its own
+/// weight, which would darken the picture, the pixels are divided like the fields of a chess board, and those of one
+/// colour are weighted by what the other shows.
 class Film {
 public:
     /// Throws InputError if the crop window is empty, outside the picture, or larger than max_pixels.

@@ -68,8 +68,8 @@ public:
         }
     }
 
-    /// Looks outwards for light that is reflected once. It is not known what comes through media and boundaries, or from
-    /// mirrors.
+    /// Looks outwards for light that is reflected once. It is not known what comes through media and boundaries, or
+    /// from mirrors.
     void look_around(Pcg32& random) {
         const Vec3 w = frame_.to_world(to_cosine_hemisphere(random.uniform2()));
         const std::optional<Hit> hit = scene_.intersect(spawn_ray(point_.position, point_.normal, w));
@@ -87,7 +87,8 @@ public:
             return;
         }
         if (const auto seen = see_light({hit->position, hit->normal}, random)) {
-            const float radiance = mean_value(f->evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
+            const float radiance =
+                mean_value(f->evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
             reflected_ += std::isfinite(radiance) ? std::numbers::pi_v<float> * radiance : 0.0f;
         }
     }

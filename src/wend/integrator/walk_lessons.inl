@@ -56,8 +56,8 @@ void PathTracer<Decisions>::Walk::scatter_into(const DirectionSample& s, const V
         if (in_volume && !now_.is_told) {
             log_->weigh(s.weight());
         } else {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume,
-                          s.classical_density, s.guided_density);
+            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, s.classical_density,
+                          s.guided_density);
         }
         // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
         log_->weigh({now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f,
