@@ -255,21 +255,28 @@ TEST(PathRecords, LeaveOutMirrorsButNotWhatTheyShow) {
     EXPECT_FLOAT_EQ(records.surface()[0].radiance, 3);
 }
 
-TEST(PathRecords, AreAppendedInOrder) {
+TEST(PathRecords, AreJoinedInOrder) {
     const Path path = random_tree(20, true, 1), more = random_tree(30, true, 2);
     PathRecords together, first, second;
     together.add(path);
     together.add(more);
     first.add(path);
     second.add(more);
-    first.append(second);
-    ASSERT_EQ(first.surface().size(), together.surface().size());
-    ASSERT_EQ(first.volume().size(), together.volume().size());
-    for (std::size_t i = 0; i < first.surface().size(); ++i) {
-        EXPECT_EQ(first.surface()[i].position, together.surface()[i].position);
-    }
-    first.clear();
-    EXPECT_TRUE(first.surface().empty() && first.volume().empty());
+    PathRecords joined = PathRecords::joined({first, second});
+    EXPECT_EQ(joined.size(), path.size() + more.size());
+    const auto expect_same = [](const auto& records, const auto& expected) {
+        ASSERT_EQ(records.size(), expected.size());
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            EXPECT_EQ(records[i].position, expected[i].position);
+        }
+    };
+    expect_same(joined.surface(), together.surface());
+    expect_same(joined.volume(), together.volume());
+    expect_same(joined.surface_scattered(), together.surface_scattered());
+    expect_same(joined.volume_scattered(), together.volume_scattered());
+    joined.clear();
+    EXPECT_EQ(joined.size(), 0u);
+    EXPECT_TRUE(joined.surface().empty() && joined.volume().empty());
 }
 
 TEST(PathRecords, TakeHintsAfterWhatTheWalkDrew) {

@@ -208,6 +208,50 @@ TEST(Render, FollowsAGivenFieldWithoutTeachingItWhereToldSo) {
     EXPECT_NE(fluence_after(15), given);
 }
 
+TEST(Render, TellsNoMoreThanItsBudget) {
+    const Scene scene(foggy_room());
+    constexpr double most = 3000;
+    struct Told {
+        std::vector<double> records;
+        std::vector<Vec3> places;
+        Image picture;
+    };
+    const auto told_by = [&](int threads, double budget) {
+        Told told;
+        RenderSettings settings;
+        settings.preset = parse_preset("full");
+        settings.samples = 31;
+        settings.seed = 1;
+        settings.threads = threads;
+        settings.most_records = budget;
+        settings.on_records = [&](std::span<const guide::PathRecords> parts) {
+            double count = 0;
+            for (const guide::PathRecords& part : parts) {
+                count += static_cast<double>(part.size());
+                for (const guide::ScatterRecord& record : part.volume_scattered()) {
+                    told.places.push_back(record.position);
+                }
+            }
+            told.records.push_back(count);
+        };
+        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        render(scene, film, settings);
+        told.picture = film.beauty();
+        return told;
+    };
+    const Told told = told_by(1, most), again = told_by(2, most);
+    EXPECT_EQ(told.places, again.places);
+    EXPECT_EQ(told.picture.pixels, again.picture.pixels);
+    // The first pass guesses; from then on it is known how much a walk tells.
+    ASSERT_EQ(told.records.size(), 5u);
+    EXPECT_GT(told.records[0], 0);
+    for (std::size_t pass = 0; pass < told.records.size(); ++pass) {
+        EXPECT_LT(told.records[pass], 1.2 * most);
+    }
+    EXPECT_GT(told.records.back(), 0.8 * most);
+    EXPECT_GT(told_by(1, 1e9).records.back(), 2 * most) << "nothing had to be left out";
+}
+
 TEST(Render, StopsBetweenPassesWhenAsked) {
     const Scene scene(foggy_room());
     Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});

@@ -3,6 +3,7 @@
 #include <wend/core/contracts.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace wend::guide {
 
@@ -68,12 +69,24 @@ void PathRecords::add_hints(std::span<const Hint> hints, std::size_t most) {
     }
 }
 
-void PathRecords::append(const PathRecords& other) {
-    const auto extend = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-    extend(surface_, other.surface_);
-    extend(volume_, other.volume_);
-    extend(surface_scattered_, other.surface_scattered_);
-    extend(volume_scattered_, other.volume_scattered_);
+PathRecords PathRecords::joined(std::vector<PathRecords> parts) {
+    PathRecords all;
+    const auto take = [&](auto PathRecords::*kind) {
+        std::size_t count = 0;
+        for (const PathRecords& part : parts) {
+            count += (part.*kind).size();
+        }
+        (all.*kind).reserve(count);
+        for (PathRecords& part : parts) {
+            const auto records = std::exchange(part.*kind, {});
+            (all.*kind).insert((all.*kind).end(), records.begin(), records.end());
+        }
+    };
+    take(&PathRecords::surface_);
+    take(&PathRecords::volume_);
+    take(&PathRecords::surface_scattered_);
+    take(&PathRecords::volume_scattered_);
+    return all;
 }
 
 }  // namespace wend::guide

@@ -114,8 +114,11 @@ public:
     /// Appends the records of hints of a walk, of more than `most` the first ones.
     void add_hints(std::span<const Hint> hints, std::size_t most = std::numeric_limits<std::size_t>::max());
 
-    /// Appends the records of another producer.
-    void append(const PathRecords& other);
+    /// The records of all producers, in the order given; each one's memory is free as soon as they are taken.
+    static PathRecords joined(std::vector<PathRecords> parts);
+
+    /// Of vertices, those without a density included.
+    std::size_t size() const { return surface_scattered_.size() + volume_scattered_.size(); }
 
     /// Forgets the records and keeps their memory.
     void clear() {

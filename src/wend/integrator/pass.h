@@ -16,6 +16,7 @@ struct Tile {
     PixelRect pixels;
     WalkCounts counts;
     guide::PathRecords records;
+    std::int64_t recorded = 0;  ///< walks, in this pass
     StayMoments stays;
     std::vector<LightRecord> lights;
     std::vector<ReflectionRecord> reflections;
@@ -27,7 +28,7 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
             tiles.push_back(
-                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}, {}});
+                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, 0, {}, {}, {}});
         }
     }
     return tiles;
@@ -41,6 +42,8 @@ struct PassPlan {
     bool record_stays;
     bool record_lights;
     bool record_reflections;
+    /// Of the walks, those whose vertices are recorded.
+    double recorded_share;
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
 };
@@ -80,21 +83,24 @@ private:
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
-        WalkResult result = tracer_.trace(
-            ray, estimate(pixel), sampler,
-            {plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
-             plan_.record_lights ? &tile.lights : nullptr, plan_.record_reflections ? &tile.reflections : nullptr});
+        const bool is_recorded = records_walk(number, index);
+        WalkResult result =
+            tracer_.trace(ray, estimate(pixel), sampler,
+                          {is_recorded && plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
+                           is_recorded && plan_.record_lights ? &tile.lights : nullptr,
+                           is_recorded && plan_.record_reflections ? &tile.reflections : nullptr});
         for (const Stay& stay : std::exchange(stays, {})) {
             subsurface_.count(stay, tile.stays);
         }
         ++tile.counts.paths;
+        tile.recorded += is_recorded ? 1 : 0;
         tile.counts.segments += result.sample.segments;
         if (!is_finite(result.sample.radiance)) {
             ++tile.counts.rejected;
             film_.reject(pixel);
             return;
         }
-        if (plan_.record) {
+        if (is_recorded && plan_.record) {
             // More vertices of one walk say little that is new: they are correlated.
             constexpr std::size_t most_records = 64;
             tile.records.add(log.vertices(), most_records);
@@ -102,6 +108,12 @@ private:
         }
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
+    }
+
+    /// By a number of its own: what a walk does must not depend on whether it is recorded.
+    bool records_walk(std::uint64_t pixel, int index) const {
+        constexpr std::uint64_t purpose = 0x7265636f7264;
+        return Pcg32(hash_of(settings_.seed, pixel, index, purpose)).uniform_double() < plan_.recorded_share;
     }
 
     float estimate(const Vec2i& pixel) const {

@@ -1,6 +1,7 @@
 #include <wend/core/parallel.h>
 #include <wend/film/pixel_estimate.h>
 #include <wend/integrator/pass.h>
+#include <wend/integrator/record_budget.h>
 #include <wend/integrator/render.h>
 #include <wend/integrator/schedule.h>
 #include <wend/integrator/training.h>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace wend {
 
@@ -56,6 +58,8 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
     LightChoices lights(scene);
     ReflectionChoices reflections(scene.bounds());
+    RecordBudget budget(settings.most_records);
+    const double pixels = static_cast<double>(film.crop().width()) * film.crop().height();
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
@@ -69,6 +73,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                       !subsurface.is_empty() && learning,
                       preset.direction && lights.learns() && learning,
                       (preset.direction || !subsurface.is_empty()) && learning,
+                      budget.share(count * pixels),
                       {}};
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene, film, settings, decisions, subsurface, lights, reflections, plan);
@@ -102,13 +107,18 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
         if (plan.record) {
             const Clock::time_point training_start = Clock::now();
             std::vector<guide::PathRecords> records(tiles.size());
+            std::size_t told = 0;
+            std::int64_t recorded = 0;
             for (std::size_t i = 0; i < tiles.size(); ++i) {
                 records[i] = std::exchange(tiles[i].records, {});
+                told += records[i].size();
+                recorded += std::exchange(tiles[i].recorded, 0);
             }
+            budget.learn(static_cast<double>(recorded), static_cast<double>(told));
             if (settings.on_records) {
                 settings.on_records(records);
             }
-            fields = learn(fields, records, settings.threads);
+            fields = learn(fields, std::move(records), settings.threads);
             statistics.training_seconds += seconds_since(training_start);
         }
         if (plan.record_stays) {

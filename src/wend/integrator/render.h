@@ -31,6 +31,8 @@ struct RenderSettings {
     std::shared_ptr<const GuidingFields> fields;
     /// Samples per pixel that the fields learn from: from then on they would change little. 0: they stay as given.
     int training_samples = 63;
+    /// About so many vertices of each pass teach the fields; positive. Of more walks, some are not recorded.
+    double most_records = 2e6;
     /// Is shown what the walks of each pass told the field, in the order of the picture's tiles; may be empty.
     std::function<void(std::span<const guide::PathRecords>)> on_records;
     SamplerKind sampler = SamplerKind::sobol;

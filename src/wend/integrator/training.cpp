@@ -3,13 +3,12 @@
 #include <wend/guide/scatter_fit.h>
 #include <wend/integrator/training.h>
 
+#include <utility>
+
 namespace wend {
 
-GuidingFields learn(const GuidingFields& fields, std::span<const guide::PathRecords> records, int threads) {
-    guide::PathRecords all;
-    for (const guide::PathRecords& part : records) {
-        all.append(part);
-    }
+GuidingFields learn(const GuidingFields& fields, std::vector<guide::PathRecords> records, int threads) {
+    const guide::PathRecords all = guide::PathRecords::joined(std::move(records));
     const auto next = [&](const guide::Field& field, const guide::Records& arrived,
                           const guide::ScatterRecords& scattered) {
         const guide::FitSettings settings;

@@ -4,7 +4,7 @@
 #include <wend/guide/field.h>
 #include <wend/guide/path_records.h>
 
-#include <span>
+#include <vector>
 
 namespace wend {
 
@@ -17,6 +17,6 @@ struct GuidingFields {
 };
 
 /// The next fields, learned from the records of all producers in the order given.
-GuidingFields learn(const GuidingFields& fields, std::span<const guide::PathRecords> records, int threads);
+GuidingFields learn(const GuidingFields& fields, std::vector<guide::PathRecords> records, int threads);
 
 }  // namespace wend
