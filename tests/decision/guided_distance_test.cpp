@@ -27,8 +27,14 @@ public:
         float brightness = 0;
         float trust = 1;
         guide::NearLight near;
-        float in_scattered_from_afar(const Vec3&, const PhaseFunction&) const { return brightness; }
-        float in_scattered(const Vec3&, const PhaseFunction&) const { return brightness; }
+        template <class Phase>
+        float in_scattered_from_afar(const Vec3&, const Phase&) const {
+            return brightness;
+        }
+        template <class Phase>
+        float in_scattered(const Vec3&, const Phase&) const {
+            return brightness;
+        }
     };
     struct Everywhere {
         float density(const Vec3&) const { return inv_4pi; }

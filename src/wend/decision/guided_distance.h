@@ -44,16 +44,13 @@ public:
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        const auto* here = looks_ahead(medium, start) ? volume_->scattered_light(start.ray.origin) : nullptr;
-        if (!here) {
+        if (!looks_ahead(medium, start)) {
             return classical_.sample(medium, start, u, random);
         }
-        // What the guide is not trusted with is added to the classical flights.
-        const float share = 1 - (1 - classical_share_) * here->trust;
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-            return fly(*homogeneous, start, share, u);
+            return fly(*homogeneous, start, u);
         }
-        return fly(std::get<GridMedium>(medium), start, 1 - (1 - share) * share_in_grids, random);
+        return fly(std::get<GridMedium>(medium), start, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -69,28 +66,16 @@ private:
     /// next.
     static constexpr float share_in_grids = 0.5f;
 
-    Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float share, float u) const {
+    /// What the guide is not trusted with is added to the classical flights.
+    float classical_share(float trust) const { return 1 - (1 - classical_share_) * trust; }
+
+    Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
-        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
-            const Vec3& before = start.ray.direction;
-            if (light.near.intensity > 0) {
-                const ClosestApproach approach(start.ray, light.near.position, light.near.extent_squared);
-                const float afar = light.in_scattered_from_afar(before, medium.phase);
-                if (approach.is_about_as_far(t_in, t_out)) {
-                    const float fluence = light.near.intensity * approach.mean_inverse_square(t_in, t_out);
-                    const float cosine = approach.cosine(0.5f * (t_in + t_out));
-                    return pieces.add(t_out, afar + fluence * medium.phase.evaluate(cosine));
-                }
-                if (pieces.has_room_for_near()) {
-                    const Equiangular along(approach, t_in, t_out);
-                    pieces.add_near(along, light.near.intensity * medium.phase.evaluate(along.cosine()));
-                    return pieces.add(t_out, afar);
-                }
-            }
-            return pieces.add(t_out, light.in_scattered(before, medium.phase));
-        });
+        float trust = 0;
+        // The kind of phase function is asked for once, not in every cell.
+        medium.phase.visit([&](const auto& phase) { trust = look_along(start, phase, pieces); });
         pieces.finish(start.length, ahead(start), levels());
-        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? share : 1.0f, u);
+        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share(trust) : 1.0f, u);
         Flight flight;
         flight.scatters = outcome.scatters;
         flight.distance = outcome.distance;
@@ -102,8 +87,37 @@ private:
         return flight;
     }
 
-    Flight fly(const GridMedium& medium, const FlightStart& start, float share, Pcg32& random) const {
-        GuidedTracking tracking(medium, start, share);
+    /// How far the cell at the beginning is to be trusted.
+    template <class Phase>
+    float look_along(const FlightStart& start, const Phase& phase, FlightPieces& pieces) const {
+        const Vec3& before = start.ray.direction;
+        float trust = 0;
+        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
+            if (!(t_in > 0)) {
+                trust = light.trust;
+            }
+            if (light.near.intensity > 0) {
+                const ClosestApproach approach(start.ray, light.near.position, light.near.extent_squared);
+                const float afar = light.in_scattered_from_afar(before, phase);
+                if (approach.is_about_as_far(t_in, t_out)) {
+                    const float fluence = light.near.intensity * approach.mean_inverse_square(t_in, t_out);
+                    const float cosine = approach.cosine(0.5f * (t_in + t_out));
+                    return pieces.add(t_out, afar + fluence * phase.evaluate(cosine));
+                }
+                if (pieces.has_room_for_near()) {
+                    const Equiangular along(approach, t_in, t_out);
+                    pieces.add_near(along, light.near.intensity * phase.evaluate(along.cosine()));
+                    return pieces.add(t_out, afar);
+                }
+            }
+            return pieces.add(t_out, light.in_scattered(before, phase));
+        });
+        return trust;
+    }
+
+    Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
+        const auto* here = volume_->scattered_light(start.ray.origin);
+        GuidedTracking tracking(medium, start, here ? classical_share(share_in_grids * here->trust) : 1.0f);
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;
@@ -121,7 +135,8 @@ private:
         }
         if (end.kind == FlightEnd::Kind::interface) {
             const auto* adjoint = volume_->find(end.position);
-            return end.emitted + adjoint->fluence() * adjoint->incident(end.position).density(start.ray.direction);
+            return end.emitted +
+                   (adjoint ? adjoint->fluence() * adjoint->incident(end.position).density(start.ray.direction) : 0.0f);
         }
         return end.emitted;
     }

@@ -166,6 +166,7 @@ void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
     // One far side waits for each level of the tree at most.
     Part waiting[max_depth + 1];
     int count = 0;
+    const Vec3 inverse(1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z);
     Part part{0, t0, t1};
     for (;;) {
         const Node& node = nodes_[part.node];
@@ -182,8 +183,9 @@ void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
         const auto axis = static_cast<int>(node.axis);
         const float d = ray.direction[axis], distance = node.plane - ray.origin[axis];
         const std::uint32_t above = distance <= 0 ? 1 : 0;
-        // The side of the origin comes first; the other one only where the ray gets across.
-        const float t = d != 0 ? distance / d : -1.0f;
+        // The side of the origin comes first; the other one only where the ray gets across: along the plane it is
+        // infinite or, within the plane, not a number.
+        const float t = distance * inverse[axis];
         const std::uint32_t near = node.child + above, far = node.child + 1 - above;
         if (!(t > 0) || t >= part.t_out) {
             const bool starts_on_plane_and_leaves = distance == 0 && d < 0;

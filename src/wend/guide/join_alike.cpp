@@ -11,18 +11,24 @@ namespace {
 /// How far fluence and flux of cells that are alike may lie from each other, over the mean fluence.
 constexpr float tolerance = 0.5f;
 
-/// The light of a subtree's cells: its mean over their volume, and between what values it varies.
+/// The light of a subtree's cells, and how far it is to be trusted: means over their volume, and between what values it
+/// varies.
 struct Light {
     /// Fluences of what was walked to and connected to, and the sum of the fluxes.
     using Values = std::array<float, 5>;
 
     double volume = 0;
     ArrivingLight walked, connected;
+    float trust = 0;
     Values least{}, most{};
     bool alike = true;
 
     Light(const ScatteredLight& light, double size)
-        : volume(size), walked(light.walked), connected(light.connected), alike(light.near.intensity == 0) {
+        : volume(size),
+          walked(light.walked),
+          connected(light.connected),
+          trust(light.trust),
+          alike(light.near.intensity == 0) {
         const Vec3 flux = walked.fluence * walked.mean + connected.fluence * connected.mean;
         least = most = {walked.fluence, connected.fluence, flux.x, flux.y, flux.z};
     }
@@ -30,6 +36,7 @@ struct Light {
         const auto part = static_cast<float>(volume > 0 ? a.volume / volume : 0.5);
         walked = mix(a.walked, b.walked, part);
         connected = mix(a.connected, b.connected, part);
+        trust = part * a.trust + (1 - part) * b.trust;
         for (std::size_t i = 0; i < least.size(); ++i) {
             least[i] = std::min(a.least[i], b.least[i]);
             most[i] = std::max(a.most[i], b.most[i]);
@@ -86,6 +93,7 @@ private:
             ScatteredLight& cell = field_.scattered_[node.child];
             cell.walked = light.walked;
             cell.connected = light.connected;
+            cell.trust = light.trust;
             return;
         }
         tell_all(node.child, light);

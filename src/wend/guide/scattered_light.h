@@ -51,15 +51,20 @@ struct ScatteredLight {
     /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
     float trust = 0;
 
-    /// ∫ p(before, ω) L(ω) dω, in radiance.
-    float in_scattered(const Vec3& before, const PhaseFunction& phase) const { return in_scattered(before, phase, 1); }
+    /// ∫ p(before, ω) L(ω) dω, in radiance. The phase function is a PhaseFunction or one of its kinds.
+    template <class Phase>
+    float in_scattered(const Vec3& before, const Phase& phase) const {
+        return in_scattered(before, phase, 1);
+    }
     /// The same without the near light's.
-    float in_scattered_from_afar(const Vec3& before, const PhaseFunction& phase) const {
+    template <class Phase>
+    float in_scattered_from_afar(const Vec3& before, const Phase& phase) const {
         return in_scattered(before, phase, 1 - near.share);
     }
 
 private:
-    float in_scattered(const Vec3& before, const PhaseFunction& phase, float share_of_connected) const {
+    template <class Phase>
+    float in_scattered(const Vec3& before, const Phase& phase, float share_of_connected) const {
         return walked.fluence * phase.blurred(before, walked.mean) +
                share_of_connected * connected.fluence * phase.blurred(before, connected.mean);
     }

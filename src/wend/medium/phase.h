@@ -94,6 +94,11 @@ public:
     double moment(int degree) const {
         return std::visit([&](const auto& p) { return p.moment(degree); }, kind_);
     }
+    /// Calls f with the function by its kind.
+    template <class F>
+    void visit(F&& f) const {
+        std::visit(f, kind_);
+    }
     /// ∫ p(before, ω) h(ω) dω for Henyey and Greenstein's function h around the direction of `mean`, whose mean cosine
     /// is the length of `mean`, less than 1.
     float blurred(const Vec3& before, const Vec3& mean) const {
