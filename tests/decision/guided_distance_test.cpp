@@ -59,6 +59,7 @@ public:
         }
     }
 
+    bool is_trained() const { return !lights_.empty(); }
     const Light* scattered_light(const Vec3& p) const { return lights_.empty() ? nullptr : &lights_[slice_of(p.x)]; }
     float leaving(const Vec3& p, const Vec3& normal) const {
         return lights_.empty() ? 0.0f : lights_[slice_of(p.x)].brightness * (normal.x < 0 ? 2.0f : 1.0f);

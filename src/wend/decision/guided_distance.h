@@ -15,6 +15,7 @@ namespace wend {
 /// Adjoints along rays: cells with the light that is scattered in them (guide::Field).
 template <class F>
 concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ray, const PhaseFunction& phase) {
+    { field.is_trained() } -> std::same_as<bool>;
     { field.scattered_light(p)->in_scattered(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->in_scattered_from_afar(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->near.intensity } -> std::convertible_to<float>;
@@ -44,7 +45,7 @@ public:
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (!looks_ahead(medium, start)) {
+        if (!looks_ahead(medium, start) || !volume_->is_trained()) {
             return classical_.sample(medium, start, u, random);
         }
         if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
@@ -116,8 +117,8 @@ private:
     }
 
     Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
-        const auto* here = volume_->scattered_light(start.ray.origin);
-        GuidedTracking tracking(medium, start, here ? classical_share(share_in_grids * here->trust) : 1.0f);
+        const float trust = volume_->scattered_light(start.ray.origin)->trust;
+        GuidedTracking tracking(medium, start, classical_share(share_in_grids * trust));
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;
@@ -135,8 +136,7 @@ private:
         }
         if (end.kind == FlightEnd::Kind::interface) {
             const auto* adjoint = volume_->find(end.position);
-            return end.emitted +
-                   (adjoint ? adjoint->fluence() * adjoint->incident(end.position).density(start.ray.direction) : 0.0f);
+            return end.emitted + adjoint->fluence() * adjoint->incident(end.position).density(start.ray.direction);
         }
         return end.emitted;
     }

@@ -40,6 +40,9 @@ public:
     /// A field that knows nothing yet about a scene of the given bounds, which must be finite and not empty.
     static Field empty(const Box3& bounds);
 
+    /// Whether the field has learned anything.
+    bool is_trained() const { return trained_; }
+
     /// The region of a position; null as long as the field has learned nothing. Positions outside the bounds belong to
     /// the nearest cells along the tree's planes.
     const Region* find(const Vec3& position) const;
