@@ -37,6 +37,7 @@ public:
         settings.seed = seed;
         settings.max_depth = max_depth_;
         settings.filter = filter_;
+        settings.most_records = 1e9;
         if (fields) {
             settings.fields = std::move(fields);
             settings.training_samples = 0;
