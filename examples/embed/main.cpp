@@ -19,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -218,7 +219,7 @@ Vec3 camera_direction(float x, float y) {
 /// sample, and records are put in the order of rows: so the result is the same for any number of threads.
 template <class Directions>
 PathRecords render(const Directions& directions, int first, int count, Picture& picture) {
-    std::array<PathRecords, height> rows;
+    std::vector<PathRecords> rows(height);
     wend::parallel_for(height, 0, [&](std::size_t row) {
         PathLog log;
         for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
@@ -233,11 +234,7 @@ PathRecords render(const Directions& directions, int first, int count, Picture& 
             }
         }
     });
-    PathRecords all;
-    for (const PathRecords& row : rows) {
-        all.append(row);
-    }
-    return all;
+    return PathRecords::joined(std::move(rows));
 }
 
 /// Over the picture: its pixels, and the squares of their standard errors.
