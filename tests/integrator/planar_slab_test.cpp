@@ -11,7 +11,7 @@ namespace {
 TEST(SlabReference, EveryRowIsMetByModes) {
     const std::vector<test::SlabReference> rows = test::slab_references();
     if (rows.empty()) {
-        GTEST_SKIP() << "the table of slab references is not here";
+        GTEST_SKIP() << "no table of slab references beside the checkout";
     }
     ASSERT_EQ(rows.size(), 36u);
     for (const test::SlabReference& row : rows) {

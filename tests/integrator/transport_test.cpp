@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Media, DiffuseReflectance,
 TEST(SlabReflectance, MatchesTheReferenceTable) {
     const std::vector<test::SlabReference> references = test::slab_references();
     if (references.empty()) {
-        GTEST_SKIP() << "the reference values are not beside the checkout";
+        GTEST_SKIP() << "no table of slab references beside the checkout";
     }
     int rows = 0;
     for (const test::SlabReference& row : references) {

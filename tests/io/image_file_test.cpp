@@ -296,7 +296,7 @@ TEST_F(ImageFile, FailingWriterKeepsTheOldFile) {
 TEST_F(ImageFile, ReadsTheTextureOfARealScene) {
     const fs::path file = test::shared_dir() / "scenes/veach-ajar/textures/cherry-wood-texture.tga";
     if (!fs::exists(file)) {
-        GTEST_SKIP() << "the collection of real scenes is absent";
+        GTEST_SKIP() << "no collection of scenes beside the checkout: " << file;
     }
     const Image image = read_image(file);
     EXPECT_GT(image.width, 100);

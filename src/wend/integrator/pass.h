@@ -16,7 +16,6 @@ struct Tile {
     PixelRect pixels;
     WalkCounts counts;
     guide::PathRecords records;
-    std::int64_t recorded = 0;  ///< walks, in this pass
     StayMoments stays;
     std::vector<LightRecord> lights;
     std::vector<ReflectionRecord> reflections;
@@ -28,7 +27,7 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
             tiles.push_back(
-                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, 0, {}, {}, {}});
+                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}, {}});
         }
     }
     return tiles;
@@ -93,7 +92,6 @@ private:
             subsurface_.count(stay, tile.stays);
         }
         ++tile.counts.paths;
-        tile.recorded += is_recorded ? 1 : 0;
         tile.counts.segments += result.sample.segments;
         if (!is_finite(result.sample.radiance)) {
             ++tile.counts.rejected;

@@ -59,12 +59,12 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     LightChoices lights(scene);
     ReflectionChoices reflections(scene.bounds());
     RecordBudget budget(settings.most_records);
-    const double pixels = static_cast<double>(film.crop().width()) * film.crop().height();
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
             break;
         }
+        const double walks = static_cast<double>(film.crop().width()) * film.crop().height() * count;
         const Preset& preset = settings.preset;
         const bool learning = statistics.samples < settings.training_samples;
         PassPlan plan{statistics.samples,
@@ -73,7 +73,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                       !subsurface.is_empty() && learning,
                       preset.direction && lights.learns() && learning,
                       (preset.direction || !subsurface.is_empty()) && learning,
-                      budget.share(count * pixels),
+                      budget.share(walks),
                       {}};
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene, film, settings, decisions, subsurface, lights, reflections, plan);
@@ -108,13 +108,11 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             const Clock::time_point training_start = Clock::now();
             std::vector<guide::PathRecords> records(tiles.size());
             std::size_t told = 0;
-            std::int64_t recorded = 0;
             for (std::size_t i = 0; i < tiles.size(); ++i) {
                 records[i] = std::exchange(tiles[i].records, {});
                 told += records[i].size();
-                recorded += std::exchange(tiles[i].recorded, 0);
             }
-            budget.learn(static_cast<double>(recorded), static_cast<double>(told));
+            budget.learn(plan.recorded_share * walks, static_cast<double>(told));
             if (settings.on_records) {
                 settings.on_records(records);
             }
