@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 
 namespace wend {
 namespace {
+
+constexpr double noisy = std::numeric_limits<double>::infinity();
 
 TEST(ClassicalSurvival, FollowsTheBrightestChannelAfterAStart) {
     const ClassicalSurvival survival;
@@ -47,7 +50,7 @@ Continuations mean_continuations(const AdjointSurvival& survival, std::optional<
 }
 
 TEST(AdjointSurvival, KeepsTheExpectedWeight) {
-    const AdjointSurvival survival(true, true);
+    const AdjointSurvival survival(true, true, noisy);
     for (const float ratio : {0.0f, 0.01f, 0.3f, 0.5f, 1.0f, 1.6f, 2.5f, 17.3f, 1e9f}) {
         const Continuations mean = mean_continuations(survival, ratio);
         ASSERT_TRUE(mean.judged);
@@ -60,8 +63,24 @@ TEST(AdjointSurvival, KeepsTheExpectedWeight) {
     EXPECT_NEAR(mean_continuations(survival, 1e-6f).copies, 0.5, 0.01);
 }
 
+TEST(AdjointSurvival, IsReluctantToEndWalksWhereSamplesVaryLittle) {
+    // A second moment of four times the variance halves the window's lower edge.
+    const AdjointSurvival quiet(true, true, 1.0 / 3);
+    EXPECT_NEAR(mean_continuations(quiet, 0.17f).copies, 1, 1e-9);
+    EXPECT_NEAR(mean_continuations(quiet, 0.16f).copies, 0.5, 0.01);
+    EXPECT_NEAR(mean_continuations(AdjointSurvival(true, true, noisy), 0.34f).copies, 1, 1e-9);
+    EXPECT_NEAR(mean_continuations(AdjointSurvival(true, true, noisy), 0.33f).copies, 0.5, 0.01);
+    // Splitting does not depend on it.
+    EXPECT_NEAR(mean_continuations(quiet, 2.5f).copies, 2.5, 0.02);
+    // What is worth a thirtieth is ended without any noise, or where that is not known.
+    for (const double variance : {0.0, 1e-6, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_NEAR(mean_continuations(AdjointSurvival(true, true, variance), 0.034f).copies, 1, 1e-9);
+        EXPECT_NEAR(mean_continuations(AdjointSurvival(true, true, variance), 0.033f).copies, 0.5, 0.01);
+    }
+}
+
 TEST(AdjointSurvival, LackOfRoomLowersTheSplittingAndDropsNothing) {
-    const AdjointSurvival survival(true, true);
+    const AdjointSurvival survival(true, true, noisy);
     for (const int room : {1, 3}) {
         const Continuations mean = mean_continuations(survival, 40.0f, room);
         EXPECT_NEAR(mean.copies, room, 1e-9);
@@ -70,21 +89,21 @@ TEST(AdjointSurvival, LackOfRoomLowersTheSplittingAndDropsNothing) {
 }
 
 TEST(AdjointSurvival, LeavesToTheWeightWhatItMayNotJudge) {
-    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, true), std::nullopt).judged);
-    EXPECT_FALSE(mean_continuations(AdjointSurvival(false, true), 0.1f).judged);
-    EXPECT_TRUE(mean_continuations(AdjointSurvival(false, true), 3.0f).judged);
-    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, false), 3.0f).judged);
-    EXPECT_TRUE(mean_continuations(AdjointSurvival(true, false), 0.1f).judged);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, true, noisy), std::nullopt).judged);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(false, true, noisy), 0.1f).judged);
+    EXPECT_TRUE(mean_continuations(AdjointSurvival(false, true, noisy), 3.0f).judged);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, false, noisy), 3.0f).judged);
+    EXPECT_TRUE(mean_continuations(AdjointSurvival(true, false, noisy), 0.1f).judged);
     const WalkState state{Rgb(0.02f), 1, 1, 3};
-    EXPECT_EQ(AdjointSurvival(true, true).after_direction(state), guided_walks_end.after_direction(state));
+    EXPECT_EQ(AdjointSurvival(true, true, noisy).after_direction(state), guided_walks_end.after_direction(state));
 }
 
 TEST(AdjointSurvival, EndsButTheWorthlessOfThoseThatAreJudgedElsewhere) {
-    const AdjointSurvival survival(true, true);
+    const AdjointSurvival survival(true, true, noisy);
     EXPECT_EQ(survival.after_direction({Rgb(0.2f), 1, 1, 3, true}), 1);
     EXPECT_FLOAT_EQ(survival.after_direction({Rgb(1e-6f), 1, 1, 3, true}), 0.01f);
     const WalkState state{Rgb(0.02f), 1, 1, 3, true};
-    EXPECT_EQ(AdjointSurvival(false, true).after_direction(state), guided_walks_end.after_direction(state));
+    EXPECT_EQ(AdjointSurvival(false, true, noisy).after_direction(state), guided_walks_end.after_direction(state));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <wend/decision/weight_window.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <optional>
 
@@ -72,8 +73,16 @@ inline constexpr ClassicalSurvival guided_walks_end{1.0f / 8};
 /// are judged elsewhere that ends but the worthless: what it lets through would come back with many times its weight.
 class AdjointSurvival {
 public:
-    /// With either of the two off, its side of the window is open.
-    AdjointSurvival(bool roulette, bool splitting) : roulette_(roulette), splitting_(splitting) {}
+    /// With either of the two off, its side of the window is open. `sample_variance`: of one sample of a pixel,
+    /// relative and as a mean over the picture, >= 0.
+    ///
+    /// Where it is low, roulette is reluctant. By rath2022 the probability that pays best follows the root of
+    /// what the rest of a walk has in second moment, over cost, relative to what a sample has in variance. The second
+    /// moment of a sample is 1 + V; taking its rest to have it too, all else being equal, leaves sqrt((1 + V) / V).
+    AdjointSurvival(bool roulette, bool splitting, double sample_variance)
+        : roulette_(roulette), splitting_(splitting) {
+        window_.low *= std::max(least_roulette, 1 / std::sqrt(1 + 1 / sample_variance));
+    }
 
     std::optional<WeightWindow::Outcome> before_direction(std::optional<float> ratio, int room, Pcg32& random) const {
         if (!ratio || (*ratio < window_.low && !roulette_) || (*ratio > window_.high && !splitting_)) {
@@ -89,6 +98,9 @@ public:
     }
 
 private:
+    /// Where there is no noise, walks have to end all the same.
+    static constexpr double least_roulette = 0.1;
+
     bool roulette_, splitting_;
     /// An estimate learned from noise calls too much worthless: what survives a less likely roulette would stand out.
     WeightWindow window_{.least = 0.5};

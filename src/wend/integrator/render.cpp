@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -96,7 +97,8 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             for (float& estimate : plan.estimates) {
                 estimate /= settings.exposure;
             }
-            run_guided(AdjointSurvival(preset.roulette, preset.splitting));
+            const double sample_variance = std::pow(film.relative_noise(), 2) * statistics.samples;
+            run_guided(AdjointSurvival(preset.roulette, preset.splitting, sample_variance));
         } else if (!preset.is_classical()) {
             run_guided(guided_walks_end);
         } else {

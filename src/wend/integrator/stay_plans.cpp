@@ -86,11 +86,12 @@ struct Advantage {
     double over_field = 0;  ///< that of variance times cost, if every unguided flight followed the learned field
 
     /// What is rarely found by classical sampling may long seem not to be there: while that is what guides are compared
-    /// with they are not given up.
+    /// with they are not given up. In the end a doubt is in favour of the field: what it has just learned is not seen
+    /// yet.
     bool is_loss(NextStays seen, NextStays next) const {
-        return next == NextStays::rendering
-                   ? efficiency < 0 && deviation < 0.5
-                   : seen == NextStays::beside_field && efficiency < -clear_advantage - deviation;
+        const bool beside_field = seen == NextStays::beside_field;
+        return next == NextStays::rendering ? efficiency < (beside_field ? deviation : 0) && deviation < 0.5
+                                            : beside_field && efficiency < -clear_advantage - deviation;
     }
 
     /// The share of unguided stays while both kinds are watched.

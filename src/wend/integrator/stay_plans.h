@@ -141,7 +141,7 @@ public:
     /// stays began in follow all others. Where no connection has ever succeeded, behind a boundary that refracts,
     /// hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
     /// weights. A few stays are left unguided, to compare variance times cost. Where that is clearly less for those
-    /// that follow the learned field all are from then on, and if `next` is rendering where it is less at all.
+    /// that follow the learned field all are from then on, and if `next` is rendering unless it is clearly more.
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
