@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace wend {
@@ -110,6 +111,78 @@ TEST(StayPlans, JudgeTheLearnedFieldByItsOwnStays) {
         EXPECT_FALSE(plans.plan(0).is_unguided_classical);
         lesson(spread, NextStays::rendering);
         EXPECT_EQ(plans.plan(0).unguided_probability, spread > 1 ? 0 : 1);
+    }
+}
+
+// What can happen in a stay, how likely by each technique, and what it is worth.
+struct Outcome {
+    std::array<float, 3> density;
+    float value;
+
+    float mixed(const SlabGuide::Shares& shares) const {
+        return shares[0] * density[0] + shares[1] * density[1] + shares[2] * density[2];
+    }
+    /// Drawn with these shares; what is weighted against connections does not fall where the density grows.
+    Stay drawn(const SlabGuide::Shares& shares, bool connected) const {
+        const float p = mixed(shares);
+        Stay stay{.medium = 0, .entry = Vec3(0.1f), .flights = 8};
+        stay.relative = {density[0] / p, density[1] / p, density[2] / p};
+        stay.bring(value / p, {connected ? SlabGuide::Shares{} : stay.relative, 0});
+        return stay;
+    }
+};
+
+TEST(StayMoments, TellTheErrorWithoutATechnique) {
+    const SlabGuide::Shares shares{0.2f, 0.5f, 0.3f};
+    const std::array<Outcome, 3> outcomes = {Outcome{{0.5f, 0.8f, 0.1f}, 2}, Outcome{{0.25f, 0.1f, 0.1f}, 0.3f},
+                                             Outcome{{0.25f, 0.1f, 0.8f}, 1}};
+    for (const bool connected : {false, true}) {
+        for (const std::size_t left_out : {1, 2}) {
+            SlabGuide::Shares others = shares;
+            others[left_out] = 0;
+            StayMoments moments;
+            double expected = 0;
+            for (const Outcome& outcome : outcomes) {
+                const Stay stay = outcome.drawn(shares, connected);
+                const int times = static_cast<int>(std::lround(100 * outcome.mixed(shares)));
+                for (int i = 0; i < times; ++i) {
+                    moments.add(0, stay, shares);
+                }
+                const double density = outcome.mixed(others) / (1 - shares[left_out]);
+                const double brought = connected ? stay.brought : outcome.value / density;
+                expected += density * (brought - 1) * (brought - 1);
+            }
+            EXPECT_NEAR(moments.of(0).at(0).errors_without[left_out] / 100, expected, 1e-5 * expected);
+        }
+    }
+}
+
+TEST(StayPlans, DropAStrategyThatOthersCanReplace) {
+    // Two strategies find the same half of what there is, or a half each.
+    for (const bool alike : {false, true}) {
+        StayPlans plans(box, {0.25f, 0.375f, 0.375f});
+        const std::array<Outcome, 3> outcomes = {Outcome{{0.1f, 0.9f, alike ? 0.9f : 0.05f}, 0.5f},
+                                                 Outcome{{0.1f, 0.05f, alike ? 0.05f : 0.9f}, 0.5f},
+                                                 Outcome{{0.8f, 0.05f, 0.05f}, 0.1f}};
+        const auto in_use = [&] {
+            return (plans.plan(0).shares[1] > 0 ? 1 : 0) + (plans.plan(0).shares[2] > 0 ? 1 : 0);
+        };
+        Pcg32 random(1);
+        for (int i = 0; i < 8; ++i) {
+            const SlabGuide::Shares shares = plans.plan(0).shares;
+            StayMoments moments;
+            for (int k = 0; k < 20000; ++k) {
+                float u = random.uniform();
+                std::size_t which = 0;
+                for (; which < 2 && u >= outcomes[which].mixed(shares); ++which) {
+                    u -= outcomes[which].mixed(shares);
+                }
+                moments.add(plans.cell_at(Vec3(0.1f)), plans.relative(outcomes[which].drawn(shares, false)), shares);
+            }
+            plans.learn(moments.of(0), NextStays::beside_classical);
+            EXPECT_TRUE(i > 0 || in_use() == 2) << "the first stays are not relative to anything";
+        }
+        EXPECT_EQ(in_use(), alike ? 1 : 2);
     }
 }
 

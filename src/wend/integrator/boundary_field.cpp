@@ -116,6 +116,10 @@ LayerPlace BoundaryField::View::layer() const {
             closest_.irradiance, closest_.irradiance_behind};
 }
 
+bool BoundaryField::sees_lamps() const {
+    return std::any_of(points_.begin(), points_.end(), [](const LitPoint& point) { return point.lamp_count > 0; });
+}
+
 LampView BoundaryField::View::lamps(const Rgb& returned, const Rgb& decay) const {
     const float depth = std::max(0.0f, depth_);
     LampView view{std::span(closest_.lamps).first(static_cast<std::size_t>(closest_.lamp_count)), depth,

@@ -31,6 +31,8 @@ public:
     View at(const Vec3& position) const;
     /// Over the whole boundary, that of its points.
     float mean_curvature() const;
+    /// Whether a lamp shines on any of its points.
+    bool sees_lamps() const;
 
 private:
     static constexpr int side = 24;

@@ -17,6 +17,11 @@ constexpr float least_guided = 0.02f;
 /// a walk makes beside a stay.
 constexpr double cost_of_guided_flight = 2.2, cost_of_field_flight = 2.5;
 constexpr double flights_outside = 2;
+/// What each strategy beside another takes of a guided flight's time; what is left of variance times cost where it is
+/// dropped for that; and by how many stays of equal weight they are compared.
+constexpr double cost_of_strategy = 0.1;
+constexpr double largest_without = 0.95;
+constexpr double enough_to_compare = 500;
 /// What a stay may count for, over what is expected.
 constexpr float most_expected = 30;
 /// How many stays elsewhere what is expected in a cell begins with.
@@ -143,6 +148,25 @@ Steps steps(const StayMoments::Sums& sums, const Steps& expected) {
     return result;
 }
 
+/// An estimate of the square of F - 1 without technique i, for a stay drawn with shares a_j. With x = p'/p of the
+/// densities without it and with it, it is x (F' - 1)². F' is F / x, but for what is weighted against connections: with
+/// b_j = -dF/da_j / F, whose mean b = Σ a_j b_j falls short of 1 by that, F / (1 - b + (b - a_i b_i) / (1 - a_i)).
+double error_without(std::size_t i, const Stay& stay, const SlabGuide::Shares& shares) {
+    const double share = shares[i], f = stay.brought;
+    if (!(share < 1)) {
+        return sqr(f - 1);
+    }
+    double falling = 0;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+        falling += static_cast<double>(shares[j] * stay.slope.shares[j]);
+    }
+    constexpr double least = 1e-2;
+    const double density = std::max(0.0, (1 - share * static_cast<double>(stay.relative[i])) / (1 - share));
+    const double weight =
+        f > 0 ? (f - falling + (falling - share * static_cast<double>(stay.slope.shares[i])) / (1 - share)) / f : 1.0;
+    return density * std::pow(f / std::max(weight, least) - 1, 2);
+}
+
 template <std::size_t n>
 void add_each(std::array<double, n>& to, const std::array<double, n>& from) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -154,6 +178,16 @@ void normalize(SlabGuide::Shares& shares) {
     const float total = std::accumulate(shares.begin(), shares.end(), 0.0f);
     for (float& share : shares) {
         share /= total;
+    }
+}
+
+/// Leaves a strategy out, unless it is the only one.
+void drop(std::size_t technique, SlabGuide::Shares& shares) {
+    SlabGuide::Shares others = shares;
+    others[technique] = 0;
+    if (std::any_of(others.begin() + 1, others.end(), [](float share) { return share > 0; })) {
+        normalize(others);
+        shares = others;
     }
 }
 
@@ -191,10 +225,11 @@ StayMoments::Sums& StayMoments::Sums::operator+=(const Sums& other) {
     add_each(slope_squares, other.slope_squares);
     preference_slope += other.preference_slope;
     preference_slope_squares += other.preference_slope_squares;
+    add_each(errors_without, other.errors_without);
     return *this;
 }
 
-void StayMoments::add(int cell, const Stay& stay) {
+void StayMoments::add(int cell, const Stay& stay, const SlabGuide::Shares& shares) {
     const double f = stay.brought;
     const Kind one{{1, f, f * f, f * f * f, f * f * f * f}, static_cast<double>(stay.flights)};
     if (!std::isfinite(one.powers[4])) {
@@ -216,7 +251,9 @@ void StayMoments::add(int cell, const Stay& stay) {
         sums.densities[i] = stay.relative[i];
         sums.slopes[i] = 2 * f * static_cast<double>(stay.slope.shares[i]) - f * f * sums.densities[i];
         sums.slope_squares[i] = sqr(sums.slopes[i]);
-        finite = finite && std::isfinite(sums.densities[i]) && std::isfinite(sums.slopes[i]);
+        sums.errors_without[i] = error_without(i, stay, shares);
+        finite = finite && std::isfinite(sums.densities[i]) && std::isfinite(sums.slopes[i]) &&
+                 std::isfinite(sums.errors_without[i]);
     }
     if (finite) {
         media_[stay.medium][cell] += sums;
@@ -282,10 +319,14 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
                                        : next == NextStays::rendering ? 0.0f
                                                                       : guided.share_for_watching();
     const Steps overall = steps(all, {});
+    const std::size_t dispensed_with = is_first ? 0 : dispensable(all);
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         StayPlan& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
+        if (dispensed_with > 0) {
+            drop(dispensed_with, plan.shares);
+        }
         plan.unguided_probability = unguided_probability;
         plan.is_unguided_classical = next == NextStays::beside_classical;
         plan.told_probability = guided.told_probability();
@@ -294,6 +335,32 @@ void StayPlans::learn(const std::map<int, StayMoments::Sums>& moments, NextStays
         plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
     }
     seen_ = next;
+}
+
+std::size_t StayPlans::dispensable(const StayMoments::Sums& all) const {
+    const auto [variance_of_all, count] = variance(all.guided);
+    if (!(count > enough_to_compare)) {
+        return 0;
+    }
+    const double n = all.guided.powers[0];
+    const double flights = cost_of_guided_flight * all.guided.flights / n;
+    const double offset = all.guided.powers[1] / n - 1;
+    double least = largest_without * variance_of_all * (flights_outside + flights);
+    std::size_t best = 0;
+    int in_use = 0;
+    for (std::size_t i = 1; i < all.densities.size(); ++i) {
+        if (std::none_of(plans_.begin(), plans_.end(), [i](const StayPlan& plan) { return plan.shares[i] > 0; })) {
+            continue;
+        }
+        ++in_use;
+        const double product =
+            (all.errors_without[i] / n - offset * offset) * (flights_outside + (1 - cost_of_strategy) * flights);
+        if (product < least) {
+            least = product;
+            best = i;
+        }
+    }
+    return in_use > 1 ? best : 0;
 }
 
 auto StayPlans::all_brought() const -> Brought {

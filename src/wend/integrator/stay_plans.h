@@ -85,8 +85,9 @@ struct StayPlan {
 /// for the first term, which is the less noisy the less F varies.
 class StayMoments {
 public:
-    /// Stays that are not finite say nothing.
-    void add(int cell, const Stay& stay);
+    /// `shares` are those that the stay was drawn with, if strategies are to be compared. Stays that are not finite say
+    /// nothing.
+    void add(int cell, const Stay& stay, const SlabGuide::Shares& shares = {});
     StayMoments& operator+=(const StayMoments& other);
 
     /// Of guided stays, or of others.
@@ -107,6 +108,7 @@ public:
         double preference_slope = 0;  ///< of F² with the logarithm of the preference
         PerTechnique slope_squares{};
         double preference_slope_squares = 0;
+        PerTechnique errors_without{};  ///< of (F - 1)² if a technique had no share
 
         Sums& operator+=(const Sums& other);
     };
@@ -139,9 +141,10 @@ public:
     /// `moments` by cell, of relative() stays. Moves the logarithms of each share, and of the preference, down the
     /// slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
     /// stays began in follow all others. Where no connection has ever succeeded, behind a boundary that refracts,
-    /// hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that bounds all
-    /// weights. A few stays are left unguided, to compare variance times cost. Where that is clearly less for those
-    /// that follow the learned field all are from then on, and if `next` is rendering unless it is clearly more.
+    /// hardly any is made. A strategy that has become useless is dropped, and so is one without which variance times
+    /// cost is less, as others do the same; classical sampling keeps a share that bounds all weights. A few stays are
+    /// left unguided, to compare variance times cost. Where that is clearly less for those that follow the learned
+    /// field all are from then on, and if `next` is rendering unless it is clearly more.
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
@@ -150,6 +153,9 @@ private:
     };
     /// Everywhere.
     Brought all_brought() const;
+    /// Of strategies that the others can do without, the first technique whose loss is the greatest gain; 0 if there is
+    /// none.
+    std::size_t dispensable(const StayMoments::Sums& all) const;
     /// Learns what stays bring.
     void expect(const std::map<int, StayMoments::Sums>& moments);
 

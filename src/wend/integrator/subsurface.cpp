@@ -160,7 +160,7 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
             });
         }
         const auto lit = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::learned);
-        guide.lit = lit != strategies_.end() ? static_cast<int>(lit - strategies_.begin()) : -1;
+        guide.lit = lit != strategies_.end() && field->sees_lamps() ? static_cast<int>(lit - strategies_.begin()) : -1;
         guide.connects_at_boundary = !boundary.bsdf().is_specular();
         StayPlans plans(box, guide.share);
         media_[id] = std::make_unique<Dense>(
@@ -211,7 +211,8 @@ void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, SlabWalk& walk
 
 void SubsurfaceGuides::count(const Stay& stay, StayMoments& moments) const {
     const StayPlans& plans = media_[static_cast<std::size_t>(stay.medium)]->plans;
-    moments.add(plans.cell_at(stay.entry), plans.relative(stay));
+    const int cell = plans.cell_at(stay.entry);
+    moments.add(cell, plans.relative(stay), plans.plan(cell).shares);
 }
 
 void SubsurfaceGuides::learn(const StayMoments& moments, NextStays next) {
