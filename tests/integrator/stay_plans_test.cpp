@@ -88,21 +88,29 @@ TEST(StayPlans, LeaveStaysToClassicalSamplingWhereGuidesDoNotPay) {
     }
 }
 
+/// A lesson of 4000 stays, one in eight of them unguided, that bring 1 and a bit: `spread` times as much for those as
+/// for the others, by a number in [0, 1) for each stay.
+template <class F>
+void teach(StayPlans& plans, float spread, F&& number, NextStays next) {
+    StayMoments moments;
+    for (int i = 0; i < 4000; ++i) {
+        Stay one{.medium = 0, .entry = Vec3(0.1f)};
+        one.guided = i % 8 > 0;
+        one.flights = 4;
+        one.relative = {1, 1};
+        one.bring(1 + (one.guided ? 1 : spread) * (number(i) - 0.5f), {one.relative, 0});
+        moments.add(plans.cell_at(one.entry), one);
+    }
+    plans.learn(moments.of(0), next);
+}
+
 TEST(StayPlans, JudgeTheLearnedFieldByItsOwnStays) {
     for (const float spread : {0.2f, 6.0f}) {
         StayPlans plans(box, {0.25f, 0.75f});
         Pcg32 random(1);
         const auto lesson = [&](float unguided_spread, NextStays next) {
-            StayMoments moments;
-            for (int i = 0; i < 4000; ++i) {
-                Stay one{.medium = 0, .entry = Vec3(0.1f)};
-                one.guided = i % 8 > 0;
-                one.flights = 4;
-                one.relative = {1, 1};
-                one.bring(1 + (one.guided ? 1 : unguided_spread) * (random.uniform() - 0.5f), {one.relative, 0});
-                moments.add(plans.cell_at(one.entry), one);
-            }
-            plans.learn(moments.of(0), next);
+            teach(
+                plans, unguided_spread, [&](int) { return random.uniform(); }, next);
         };
         // Whatever classical stays were like.
         lesson(1.2f - spread / 6, NextStays::beside_classical);
@@ -199,17 +207,9 @@ TEST(StayPlans, InDoubtRenderByTheFieldThatHasJustLearnedMore) {
                           Case{NextStays::beside_classical, 1.36f, 0}}) {
         StayPlans plans(box, {0.25f, 0.75f});
         const auto lesson = [&](NextStays next) {
-            StayMoments moments;
-            for (int i = 0; i < 4000; ++i) {
-                Stay one{.medium = 0, .entry = Vec3(0.1f)};
-                one.guided = i % 8 > 0;
-                one.flights = 4;
-                one.relative = {1, 1};
-                const float u = (static_cast<float>(i / 8) + 0.5f) / 500;
-                one.bring(1 + (one.guided ? 1 : c.spread) * (u - 0.5f), {one.relative, 0});
-                moments.add(plans.cell_at(one.entry), one);
-            }
-            plans.learn(moments.of(0), next);
+            // Evenly spread, so that nothing is left to chance.
+            teach(
+                plans, c.spread, [](int i) { return (static_cast<float>(i / 8) + 0.5f) / 500; }, next);
         };
         lesson(NextStays::beside_classical);
         lesson(c.seen);

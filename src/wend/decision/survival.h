@@ -76,8 +76,8 @@ public:
     /// With either of the two off, its side of the window is open. `sample_variance`: of one sample of a pixel,
     /// relative and as a mean over the picture, >= 0.
     ///
-    /// Where it is low, roulette is reluctant. By rath2022 the probability that pays best follows the root of
-    /// what the rest of a walk has in second moment, over cost, relative to what a sample has in variance. The second
+    /// Where it is low, roulette is reluctant. By rath2022 the probability that pays best follows the root of what the
+    /// rest of a walk has in second moment, over cost, relative to what a sample has in variance. The second
     /// moment of a sample is 1 + V; taking its rest to have it too, all else being equal, leaves sqrt((1 + V) / V).
     AdjointSurvival(bool roulette, bool splitting, double sample_variance)
         : roulette_(roulette), splitting_(splitting) {

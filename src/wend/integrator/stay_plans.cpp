@@ -154,7 +154,7 @@ Steps steps(const StayMoments::Sums& sums, const Steps& expected) {
 double error_without(std::size_t i, const Stay& stay, const SlabGuide::Shares& shares) {
     const double share = shares[i], f = stay.brought;
     if (!(share < 1)) {
-        return sqr(f - 1);
+        return std::pow(f - 1, 2);
     }
     double falling = 0;
     for (std::size_t j = 0; j < shares.size(); ++j) {

@@ -142,9 +142,9 @@ public:
     /// slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
     /// stays began in follow all others. Where no connection has ever succeeded, behind a boundary that refracts,
     /// hardly any is made. A strategy that has become useless is dropped, and so is one without which variance times
-    /// cost is less, as others do the same; classical sampling keeps a share that bounds all weights. A few stays are
-    /// left unguided, to compare variance times cost. Where that is clearly less for those that follow the learned
-    /// field all are from then on, and if `next` is rendering unless it is clearly more.
+    /// cost is clearly less, as others do the same; classical sampling keeps a share that bounds all weights. A few
+    /// stays are left unguided, to compare variance times cost. Where that is clearly less for those that follow the
+    /// learned field all are from then on, and if `next` is rendering unless it is clearly more.
     void learn(const std::map<int, StayMoments::Sums>& moments, NextStays next);
 
 private:
