@@ -1,4 +1,3 @@
-#include <wend/core/error.h>
 #include <wend/core/parallel.h>
 #include <wend/decision/channels.h>
 #include <wend/integrator/subsurface.h>
@@ -14,19 +13,6 @@
 
 namespace wend {
 namespace {
-
-struct Entry {
-    std::string_view name;
-    std::vector<SlabStrategy> strategies;
-};
-
-const std::vector<Entry>& entries() {
-    using enum SlabStrategy;
-    static const std::vector<Entry> table = {{"classical", {}},           {"dwivedi", {entry}}, {"closest", {closest}},
-                                             {"incident", {incident}},    {"planar", {planar}}, {"learned", {learned}},
-                                             {"auto", {closest, learned}}};
-    return table;
-}
 
 constexpr float classical_share = 0.25f;
 
@@ -90,30 +76,23 @@ Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary
     return result;
 }
 
+/// One of each channel. `decay` is that of diffuse light.
+std::vector<LayerGuide> layers_of(const HomogeneousMedium& medium, const Rgb& decay, const BoundarySurface& boundary,
+                                  float curvature, int channels, int threads) {
+    std::vector<LayerGuide> layers(static_cast<std::size_t>(channels));
+    const double g = medium.phase.mean_cosine(), ior = static_cast<double>(boundary.ior);
+    parallel_for(layers.size(), threads, [&](std::size_t i) {
+        const int c = static_cast<int>(i);
+        const double extinction = medium.extinction()[c];
+        const double albedo = static_cast<double>(medium.scattering[c]) / extinction;
+        // By diffusion theory the square of the decay is in proportion to 1 - albedo.
+        const double flat = steepness(decay[c], curvature, 0);
+        layers[i] = LayerGuide(extinction, g, lit_layers(1 - flat * flat * (1 - albedo), g, ior));
+    });
+    return layers;
+}
+
 }  // namespace
-
-std::string subsurface_names() {
-    std::string names;
-    for (const Entry& e : entries()) {
-        names += (names.empty() ? "" : ", ") + std::string(e.name);
-    }
-    return names;
-}
-
-SubsurfacePreset parse_subsurface(std::string_view text) {
-    for (const Entry& e : entries()) {
-        if (e.name == text) {
-            return {e.strategies};
-        }
-    }
-    throw InputError("unknown subsurface sampling '" + std::string(text) + "': expected one of " + subsurface_names());
-}
-
-std::string to_string(const SubsurfacePreset& preset) {
-    const auto found = std::find_if(entries().begin(), entries().end(),
-                                    [&](const Entry& e) { return e.strategies == preset.strategies; });
-    return std::string(found->name);
-}
 
 SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
     : strategies_(preset.strategies) {
@@ -130,42 +109,38 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
         const float depth =
             mean_chord(scene, static_cast<MediumId>(id), points, random) * mean_value(medium->extinction());
-        if (points.empty() || !(depth >= least_depth)) {
-            continue;
+        if (!points.empty() && depth >= least_depth) {
+            media_[id] = explore(scene, static_cast<MediumId>(id), *medium, points, random, threads);
         }
-        SlabGuide guide =
-            slab_guide(*medium, slab_modes(*medium), static_cast<int>(strategies_.size()), classical_share);
-        const Box3 box = bounds_of(points);
-        const BoundarySurface boundary = surface_of_boundary(scene.description(), static_cast<MediumId>(id));
-        const Rgb decay = decay_of(guide);
-        std::optional<BoundaryField> field;
-        if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
-            field.emplace(box, lit_points(scene, static_cast<MediumId>(id), points, boundary, rays_to_lights, random),
-                          min_value(decay), threads);
-        }
-        const auto layered = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::planar);
-        // A channel that nothing hits has no layers.
-        if (layered != strategies_.end() && min_value(medium->extinction()) > 0) {
-            guide.layered = static_cast<int>(layered - strategies_.begin());
-            guide.layers.resize(static_cast<std::size_t>(guide.channels()));
-            const double ior = static_cast<double>(boundary.ior);
-            const float curvature = field->mean_curvature();
-            parallel_for(guide.layers.size(), threads, [&](std::size_t c) {
-                const double extinction = medium->extinction()[static_cast<int>(c)];
-                const double albedo = static_cast<double>(medium->scattering[static_cast<int>(c)]) / extinction;
-                const double g = medium->phase.mean_cosine();
-                // By diffusion theory the square of the decay is in proportion to 1 - albedo.
-                const double flat = steepness(decay[static_cast<int>(c)], curvature, 0);
-                guide.layers[c] = LayerGuide(extinction, g, lit_layers(1 - flat * flat * (1 - albedo), g, ior));
-            });
-        }
-        const auto lit = std::find(strategies_.begin(), strategies_.end(), SlabStrategy::learned);
-        guide.lit = lit != strategies_.end() && field->sees_lamps() ? static_cast<int>(lit - strategies_.begin()) : -1;
-        guide.connects_at_boundary = !boundary.bsdf().is_specular();
-        StayPlans plans(box, guide.share);
-        media_[id] = std::make_unique<Dense>(
-            Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(*medium, boundary)});
     }
+}
+
+auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
+                               const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const
+    -> std::unique_ptr<Dense> {
+    const auto slot_of = [this](SlabStrategy strategy) {
+        const auto found = std::find(strategies_.begin(), strategies_.end(), strategy);
+        return found == strategies_.end() ? -1 : static_cast<int>(found - strategies_.begin());
+    };
+    SlabGuide guide = slab_guide(medium, slab_modes(medium), static_cast<int>(strategies_.size()), classical_share);
+    const Box3 box = bounds_of(points);
+    const BoundarySurface boundary = surface_of_boundary(scene.description(), id);
+    const Rgb decay = decay_of(guide);
+    std::optional<BoundaryField> field;
+    if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
+        field.emplace(box, lit_points(scene, id, points, boundary, rays_to_lights, random), min_value(decay), threads);
+    }
+    // A channel that nothing hits has no layers.
+    const int layered = slot_of(SlabStrategy::planar);
+    if (layered >= 0 && min_value(medium.extinction()) > 0) {
+        guide.layered = layered;
+        guide.layers = layers_of(medium, decay, boundary, field->mean_curvature(), guide.channels(), threads);
+    }
+    guide.lit = field && field->sees_lamps() ? slot_of(SlabStrategy::learned) : -1;
+    guide.connects_at_boundary = !boundary.bsdf().is_specular();
+    StayPlans plans(box, guide.share);
+    return std::make_unique<Dense>(
+        Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(medium, boundary)});
 }
 
 const StayPlan* SubsurfaceGuides::plan(MediumId medium, const Vec3& entry) const {

@@ -1,44 +1,17 @@
-// Guided walks inside dense homogeneous media: for which media, and by which strategies.
+// Guided walks inside dense homogeneous media: for which media, and what is known of each.
 #pragma once
 
 #include <wend/decision/slab_walk.h>
 #include <wend/integrator/boundary_field.h>
 #include <wend/integrator/stay_plans.h>
+#include <wend/integrator/subsurface_preset.h>
 #include <wend/scene/scene.h>
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace wend {
-
-/// Which outward normal a walk inside a dense medium takes the boundary to have.
-enum class SlabStrategy {
-    entry,     ///< that where it entered (krivanek2014)
-    closest,   ///< that of the boundary closest to each collision (meng2016)
-    incident,  ///< towards the light that diffuses in from outside (after meng2016)
-    learned,   ///< as incident, and to the lamps that are seen from the closest boundary (after gouder2025)
-    planar,    ///< that of the closest boundary, and the whole solution of the layer between it and the one behind
-};
-
-/// A value of --subsurface.
-struct SubsurfacePreset {
-    std::vector<SlabStrategy> strategies;  ///< beside classical sampling
-
-    bool is_classical() const { return strategies.empty(); }
-    friend bool operator==(const SubsurfacePreset&, const SubsurfacePreset&) = default;
-};
-
-/// Parses a value of --subsurface. Throws InputError, listing the names that there are, for any other.
-SubsurfacePreset parse_subsurface(std::string_view text);
-
-/// The canonical name.
-std::string to_string(const SubsurfacePreset& preset);
-
-/// The names, separated by commas.
-std::string subsurface_names();
 
 /// What is known of each dense medium of a scene. A medium is dense if it is homogeneous, scatters, does not glow, and
 /// light that enters collides several times on a straight way through.
@@ -74,6 +47,10 @@ private:
         Rgb decay;                           ///< of diffuse light, per scene unit
         Rgb returned;                        ///< of an irradiance, the radiance that comes back
     };
+
+    /// What there is to know of a dense medium behind these points of its boundary.
+    std::unique_ptr<Dense> explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
+                                   const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const;
 
     std::vector<SlabStrategy> strategies_;
     std::vector<std::unique_ptr<Dense>> media_;  // by medium; null: not guided

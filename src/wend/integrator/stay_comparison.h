@@ -1,0 +1,51 @@
+// Which ways to sample stays in a dense medium are worth their time: variance times cost, told by the stays themselves.
+#pragma once
+
+#include <wend/integrator/stay_moments.h>
+#include <wend/integrator/stay_plan.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace wend {
+
+struct StayVariance {
+    double value = 0;
+    double count = 0;  ///< how many stays of equal weight tell it
+};
+
+/// 0 where nothing varies.
+StayVariance variance(const StayMoments::Kind& sums);
+
+/// Of guided stays over others, where those are what `seen` says.
+struct StayAdvantage {
+    double efficiency = 0;  ///< logarithm of the ratio of variance times cost
+    double deviation = 1;   ///< of that, as far as it is known
+    double variance = 0;    ///< logarithm of the ratio of the variances alone
+    double over_field = 0;  ///< that of variance times cost, if every unguided flight followed the learned field
+
+    /// Whether guides are to be given up. What is rarely found by classical sampling may long seem not to be there:
+    /// while that is what they are compared with they are not. In the end a doubt is in favour of the field: what it
+    /// has just learned is not seen yet.
+    bool is_loss(NextStays seen, NextStays next) const;
+
+    /// The share of unguided stays while both kinds are watched.
+    float share_for_watching() const;
+
+    /// Of telling the field what a guided stay meets. Unguided stays only ever seem to be better than they are.
+    float told_probability() const;
+};
+
+/// `through_boundaries` is the probability that a collision is connected along a way that boundaries refract. Nothing
+/// is known of either where one kind does not vary.
+StayAdvantage advantage(const StayMoments::Sums& sums, NextStays seen, float through_boundaries);
+
+/// Of the strategies in use the one that the others replace best: without it variance times cost would be clearly less.
+/// None where few stays tell.
+std::optional<std::size_t> dispensable(const StayMoments::Sums& sums, std::span<const std::size_t> strategies);
+
+/// Share of unguided stays to begin with.
+inline constexpr float largest_share_for_watching = 0.0625f;
+
+}  // namespace wend

@@ -1,0 +1,56 @@
+// Points spread over some of a scene's surfaces.
+#pragma once
+
+#include <wend/sampling/discrete.h>
+#include <wend/scene/scene.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace wend {
+
+/// Draws points of chosen surfaces, placed objects included, evenly by area; on stretched spheres and disks not quite
+/// evenly. The scene must outlive it.
+class SurfaceSampler {
+public:
+    SurfaceSampler(const SceneDescription& scene, const std::function<bool(const Surface&)>& is_chosen);
+
+    /// Whether no such surface has an area.
+    bool is_empty() const { return elements_.empty(); }
+    /// Of all of them, in the world.
+    float area() const { return area_; }
+
+    struct Point {
+        const Surface* surface;
+        Vec3 position;
+        Vec3 normal;  ///< unit length, towards the exterior
+    };
+    /// From uniform numbers; not while it is empty. Not finite where the surface is not.
+    Point sample(float u, const Vec2& u2) const;
+
+private:
+    /// Where an object stands.
+    struct Placement {
+        AffineMap to_world;
+        AffineMap from_world;
+    };
+    /// A triangle, sphere or disk.
+    struct Element {
+        const Surface* surface;
+        std::uint32_t primitive;
+        std::uint32_t placement;
+    };
+
+    /// In the last placement.
+    void add_surface(const Surface& surface);
+    void add_element(const Surface& surface, std::size_t primitive, float area);
+
+    std::vector<Placement> placements_;
+    std::vector<Element> elements_;
+    std::vector<float> areas_;
+    float area_ = 0;
+    AliasTable table_;
+};
+
+}  // namespace wend
