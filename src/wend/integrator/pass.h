@@ -53,9 +53,10 @@ class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
          const SubsurfaceGuides& subsurface, const LightChoices& lights, const ReflectionChoices& reflections,
-         const PassPlan& plan)
+         const CausticPhotons& caustics, const PassPlan& plan)
         : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth),
           subsurface_(subsurface),
+          caustics_(caustics),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
@@ -87,7 +88,7 @@ private:
             tracer_.trace(ray, estimate(pixel), sampler,
                           {is_recorded && plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
                            is_recorded && plan_.record_lights ? &tile.lights : nullptr,
-                           is_recorded && plan_.record_reflections ? &tile.reflections : nullptr});
+                           is_recorded && plan_.record_reflections ? &tile.reflections : nullptr, &caustics_});
         for (const Stay& stay : std::exchange(stays, {})) {
             subsurface_.count(stay, tile.stays);
         }
@@ -124,6 +125,7 @@ private:
 
     PathTracer<Decisions> tracer_;
     const SubsurfaceGuides& subsurface_;
+    const CausticPhotons& caustics_;
     const Camera& camera_;
     Film& film_;
     const RenderSettings& settings_;

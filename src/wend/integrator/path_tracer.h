@@ -7,6 +7,7 @@
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
 #include <wend/guide/path_log.h>
+#include <wend/integrator/caustic_photons.h>
 #include <wend/integrator/light_choices.h>
 #include <wend/integrator/reflection_choices.h>
 #include <wend/integrator/subsurface.h>
@@ -66,6 +67,7 @@ struct WalkLessons {
     std::vector<Stay>* stays = nullptr;                    ///< those in dense media are added
     std::vector<LightRecord>* lights = nullptr;            ///< what connections brought is added
     std::vector<ReflectionRecord>* reflections = nullptr;  ///< what was found behind boundaries is added
+    const CausticPhotons* caustics = nullptr;              ///< what the log is told beside what walks find
 };
 
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.

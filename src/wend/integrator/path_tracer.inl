@@ -27,6 +27,7 @@ public:
           stays_(lessons.stays),
           lights_(lessons.lights),
           reflections_(lessons.reflections),
+          caustics_(lessons.caustics),
           met_(scene_, tracer.lights_),
           expected_(expected) {}
 
@@ -380,6 +381,8 @@ private:
     SlabWalk slab_towards(const Vec3& direction, bool in_volume) const;
     /// Tells the log of a light that no connection reaches.
     void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
+    /// Tells the log of light that smooth surfaces lead to a vertex.
+    void hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume);
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
@@ -408,6 +411,7 @@ private:
     std::vector<Stay>* stays_;
     std::vector<LightRecord>* lights_;
     std::vector<ReflectionRecord>* reflections_;
+    const CausticPhotons* caustics_;
     ReflectionLog boundaries_;
     LightMet met_;
 

@@ -34,6 +34,8 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
+// From lights to smooth surfaces, for hints.
+constexpr int photons = 1 << 17;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them, or to judge guides.
 constexpr int warm_up_samples = 7;
 
@@ -44,46 +46,95 @@ void check_rejected(const WalkCounts& counts) {
     }
 }
 
-}  // namespace
+/// A render between its passes: what walks are guided by, and what the last pass told.
+class Rendering {
+public:
+    Rendering(const Scene& scene, Film& film, const RenderSettings& settings)
+        : scene_(scene),
+          film_(film),
+          settings_(settings),
+          tiles_(tiles_of(film.crop())),
+          fields_(settings.fields
+                      ? *settings.fields
+                      : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())}),
+          subsurface_(scene, settings.subsurface, settings.threads),
+          lights_(scene),
+          reflections_(scene.bounds()),
+          caustics_(settings.preset.direction && settings.training_samples > 0
+                        ? CausticPhotons(scene, photons, settings.seed, settings.threads)
+                        : CausticPhotons()),
+          budget_(settings.most_records) {}
 
-RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
-                        const std::function<bool(const RenderProgress&)>& keep_going) {
-    const Clock::time_point start = Clock::now();
-    RenderStatistics statistics;
-    std::vector<Tile> tiles = tiles_of(film.crop());
-    const Schedule schedule(settings);
-    GuidingFields fields =
-        settings.fields ? *settings.fields
-                        : GuidingFields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())};
-
-    SubsurfaceGuides subsurface(scene, settings.subsurface, settings.threads);
-    LightChoices lights(scene);
-    ReflectionChoices reflections(scene.bounds());
-    RecordBudget budget(settings.most_records);
-    for (int pass = 0;; ++pass) {
-        const int count = schedule.next(pass, statistics.samples, seconds_since(start));
-        if (count <= 0) {
-            break;
+    /// Adds `count` samples to each pixel, and learns from them.
+    void pass(int count, RenderStatistics& statistics) {
+        const PassPlan plan = plan_for(count, statistics.samples);
+        walk(plan);
+        statistics.samples += count;
+        statistics.passes.push_back(count);
+        if (plan.record) {
+            const Clock::time_point start = Clock::now();
+            learn_fields(plan);
+            statistics.training_seconds += seconds_since(start);
         }
-        const double walks = static_cast<double>(film.crop().width()) * film.crop().height() * count;
-        const Preset& preset = settings.preset;
-        const bool learning = statistics.samples < settings.training_samples;
-        PassPlan plan{statistics.samples,
+        learn_choices(plan, statistics.samples);
+        // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
+        const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
+        if (statistics.samples >= warm_up_samples && (plan.record || plan.record_stays || warms_up)) {
+            film_.begin_stage();
+        }
+    }
+
+    void finish(RenderStatistics& statistics) {
+        for (const Tile& tile : tiles_) {
+            statistics.counts += tile.counts;
+        }
+        if (!settings_.preset.is_classical()) {
+            statistics.field_bytes = fields_.bytes();
+            statistics.fields = std::make_shared<const GuidingFields>(std::move(fields_));
+        }
+    }
+
+private:
+    double walks(const PassPlan& plan) const {
+        return static_cast<double>(film_.crop().width()) * film_.crop().height() * plan.count;
+    }
+
+    PassPlan plan_for(int count, int samples) const {
+        const Preset& preset = settings_.preset;
+        const bool learning = samples < settings_.training_samples;
+        PassPlan plan{samples,
                       count,
                       !preset.is_classical() && learning,
-                      !subsurface.is_empty() && learning,
-                      preset.direction && lights.learns() && learning,
-                      (preset.direction || !subsurface.is_empty()) && learning,
-                      budget.share(walks),
+                      !subsurface_.is_empty() && learning,
+                      preset.direction && lights_.learns() && learning,
+                      (preset.direction || !subsurface_.is_empty()) && learning,
+                      1,
                       {}};
+        plan.recorded_share = budget_.share(walks(plan));
+        if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
+            plan.estimates = pixel_estimates(film_.beauty(), samples);
+            for (float& estimate : plan.estimates) {
+                estimate /= settings_.exposure;
+            }
+        }
+        return plan;
+    }
+
+    /// All walks of a pass, by the decisions of the preset.
+    void walk(const PassPlan& plan) {
+        const Preset& preset = settings_.preset;
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene, film, settings, decisions, subsurface, lights, reflections, plan);
-            parallel_for(tiles.size(), settings.threads, [&](std::size_t i) { one.run(tiles[i]); });
+            const Pass one(scene_, film_, settings_, decisions, subsurface_, lights_, reflections_, caustics_, plan);
+            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i]); });
         };
+        if (preset.is_classical()) {
+            run_with(ClassicalDecisions{});
+            return;
+        }
         const GuidedDistance distance(
-            &fields.surface, &fields.volume, classical_flights,
+            &fields_.surface, &fields_.volume, classical_flights,
             preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
-        const GuidedDirection direction(&fields.surface, &fields.volume,
+        const GuidedDirection direction(&fields_.surface, &fields_.volume,
                                         preset.direction ? std::nullopt : std::optional(1.0f));
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
@@ -92,61 +143,79 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
             }
         };
-        if (preset.guides_survival() && statistics.samples >= warm_up_samples && settings.exposure > 0) {
-            plan.estimates = pixel_estimates(film.beauty(), statistics.samples);
-            for (float& estimate : plan.estimates) {
-                estimate /= settings.exposure;
-            }
-            const double sample_variance = std::pow(film.relative_noise(), 2) * statistics.samples;
-            run_guided(AdjointSurvival(preset.roulette, preset.splitting, sample_variance));
-        } else if (!preset.is_classical()) {
+        if (plan.estimates.empty()) {
             run_guided(guided_walks_end);
         } else {
-            run_with(ClassicalDecisions{});
+            const double sample_variance = std::pow(film_.relative_noise(), 2) * plan.first;
+            run_guided(AdjointSurvival(preset.roulette, preset.splitting, sample_variance));
         }
-        statistics.samples += count;
-        statistics.passes.push_back(count);
-        if (plan.record) {
-            const Clock::time_point training_start = Clock::now();
-            std::vector<guide::PathRecords> records(tiles.size());
-            std::size_t told = 0;
-            for (std::size_t i = 0; i < tiles.size(); ++i) {
-                records[i] = std::exchange(tiles[i].records, {});
-                told += records[i].size();
-            }
-            budget.learn(plan.recorded_share * walks, static_cast<double>(told));
-            if (settings.on_records) {
-                settings.on_records(records);
-            }
-            fields = learn(fields, std::move(records), settings.threads);
-            statistics.training_seconds += seconds_since(training_start);
+    }
+
+    void learn_fields(const PassPlan& plan) {
+        std::vector<guide::PathRecords> records(tiles_.size());
+        std::size_t told = 0;
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            records[i] = std::exchange(tiles_[i].records, {});
+            told += records[i].size();
         }
+        budget_.learn(plan.recorded_share * walks(plan), static_cast<double>(told));
+        if (settings_.on_records) {
+            settings_.on_records(records);
+        }
+        fields_ = learn(fields_, std::move(records), settings_.threads);
+    }
+
+    /// How stays are sampled, which lights are connected to, and what boundaries do, after so many samples.
+    void learn_choices(const PassPlan& plan, int samples) {
         if (plan.record_stays) {
             StayMoments moments;
-            for (Tile& tile : tiles) {
+            for (Tile& tile : tiles_) {
                 moments += std::exchange(tile.stays, {});
             }
-            const bool knows_field = preset.direction && statistics.samples >= warm_up_samples;
+            const bool knows_field = settings_.preset.direction && samples >= warm_up_samples;
             const NextStays lessons = knows_field ? NextStays::beside_field : NextStays::beside_classical;
-            subsurface.learn(moments, statistics.samples >= settings.training_samples ? NextStays::rendering : lessons);
+            subsurface_.learn(moments, samples >= settings_.training_samples ? NextStays::rendering : lessons);
         }
         if (plan.record_lights) {
-            for (Tile& tile : tiles) {
-                lights.add(std::exchange(tile.lights, {}));
+            for (Tile& tile : tiles_) {
+                lights_.add(std::exchange(tile.lights, {}));
             }
-            lights.learn(settings.threads);
+            lights_.learn(settings_.threads);
         }
         if (plan.record_reflections) {
-            for (Tile& tile : tiles) {
-                reflections.add(std::exchange(tile.reflections, {}));
+            for (Tile& tile : tiles_) {
+                reflections_.add(std::exchange(tile.reflections, {}));
             }
-            reflections.learn();
+            reflections_.learn();
         }
-        // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
-        const bool warms_up = !preset.is_classical() && plan.first < warm_up_samples;
-        if (statistics.samples >= warm_up_samples && (plan.record || plan.record_stays || warms_up)) {
-            film.begin_stage();
+    }
+
+    const Scene& scene_;
+    Film& film_;
+    const RenderSettings& settings_;
+    std::vector<Tile> tiles_;
+    GuidingFields fields_;
+    SubsurfaceGuides subsurface_;
+    LightChoices lights_;
+    ReflectionChoices reflections_;
+    CausticPhotons caustics_;
+    RecordBudget budget_;
+};
+
+}  // namespace
+
+RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
+                        const std::function<bool(const RenderProgress&)>& keep_going) {
+    const Clock::time_point start = Clock::now();
+    RenderStatistics statistics;
+    const Schedule schedule(settings);
+    Rendering rendering(scene, film, settings);
+    for (int pass = 0;; ++pass) {
+        const int count = schedule.next(pass, statistics.samples, seconds_since(start));
+        if (count <= 0) {
+            break;
         }
+        rendering.pass(count, statistics);
         const double elapsed = seconds_since(start);
         if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,
                                        film.relative_noise()})) {
@@ -154,13 +223,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             break;
         }
     }
-    for (const Tile& tile : tiles) {
-        statistics.counts += tile.counts;
-    }
-    if (!settings.preset.is_classical()) {
-        statistics.field_bytes = fields.bytes();
-        statistics.fields = std::make_shared<const GuidingFields>(std::move(fields));
-    }
+    rendering.finish(statistics);
     statistics.seconds = seconds_since(start);
     check_rejected(statistics.counts);
     return statistics;

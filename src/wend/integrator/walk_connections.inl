@@ -170,6 +170,17 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
 }
 
 template <class Decisions>
+void PathTracer<Decisions>::Walk::hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume) {
+    if (!log_ || !caustics_ || (in_volume && now_.slab.is_inside())) {
+        return;
+    }
+    if (const auto seen = caustics_->near(position, in_volume ? normal : faced(*hit_), sampler_.random())) {
+        log_->hint({{position, seen->towards, mean_value(seen->fluence), 1, seen->distance, 0, 0, 0, seen->fluence},
+                    in_volume});
+    }
+}
+
+template <class Decisions>
 void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vec3& position,
                                                     const Vec3& normal, bool in_volume) {
     constexpr float often = 0.25f;

@@ -19,6 +19,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
                                           const Vec3& normal, bool in_volume) {
     if (!f.is_specular()) {
         connect_to_lights(f, directions, position, normal, in_volume);
+        hint_at_caustics(position, normal, in_volume);
     }
     if (in_volume) {
         connect_through_boundaries(f, directions, position);

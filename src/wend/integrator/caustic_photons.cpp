@@ -1,0 +1,263 @@
+#include <wend/core/parallel.h>
+#include <wend/decision/distance.h>
+#include <wend/integrator/caustic_photons.h>
+#include <wend/integrator/light_connection.h>
+#include <wend/integrator/scattering.h>
+#include <wend/scene/surface_sampler.h>
+
+#include <nanoflann.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace wend {
+namespace {
+
+/// Vessels have a few boundaries; after more the light is faint.
+constexpr int most_boundaries = 12;
+
+struct Photon {
+    Vec3 position;
+    Vec3 towards;  ///< where it came from
+    float distance;
+    Rgb light;  ///< flux; in a medium over its scattering coefficient, as collisions tell of fluence by that
+};
+
+bool is_smooth(const SceneDescription& scene, const Surface& surface) {
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
+    if (std::holds_alternative<InterfaceMaterial>(material)) {
+        return false;
+    }
+    const TexturePoint anywhere{{0, 0}, {0, 0, 0}};
+    return std::visit([](const auto& bsdf) { return bsdf.is_specular(); },
+                      make_bsdf(material, scene.textures, anywhere));
+}
+
+/// Follows light from a source.
+class PhotonFlight {
+public:
+    PhotonFlight(const Scene& scene, const Ray& start, MediumId medium, const Rgb& flux, Pcg32& random)
+        : scene_(scene), ray_(start), medium_(medium), flux_(flux), random_(random) {}
+
+    /// To the first surface that is none of a medium alone: whether it is one at this distance.
+    bool reach(float distance) {
+        for (int met = 0; met < most_interfaces; ++met) {
+            hit_ = scene_.intersect(ray_);
+            if (!hit_) {
+                return false;
+            }
+            if (medium_ != vacuum) {
+                flux_ *= estimate_transmittance(scene_.medium(medium_), ray_, hit_->distance, random_);
+            }
+            travelled_ += hit_->distance;
+            if (!scene_.is_interface(*hit_)) {
+                return std::abs(travelled_ - distance) < 1e-3f * distance;
+            }
+            medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
+            ray_ = spawn_ray(hit_->position, hit_->normal, ray_.direction);
+        }
+        return false;
+    }
+
+    /// From there to where it arrives.
+    std::optional<std::pair<Photon, bool>> arrive() {
+        int boundaries = 0;
+        for (int met = 0; met < most_interfaces && boundaries < most_boundaries; ++met) {
+            if (hit_ && !scene_.is_interface(*hit_)) {
+                const SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
+                if (!f.is_specular()) {
+                    return boundaries > 0 && hit_->light < 0 ? told(hit_->position, flux_, false) : std::nullopt;
+                }
+                const auto s = f.sample(random_.uniform(), random_.uniform2());
+                if (!s) {
+                    return std::nullopt;
+                }
+                // Flux, unlike radiance, does not change with the index.
+                flux_ *= s->weight() * sqr(f.index_ratio(s->direction));
+                ++boundaries;
+                go_on(s->direction);
+            } else {
+                go_on(ray_.direction);
+            }
+            hit_ = scene_.intersect(ray_);
+            if (medium_ != vacuum) {
+                const Medium& medium = scene_.medium(medium_);
+                FlightStart start;
+                start.ray = ray_;
+                start.length = hit_ ? hit_->distance : farthest;
+                start.throughput = flux_;
+                const Flight flight = ClassicalDistance().sample(medium, start, random_.uniform(), random_);
+                flux_ *= flight.weight;
+                if (flight.scatters) {
+                    travelled_ += flight.distance;
+                    const Vec3 position = ray_.at(flight.distance);
+                    const float scattering = mean_value(extinction_at(medium, position) * albedo(medium));
+                    return told(position, flux_ * (1 / scattering), true);
+                }
+            }
+            if (!hit_) {
+                return std::nullopt;
+            }
+            travelled_ += hit_->distance;
+        }
+        return std::nullopt;
+    }
+
+private:
+    void go_on(const Vec3& direction) {
+        medium_ = scene_.medium_beyond(*hit_, direction, medium_);
+        ray_ = spawn_ray(hit_->position, hit_->normal, direction);
+    }
+
+    std::optional<std::pair<Photon, bool>> told(const Vec3& position, const Rgb& light, bool in_volume) const {
+        if (!(max_value(light) > 0) || !is_finite(light)) {
+            return std::nullopt;
+        }
+        return std::pair{Photon{position, -ray_.direction, travelled_, light}, in_volume};
+    }
+
+    const Scene& scene_;
+    Ray ray_;
+    MediumId medium_;
+    Rgb flux_;
+    Pcg32& random_;
+    std::optional<Hit> hit_;
+    float travelled_ = 0;
+};
+
+/// Light of one lamp on its way to a point of a smooth surface, of which there are `density` per area.
+std::optional<std::pair<Photon, bool>> shoot(const Scene& scene, const SurfaceSampler::Point& target, float density,
+                                             Pcg32& random) {
+    const LightReceiver receiver{target.position, {0, 0, 0}};
+    const float u = random.uniform();
+    const ChosenLight chosen = std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene.light_sampler());
+    if (chosen.index < 0) {
+        return std::nullopt;
+    }
+    const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], target.position,
+                                    random.uniform2(), random);
+    if (!light || light->point_like || light->medium != vacuum) {
+        return std::nullopt;
+    }
+    const float distance =
+        light->distance < infinity ? light->distance * (1 - 1e-4f) : 2 * length(scene.bounds().size());
+    const Rgb flux = light->radiance *
+                     (std::abs(dot(light->direction, target.normal)) / (density * chosen.probability * light->density));
+    // Where the light is, as far as the target knows; interfaces on the way will tell.
+    const MediumId medium = !target.surface->bounds_medium()           ? scene.camera_medium()
+                            : dot(light->direction, target.normal) > 0 ? target.surface->exterior
+                                                                       : target.surface->interior;
+    PhotonFlight flight(scene, {target.position + light->direction * distance, -light->direction}, medium, flux,
+                        random);
+    return flight.reach(distance) ? flight.arrive() : std::nullopt;
+}
+
+/// Photons in a tree.
+class PhotonMap {
+public:
+    explicit PhotonMap(std::vector<Photon> photons)
+        : photons_(std::move(photons)), tree_(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
+    PhotonMap(const PhotonMap&) = delete;
+    PhotonMap& operator=(const PhotonMap&) = delete;
+
+    std::size_t size() const { return photons_.size(); }
+
+    /// Of the closest photons one by chance. Of n + 1 the last one tells how far the others lie spread, which makes n
+    /// over that size an unbiased estimate of their density.
+    std::optional<CausticSight> near(const Vec3& position, const Vec3& normal, Pcg32& random) const {
+        constexpr std::size_t n = 8;
+        std::array<std::uint32_t, n + 1> indices;
+        std::array<float, n + 1> distances2;
+        const std::array<float, 3> at{position.x, position.y, position.z};
+        const std::size_t count = tree_.knnSearch(at.data(), n + 1, indices.data(), distances2.data());
+        if (count < n + 1) {
+            return std::nullopt;
+        }
+        const Photon& one = photons_[indices[static_cast<std::size_t>(random.uniform() * n)]];
+        const float radius2 = distances2[n];
+        float size = 4 * pi / 3 * radius2 * std::sqrt(radius2);
+        if (normal != Vec3(0, 0, 0)) {
+            const float cosine = dot(one.towards, normal);
+            if (!(cosine > 0)) {
+                return std::nullopt;
+            }
+            size = pi * radius2 * std::max(cosine, 0.1f);
+        }
+        if (!(size > 0)) {
+            return std::nullopt;
+        }
+        return CausticSight{one.towards, one.distance, one.light * (n / size)};
+    }
+
+    // What nanoflann asks for.
+    std::size_t kdtree_get_point_count() const { return photons_.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return photons_[i].position[static_cast<int>(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box& /*box*/) const {
+        return false;
+    }
+
+private:
+    std::vector<Photon> photons_;
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PhotonMap>, PhotonMap, 3> tree_;
+};
+
+}  // namespace
+
+struct CausticPhotons::Maps {
+    Maps(std::vector<Photon> on_surfaces, std::vector<Photon> in_media)
+        : surface(std::move(on_surfaces)), volume(std::move(in_media)) {}
+
+    PhotonMap surface, volume;
+};
+
+CausticPhotons::CausticPhotons() = default;
+CausticPhotons::CausticPhotons(CausticPhotons&&) noexcept = default;
+CausticPhotons& CausticPhotons::operator=(CausticPhotons&&) noexcept = default;
+CausticPhotons::~CausticPhotons() = default;
+
+CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed, int threads) {
+    const SceneDescription& description = scene.description();
+    const SurfaceSampler sampler(description, [&](const Surface& s) { return is_smooth(description, s); });
+    if (sampler.is_empty() || scene.lights().empty()) {
+        return;
+    }
+    constexpr int per_block = 1024;
+    const int blocks = (count + per_block - 1) / per_block;
+    const float density = static_cast<float>(blocks * per_block) / sampler.area();
+    struct Arrived {
+        std::vector<Photon> surface, volume;
+    };
+    std::vector<Arrived> arrived(static_cast<std::size_t>(blocks));
+    parallel_for(arrived.size(), threads, [&](std::size_t block) {
+        Pcg32 random(hash_of(seed, block));
+        for (int i = 0; i < per_block; ++i) {
+            const float u = random.uniform();
+            if (const auto photon = shoot(scene, sampler.sample(u, random.uniform2()), density, random)) {
+                (photon->second ? arrived[block].volume : arrived[block].surface).push_back(photon->first);
+            }
+        }
+    });
+    Arrived all;
+    for (const Arrived& some : arrived) {
+        all.surface.insert(all.surface.end(), some.surface.begin(), some.surface.end());
+        all.volume.insert(all.volume.end(), some.volume.begin(), some.volume.end());
+    }
+    maps_ = std::make_unique<Maps>(std::move(all.surface), std::move(all.volume));
+}
+
+std::size_t CausticPhotons::size() const {
+    return maps_ ? maps_->surface.size() + maps_->volume.size() : 0;
+}
+
+std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec3& normal, Pcg32& random) const {
+    if (!maps_) {
+        return std::nullopt;
+    }
+    return (normal == Vec3(0, 0, 0) ? maps_->volume : maps_->surface).near(position, normal, random);
+}
+
+}  // namespace wend
