@@ -120,9 +120,8 @@ TEST(CausticPhotons, DoNotDependOnThreads) {
     const CausticPhotons one(scene, 10000, 1, 1), several(scene, 10000, 1, 3);
     ASSERT_GT(one.size(), 100u);
     EXPECT_EQ(one.size(), several.size());
-    Pcg32 a(1), b(1);
-    Pcg32 c(1);
-    EXPECT_FALSE(one.near({0, 0.5f, 0}, {0, 0, 0}, c)) << "there is no medium";
+    Pcg32 a(1), b(1), nowhere(1);
+    EXPECT_FALSE(one.near({0, 0.5f, 0}, {0, 0, 0}, nowhere)) << "there is no medium";
     for (int i = 0; i < 100; ++i) {
         const auto first = one.near({0, 0.5f, 0}, {0, 1, 0}, a), second = several.near({0, 0.5f, 0}, {0, 1, 0}, b);
         ASSERT_EQ(first.has_value(), second.has_value());
@@ -165,16 +164,7 @@ TEST(CausticPhotons, TeachTheGuideOfWhatAMirrorShows) {
     settings.samples = 16384;
     settings.max_depth = 2;
     settings.seed = 1000;
-    const test::RepeatedRenders classical(scene, settings, resolution);
-    for (const char* sampling : {"direction", "full"}) {
-        SCOPED_TRACE(sampling);
-        settings.preset = parse_preset(sampling);
-        const test::RepeatedRenders guided(scene, settings, resolution);
-        EXPECT_TRUE(agrees(guided.mean.mean(), guided.mean.standard_error(), expected, 4))
-            << guided.mean.mean() << " +- " << guided.mean.standard_error() << " expected " << expected;
-        EXPECT_LT(4 * guided.mean.standard_error(), 0.01 * expected) << "too few samples to see a bias of 1 %";
-        EXPECT_LT(guided.noise, 0.02 * classical.noise) << guided.noise << " " << classical.noise;
-    }
+    test::expect_right_and_quieter(scene, settings, resolution, expected, 0.02);
 }
 
 }  // namespace

@@ -173,16 +173,7 @@ TEST(Glimpse, TeachesTheGuideOfALampBehindGlass) {
     // The floor and both sides of the pane: what is reflected in between is left out.
     settings.max_depth = 3;
     settings.seed = 1000;
-    const test::RepeatedRenders classical(scene, settings, resolution);
-    for (const char* sampling : {"direction", "full"}) {
-        SCOPED_TRACE(sampling);
-        settings.preset = parse_preset(sampling);
-        const test::RepeatedRenders guided(scene, settings, resolution);
-        EXPECT_TRUE(agrees(guided.mean.mean(), guided.mean.standard_error(), expected, 4))
-            << guided.mean.mean() << " +- " << guided.mean.standard_error() << " expected " << expected;
-        EXPECT_LT(4 * guided.mean.standard_error(), 0.01 * expected) << "too few samples to see a bias of 1 %";
-        EXPECT_LT(guided.noise, 0.02 * classical.noise);
-    }
+    test::expect_right_and_quieter(scene, settings, resolution, expected, 0.02);
 }
 
 }  // namespace

@@ -44,4 +44,19 @@ inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRen
         << "a bias of 1 % must be seen: " << error / classical.mean.mean();
 }
 
+/// Guided renders have the mean that is expected, seen to 1 %, and a small part of the noise of classical ones.
+inline void expect_right_and_quieter(const Scene& scene, RenderSettings settings, int resolution, double expected,
+                                     double largest_noise) {
+    const RepeatedRenders classical(scene, settings, resolution);
+    for (const char* sampling : {"direction", "full"}) {
+        SCOPED_TRACE(sampling);
+        settings.preset = parse_preset(sampling);
+        const RepeatedRenders guided(scene, settings, resolution);
+        EXPECT_TRUE(agrees(guided.mean.mean(), guided.mean.standard_error(), expected, 4))
+            << guided.mean.mean() << " +- " << guided.mean.standard_error() << " expected " << expected;
+        EXPECT_LT(4 * guided.mean.standard_error(), 0.01 * expected) << "too few samples to see a bias of 1 %";
+        EXPECT_LT(guided.noise, largest_noise * classical.noise);
+    }
+}
+
 }  // namespace wend::test

@@ -24,6 +24,7 @@ struct Photon {
     Vec3 towards;  ///< where it came from
     float distance;
     Rgb light;  ///< flux; in a medium over its scattering coefficient, as collisions tell of fluence by that
+    bool in_volume;
 };
 
 bool is_smooth(const SceneDescription& scene, const Surface& surface) {
@@ -63,10 +64,11 @@ public:
     }
 
     /// From there to where it arrives.
-    std::optional<std::pair<Photon, bool>> arrive() {
+    std::optional<Photon> arrive() {
         int boundaries = 0;
-        for (int met = 0; met < most_interfaces && boundaries < most_boundaries; ++met) {
-            if (hit_ && !scene_.is_interface(*hit_)) {
+        for (int met = 0; hit_ && met < most_interfaces && boundaries < most_boundaries; ++met) {
+            Vec3 beyond = ray_.direction;
+            if (!scene_.is_interface(*hit_)) {
                 const SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
                 if (!f.is_specular()) {
                     return boundaries > 0 && hit_->light < 0 ? told(hit_->position, flux_, false) : std::nullopt;
@@ -77,46 +79,44 @@ public:
                 }
                 // Flux, unlike radiance, does not change with the index.
                 flux_ *= s->weight() * sqr(f.index_ratio(s->direction));
+                beyond = s->direction;
                 ++boundaries;
-                go_on(s->direction);
-            } else {
-                go_on(ray_.direction);
             }
+            medium_ = scene_.medium_beyond(*hit_, beyond, medium_);
+            ray_ = spawn_ray(hit_->position, hit_->normal, beyond);
             hit_ = scene_.intersect(ray_);
-            if (medium_ != vacuum) {
+            if (fly()) {
+                const Vec3& position = ray_.origin;
                 const Medium& medium = scene_.medium(medium_);
-                FlightStart start;
-                start.ray = ray_;
-                start.length = hit_ ? hit_->distance : farthest;
-                start.throughput = flux_;
-                const Flight flight = ClassicalDistance().sample(medium, start, random_.uniform(), random_);
-                flux_ *= flight.weight;
-                if (flight.scatters) {
-                    travelled_ += flight.distance;
-                    const Vec3 position = ray_.at(flight.distance);
-                    const float scattering = mean_value(extinction_at(medium, position) * albedo(medium));
-                    return told(position, flux_ * (1 / scattering), true);
-                }
+                const float scattering = mean_value(extinction_at(medium, position) * albedo(medium));
+                return told(position, flux_ * (1 / scattering), true);
             }
-            if (!hit_) {
-                return std::nullopt;
-            }
-            travelled_ += hit_->distance;
         }
         return std::nullopt;
     }
 
 private:
-    void go_on(const Vec3& direction) {
-        medium_ = scene_.medium_beyond(*hit_, direction, medium_);
-        ray_ = spawn_ray(hit_->position, hit_->normal, direction);
+    /// To the hit ahead, or to a collision before it: whether there is one, where the ray begins then.
+    bool fly() {
+        FlightStart start;
+        start.ray = ray_;
+        start.length = hit_ ? hit_->distance : farthest;
+        start.throughput = flux_;
+        if (medium_ == vacuum) {
+            travelled_ += start.length;
+            return false;
+        }
+        const Flight flight = ClassicalDistance().sample(scene_.medium(medium_), start, random_.uniform(), random_);
+        flux_ *= flight.weight;
+        travelled_ += flight.distance;
+        ray_.origin = flight.scatters ? ray_.at(flight.distance) : ray_.origin;
+        return flight.scatters;
     }
 
-    std::optional<std::pair<Photon, bool>> told(const Vec3& position, const Rgb& light, bool in_volume) const {
-        if (!(max_value(light) > 0) || !is_finite(light)) {
-            return std::nullopt;
-        }
-        return std::pair{Photon{position, -ray_.direction, travelled_, light}, in_volume};
+    std::optional<Photon> told(const Vec3& position, const Rgb& light, bool in_volume) const {
+        return max_value(light) > 0 && is_finite(light)
+                   ? std::optional(Photon{position, -ray_.direction, travelled_, light, in_volume})
+                   : std::nullopt;
     }
 
     const Scene& scene_;
@@ -129,29 +129,22 @@ private:
 };
 
 /// Light of one lamp on its way to a point of a smooth surface, of which there are `density` per area.
-std::optional<std::pair<Photon, bool>> shoot(const Scene& scene, const SurfaceSampler::Point& target, float density,
-                                             Pcg32& random) {
-    const LightReceiver receiver{target.position, {0, 0, 0}};
+std::optional<Photon> shoot(const Scene& scene, const LightChoices& lights, const SurfaceSampler::Point& target,
+                            float density, Pcg32& random) {
     const float u = random.uniform();
-    const ChosenLight chosen = std::visit([&](const auto& s) { return s.sample(receiver, u); }, scene.light_sampler());
-    if (chosen.index < 0) {
+    const Vec2 u2 = random.uniform2();
+    const auto chosen = choose_light(scene, lights, {target.position, {0, 0, 0}}, u, u2, random);
+    if (!chosen || chosen->light.point_like || chosen->light.medium != vacuum) {
         return std::nullopt;
     }
-    const auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], target.position,
-                                    random.uniform2(), random);
-    if (!light || light->point_like || light->medium != vacuum) {
-        return std::nullopt;
-    }
-    const float distance =
-        light->distance < infinity ? light->distance * (1 - 1e-4f) : 2 * length(scene.bounds().size());
-    const Rgb flux = light->radiance *
-                     (std::abs(dot(light->direction, target.normal)) / (density * chosen.probability * light->density));
+    const LightSample& light = chosen->light;
+    const float distance = light.distance < infinity ? light.distance * (1 - 1e-4f) : 2 * length(scene.bounds().size());
+    const Rgb flux = light.radiance * (std::abs(dot(light.direction, target.normal)) / (density * chosen->density()));
     // Where the light is, as far as the target knows; interfaces on the way will tell.
-    const MediumId medium = !target.surface->bounds_medium()           ? scene.camera_medium()
-                            : dot(light->direction, target.normal) > 0 ? target.surface->exterior
-                                                                       : target.surface->interior;
-    PhotonFlight flight(scene, {target.position + light->direction * distance, -light->direction}, medium, flux,
-                        random);
+    const MediumId medium = !target.surface->bounds_medium()          ? scene.camera_medium()
+                            : dot(light.direction, target.normal) > 0 ? target.surface->exterior
+                                                                      : target.surface->interior;
+    PhotonFlight flight(scene, {target.position + light.direction * distance, -light.direction}, medium, flux, random);
     return flight.reach(distance) ? flight.arrive() : std::nullopt;
 }
 
@@ -231,13 +224,14 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
     struct Arrived {
         std::vector<Photon> surface, volume;
     };
+    const LightChoices lights(scene);
     std::vector<Arrived> arrived(static_cast<std::size_t>(blocks));
     parallel_for(arrived.size(), threads, [&](std::size_t block) {
         Pcg32 random(hash_of(seed, block));
         for (int i = 0; i < per_block; ++i) {
             const float u = random.uniform();
-            if (const auto photon = shoot(scene, sampler.sample(u, random.uniform2()), density, random)) {
-                (photon->second ? arrived[block].volume : arrived[block].surface).push_back(photon->first);
+            if (const auto photon = shoot(scene, lights, sampler.sample(u, random.uniform2()), density, random)) {
+                (photon->in_volume ? arrived[block].volume : arrived[block].surface).push_back(*photon);
             }
         }
     });
