@@ -82,6 +82,10 @@ struct LobeField {
 };
 
 const Vec3 here(1, 2, 3);
+/// Glints that have nothing to do with what there is.
+const GlintMap glints({{{1, 2, 3}, normalize(Vec3(0.3f, 0.9f, 0.4f)), 1, Rgb(0.3f)},
+                       {{1.1f, 2, 3}, normalize(Vec3(0.1f, 0.9f, 0.3f)), 1, Rgb(0.2f)},
+                       {{1, 2.1f, 3}, normalize(Vec3(0.2f, -0.4f, 0.9f)), 1, Rgb(0.2f)}});
 const LobeField wrong{LobeAdjoint{{normalize(Vec3(-1, 0.5f, 0.2f)), 6}}};
 const LobeField nothing{};
 constexpr float classical_share = 0.3f;
@@ -129,9 +133,14 @@ void expect_unbiased(const F& f, bool in_volume) {
     const Rgb expected = integral_of(f);
     const auto classical = estimate(ClassicalDirection().at(here, in_volume, f));
     const auto guided = estimate(GuidedDirection(&wrong, &wrong, classical_share).at(here, in_volume, f));
+    const auto by_glints = estimate(GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, in_volume, f));
+    const auto by_all =
+        estimate(GuidedDirection(&wrong, &wrong, classical_share, &glints, &glints).at(here, in_volume, f));
     for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(test::is_within_one_percent(classical[static_cast<std::size_t>(c)], expected[c], 1e-4));
         EXPECT_TRUE(test::is_within_one_percent(guided[static_cast<std::size_t>(c)], expected[c], 1e-4));
+        EXPECT_TRUE(test::is_within_one_percent(by_glints[static_cast<std::size_t>(c)], expected[c], 1e-4));
+        EXPECT_TRUE(test::is_within_one_percent(by_all[static_cast<std::size_t>(c)], expected[c], 1e-4));
     }
 }
 
@@ -183,6 +192,26 @@ TEST(Direction, GuidedSamplesFollowTheirDensity) {
                                       "guided_coat", 3));
 }
 
+TEST(Direction, SamplesAmongGlintsFollowTheirDensity) {
+    const Volume volume;
+    const GuidedDirection all(&wrong, &wrong, classical_share, &glints, &glints);
+    const auto in_volume = all.at(here, true, volume);
+    EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
+                                      "glints_volume", 3));
+    const Wall wall;
+    const auto alone = GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, false, wall);
+    const auto above = [&](const Vec3& w) { return dot(wall.normal, w) > 0 ? alone.density(w) : 0.0f; };
+    EXPECT_TRUE(test::follows_density(direction_test(alone, above), "glints_wall", 3));
+}
+
+TEST(Direction, GlintsAreTriedEvenByWalksThatTheGuideFailed) {
+    const Volume f;
+    const Vec3 towards = normalize(Vec3(0.3f, 0.9f, 0.4f));
+    const GuidedDirection guide(&wrong, &wrong, classical_share, &glints, &glints);
+    EXPECT_GT(guide.at(here, true, f, 0.5f * least_boost).density(towards), f.density(towards));
+    EXPECT_EQ(guide.at(here + Vec3(5, 0, 0), true, f, 0.5f * least_boost).density(towards), f.density(towards));
+}
+
 TEST(Direction, AnotherClassicalShareIsRejected) {
     const Volume f;
     const auto actual = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
@@ -191,8 +220,7 @@ TEST(Direction, AnotherClassicalShareIsRejected) {
 }
 
 TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
-    const GuidedDirection guided(&wrong, &wrong, classical_share);
-    const auto check = [&](const auto& f) {
+    const auto check = [&](const auto& f, const GuidedDirection<LobeField>& guided, float least_share) {
         const auto distribution = guided.at(here, false, f);
         Pcg32 random(2);
         for (int i = 0; i < 2000; ++i) {
@@ -201,14 +229,19 @@ TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
             if (s && !s->specular) {
                 EXPECT_FLOAT_EQ(s->density, distribution.density(s->direction));
                 EXPECT_FLOAT_EQ(s->value.g, f.evaluate(s->direction).g);
-                EXPECT_LE(s->weight().g * classical_share * f.density(s->direction),
-                          f.evaluate(s->direction).g * 1.0001f);
+                EXPECT_LE(s->weight().g * least_share * f.density(s->direction), f.evaluate(s->direction).g * 1.0001f);
             }
         }
     };
-    check(Volume{});
-    check(Wall{});
-    check(Coat{});
+    const GuidedDirection guided(&wrong, &wrong, classical_share);
+    check(Volume{}, guided, classical_share);
+    check(Wall{}, guided, classical_share);
+    check(Coat{}, guided, classical_share);
+    // Glints never have more than a quarter.
+    const GuidedDirection among_glints(&wrong, &wrong, classical_share, &glints, &glints);
+    check(Volume{}, among_glints, 0.75f * classical_share);
+    check(Wall{}, among_glints, 0.75f * classical_share);
+    check(Coat{}, among_glints, 0.75f * classical_share);
 }
 
 TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {

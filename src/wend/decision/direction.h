@@ -3,9 +3,11 @@
 
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
+#include <wend/decision/glints.h>
 #include <wend/decision/trust.h>
 #include <wend/sampling/axial_lobes.h>
 
+#include <algorithm>
 #include <concepts>
 #include <optional>
 #include <type_traits>
@@ -70,7 +72,7 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 };
 
 /// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance
-/// (herholz2019). Surfaces and volumes have a field each.
+/// (herholz2019), and towards glints where there are some. Surfaces and volumes have a field each.
 template <AdjointField Field>
 class GuidedDirection {
 public:
@@ -79,50 +81,77 @@ public:
     using Product = std::remove_cvref_t<decltype(std::declval<LocalAdjoint>().incident(Vec3()).product(AxialLobes()))>;
 
     /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
-    /// alone: it bounds the weight by 1/classical_share times the classical one. Nothing: each adjoint's own.
-    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> classical_share = std::nullopt)
-        : surface_(surface), volume_(volume), classical_share_(classical_share) {}
+    /// alone, where glints have nothing to say: it bounds the weight by 1/classical_share times the classical one.
+    /// Nothing: each adjoint's own. Glints may be null.
+    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> classical_share = std::nullopt,
+                    const GlintMap* surface_glints = nullptr, const GlintMap* volume_glints = nullptr)
+        : surface_(surface),
+          volume_(volume),
+          classical_share_(classical_share),
+          surface_glints_(surface_glints),
+          volume_glints_(volume_glints) {}
 
     template <ScatteringFunction F>
     class Distribution {
     public:
-        /// `adjoint` may be null.
-        Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share)
+        /// `adjoint` and `glints` may be null.
+        Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share,
+                     const GlintMap::Cell* glints, bool in_volume)
             : f_(f), adjoint_(adjoint), classical_share_(classical_share) {
+            if (glints) {
+                glints_ = GlintMixture(*glints, position, f);
+                glint_share_ = glints_.is_empty() ? 0.0f : share_of(glints->fluence(in_volume));
+            }
             if (adjoint) {
                 product_.emplace(InPlace{*adjoint, position, f});
             }
         }
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
-            if (!product_) {
+            if (!product_ && glint_share_ == 0) {
                 return f_.sample(u, u2);
             }
             DirectionSample s;
-            if (u < classical_share_) {
-                const auto classical = f_.sample(u / classical_share_, u2);
-                if (!classical) {
-                    return std::nullopt;
-                }
-                s = *classical;
-                if (s.specular) {
-                    s.density *= classical_share_;
-                    s.boost = classical_share_;
-                    return s;
-                }
-            } else {
-                s.direction = product_->sample(u2);
+            if (u < glint_share_) {
+                s.direction = glints_.sample(std::min(u / glint_share_, one_minus_epsilon), u2);
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
+            } else {
+                u = std::min((u - glint_share_) / (1 - glint_share_), one_minus_epsilon);
+                if (!product_ || u < classical_share_) {
+                    const auto classical = f_.sample(product_ ? u / classical_share_ : u, u2);
+                    if (!classical) {
+                        return std::nullopt;
+                    }
+                    s = *classical;
+                    const float share = (1 - glint_share_) * (product_ ? classical_share_ : 1.0f);
+                    if (s.specular) {
+                        s.density *= share;
+                        s.boost = share;
+                        return s;
+                    }
+                } else {
+                    s.direction = product_->sample(u2);
+                    s.value = f_.evaluate(s.direction);
+                    s.density = f_.density(s.direction);
+                }
             }
-            s.classical_density = s.density;
-            s.guided_density = product_->density(s.direction);
-            s.density = mixed(s.classical_density, s.guided_density);
-            s.boost = s.classical_density > 0 ? s.density / s.classical_density : 1.0f;
+            const float own = s.density;
+            const float glint = glint_share_ > 0 ? glint_share_ * glints_.density(s.direction) : 0.0f;
+            const float classical = (1 - glint_share_) * own + glint;
+            if (product_) {
+                s.classical_density = classical;
+                s.guided_density = (1 - glint_share_) * product_->density(s.direction) + glint;
+                s.density = mixed(s.classical_density, s.guided_density);
+            } else {
+                s.density = classical;
+            }
+            s.boost = own > 0 ? s.density / own : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
         float density(const Vec3& w) const {
-            return product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
+            const float others = product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
+            return glint_share_ > 0 ? (1 - glint_share_) * others + glint_share_ * glints_.density(w) : others;
         }
 
         /// The adjoint's ∫ f L dω over the albedo of f, by channel; nothing where it is not known.
@@ -131,6 +160,14 @@ public:
         }
 
     private:
+        /// Of directions, for glints of that fluence. They are never many: it suffices that what chance would not find
+        /// is tried at all, and what is found by other means as well suffers.
+        float share_of(float fluence) const {
+            constexpr float least = 0.1f, most = 0.25f;
+            const float all = adjoint_ ? adjoint_->fluence() : 0.0f;
+            return all > 0 ? std::clamp(fluence / all, least, most) : least;
+        }
+
         float mixed(float classical, float guided) const {
             return classical_share_ * classical + (1 - classical_share_) * guided;
         }
@@ -147,6 +184,8 @@ public:
         std::optional<Product> product_;
         const LocalAdjoint* adjoint_;
         float classical_share_;
+        float glint_share_ = 0;
+        GlintMixture glints_;
     };
 
     /// `boost` is the product of the walk's boosts so far: below least_boost the scattering function alone is sampled,
@@ -155,14 +194,18 @@ public:
     Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
         const LocalAdjoint* adjoint = f.is_guidable() ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
         const bool guided = adjoint && boost >= least_boost;
+        const GlintMap* glints = in_volume ? volume_glints_ : surface_glints_;
+        const GlintMap::Cell* known = glints && f.is_guidable() ? glints->find(position) : nullptr;
         return Distribution<F>(f, adjoint, position,
-                               guided ? classical_share_.value_or(adjoint->classical_share()) : 1.0f);
+                               guided ? classical_share_.value_or(adjoint->classical_share()) : 1.0f, known, in_volume);
     }
 
 private:
     const Field* surface_;
     const Field* volume_;
     std::optional<float> classical_share_;
+    const GlintMap* surface_glints_;
+    const GlintMap* volume_glints_;
 };
 
 }  // namespace wend

@@ -5,8 +5,6 @@
 #include <wend/integrator/scattering.h>
 #include <wend/scene/surface_sampler.h>
 
-#include <nanoflann.hpp>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -18,12 +16,11 @@ namespace {
 
 /// Vessels have a few boundaries; after more the light is faint.
 constexpr int most_boundaries = 12;
+/// Glass reflects little, but over wide places that nothing else is known of.
+constexpr float odds_of_reflection = 10;
 
 struct Photon {
-    Vec3 position;
-    Vec3 towards;  ///< where it came from
-    float distance;
-    Rgb light;  ///< flux; in a medium over its scattering coefficient, as collisions tell of fluence by that
+    Glint glint;  ///< in a medium its light is the flux over the scattering coefficient, as collisions tell of fluence
     bool in_volume;
 };
 
@@ -69,7 +66,10 @@ public:
         for (int met = 0; hit_ && met < most_interfaces && boundaries < most_boundaries; ++met) {
             Vec3 beyond = ray_.direction;
             if (!scene_.is_interface(*hit_)) {
-                const SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
+                SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
+                if (f.reflects_or_refracts()) {
+                    f.prefer_reflection(odds_of_reflection);
+                }
                 if (!f.is_specular()) {
                     return boundaries > 0 && hit_->light < 0 ? told(hit_->position, flux_, false) : std::nullopt;
                 }
@@ -115,7 +115,7 @@ private:
 
     std::optional<Photon> told(const Vec3& position, const Rgb& light, bool in_volume) const {
         return max_value(light) > 0 && is_finite(light)
-                   ? std::optional(Photon{position, -ray_.direction, travelled_, light, in_volume})
+                   ? std::optional(Photon{{position, -ray_.direction, travelled_, light}, in_volume})
                    : std::nullopt;
     }
 
@@ -148,69 +148,17 @@ std::optional<Photon> shoot(const Scene& scene, const LightChoices& lights, cons
     return flight.reach(distance) ? flight.arrive() : std::nullopt;
 }
 
-/// Photons in a tree.
-class PhotonMap {
-public:
-    explicit PhotonMap(std::vector<Photon> photons)
-        : photons_(std::move(photons)), tree_(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
-    PhotonMap(const PhotonMap&) = delete;
-    PhotonMap& operator=(const PhotonMap&) = delete;
-
-    std::size_t size() const { return photons_.size(); }
-
-    /// Of the closest photons one by chance. Of n + 1 the last one tells how far the others lie spread, which makes n
-    /// over that size an unbiased estimate of their density.
-    std::optional<CausticSight> near(const Vec3& position, const Vec3& normal, Pcg32& random) const {
-        constexpr std::size_t n = 8;
-        std::array<std::uint32_t, n + 1> indices;
-        std::array<float, n + 1> distances2;
-        const std::array<float, 3> at{position.x, position.y, position.z};
-        const std::size_t count = tree_.knnSearch(at.data(), n + 1, indices.data(), distances2.data());
-        if (count < n + 1) {
-            return std::nullopt;
-        }
-        const Photon& one = photons_[indices[static_cast<std::size_t>(random.uniform() * n)]];
-        const float radius2 = distances2[n];
-        float size = 4 * pi / 3 * radius2 * std::sqrt(radius2);
-        if (normal != Vec3(0, 0, 0)) {
-            const float cosine = dot(one.towards, normal);
-            if (!(cosine > 0)) {
-                return std::nullopt;
-            }
-            size = pi * radius2 * std::max(cosine, 0.1f);
-        }
-        if (!(size > 0)) {
-            return std::nullopt;
-        }
-        return CausticSight{one.towards, one.distance, one.light * (n / size)};
+/// Of what glints lie in, where they lie on a surface with that normal, and otherwise in all directions.
+float extent(const Vec3& size, const Vec3& normal) {
+    const float volume = size.x * size.y * size.z;
+    if (normal == Vec3(0, 0, 0)) {
+        return volume;
     }
-
-    // What nanoflann asks for.
-    std::size_t kdtree_get_point_count() const { return photons_.size(); }
-    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return photons_[i].position[static_cast<int>(axis)]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box& /*box*/) const {
-        return false;
-    }
-
-private:
-    std::vector<Photon> photons_;
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PhotonMap>, PhotonMap, 3> tree_;
-};
+    const Vec3 n(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
+    return n.x > n.y && n.x > n.z ? size.y * size.z / n.x : n.y > n.z ? size.x * size.z / n.y : size.x * size.y / n.z;
+}
 
 }  // namespace
-
-struct CausticPhotons::Maps {
-    Maps(std::vector<Photon> on_surfaces, std::vector<Photon> in_media)
-        : surface(std::move(on_surfaces)), volume(std::move(in_media)) {}
-
-    PhotonMap surface, volume;
-};
-
-CausticPhotons::CausticPhotons() = default;
-CausticPhotons::CausticPhotons(CausticPhotons&&) noexcept = default;
-CausticPhotons& CausticPhotons::operator=(CausticPhotons&&) noexcept = default;
-CausticPhotons::~CausticPhotons() = default;
 
 CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed, int threads) {
     const SceneDescription& description = scene.description();
@@ -222,7 +170,7 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
     const int blocks = (count + per_block - 1) / per_block;
     const float density = static_cast<float>(blocks * per_block) / sampler.area();
     struct Arrived {
-        std::vector<Photon> surface, volume;
+        std::vector<Glint> surface, volume;
     };
     const LightChoices lights(scene);
     std::vector<Arrived> arrived(static_cast<std::size_t>(blocks));
@@ -231,7 +179,7 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
         for (int i = 0; i < per_block; ++i) {
             const float u = random.uniform();
             if (const auto photon = shoot(scene, lights, sampler.sample(u, random.uniform2()), density, random)) {
-                (photon->in_volume ? arrived[block].volume : arrived[block].surface).push_back(*photon);
+                (photon->in_volume ? arrived[block].volume : arrived[block].surface).push_back(photon->glint);
             }
         }
     });
@@ -240,18 +188,24 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
         all.surface.insert(all.surface.end(), some.surface.begin(), some.surface.end());
         all.volume.insert(all.volume.end(), some.volume.begin(), some.volume.end());
     }
-    maps_ = std::make_unique<Maps>(std::move(all.surface), std::move(all.volume));
-}
-
-std::size_t CausticPhotons::size() const {
-    return maps_ ? maps_->surface.size() + maps_->volume.size() : 0;
+    on_surfaces_ = GlintMap(std::move(all.surface));
+    in_media_ = GlintMap(std::move(all.volume));
 }
 
 std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec3& normal, Pcg32& random) const {
-    if (!maps_) {
+    const bool in_volume = normal == Vec3(0, 0, 0);
+    const GlintMap::Cell* cell = (in_volume ? in_media_ : on_surfaces_).find(position);
+    if (!cell) {
         return std::nullopt;
     }
-    return (normal == Vec3(0, 0, 0) ? maps_->volume : maps_->surface).near(position, normal, random);
+    const auto i = static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count));
+    const Vec3 towards = cell->direction(i, position);
+    const float cosine = in_volume ? 1.0f : dot(towards, normal);
+    const float size = extent(cell->extent, normal) * std::max(cosine, 0.1f);
+    if (!(cosine > 0) || !(size > 0)) {
+        return std::nullopt;
+    }
+    return CausticSight{towards, cell->distances[i], cell->colours[i] * (static_cast<float>(cell->count) / size)};
 }
 
 }  // namespace wend

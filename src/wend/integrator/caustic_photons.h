@@ -4,9 +4,9 @@
 #include <wend/core/colour.h>
 #include <wend/core/random.h>
 #include <wend/core/vector.h>
+#include <wend/decision/glints.h>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 namespace wend {
@@ -21,28 +21,27 @@ struct CausticSight {
 };
 
 /// Photons, as photon maps have them (jensen1995): from lights to points of smooth boundaries and mirrors, and from
-/// there, reflected and refracted as chance will have it, to where they first meet something else. They teach guides
-/// where to look, and need not be exact.
+/// there, reflected and refracted as chance will have it, to where they first meet something else. Directions are drawn
+/// and guides are taught by them; they need not be exact.
 class CausticPhotons {
 public:
     /// None.
-    CausticPhotons();
-    /// About `count` of them, in a scene that has smooth surfaces.
+    CausticPhotons() = default;
+    /// About `count` are sent, in a scene that has smooth surfaces.
     CausticPhotons(const Scene& scene, int count, std::uint64_t seed, int threads);
-    CausticPhotons(CausticPhotons&&) noexcept;
-    CausticPhotons& operator=(CausticPhotons&&) noexcept;
-    ~CausticPhotons();
 
-    /// How many arrived.
-    std::size_t size() const;
+    /// How many arrived and were kept.
+    std::size_t size() const { return on_surfaces_.size() + in_media_.size(); }
+
+    const GlintMap& on_surfaces() const { return on_surfaces_; }
+    const GlintMap& in_media() const { return in_media_; }
 
     /// One of the photons close to a place on a surface, on the side of the normal, or in a medium, where the normal is
     /// zero. Nothing if there is none.
     std::optional<CausticSight> near(const Vec3& position, const Vec3& normal, Pcg32& random) const;
 
 private:
-    struct Maps;
-    std::unique_ptr<Maps> maps_;
+    GlintMap on_surfaces_, in_media_;
 };
 
 }  // namespace wend

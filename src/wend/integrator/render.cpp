@@ -34,8 +34,8 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
-// From lights to smooth surfaces, for hints.
-constexpr int photons = 1 << 17;
+// Photons from lights to smooth surfaces: as many as there have been walks, between these.
+constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them, or to judge guides.
 constexpr int warm_up_samples = 7;
 
@@ -60,14 +60,14 @@ public:
           subsurface_(scene, settings.subsurface, settings.threads),
           lights_(scene),
           reflections_(scene.bounds()),
-          caustics_(settings.preset.direction && settings.training_samples > 0
-                        ? CausticPhotons(scene, photons, settings.seed, settings.threads)
-                        : CausticPhotons()),
           budget_(settings.most_records) {}
 
     /// Adds `count` samples to each pixel, and learns from them.
     void pass(int count, RenderStatistics& statistics) {
         const PassPlan plan = plan_for(count, statistics.samples);
+        if (plan.record && settings_.preset.direction) {
+            send_photons(plan);
+        }
         walk(plan);
         statistics.samples += count;
         statistics.passes.push_back(count);
@@ -120,6 +120,16 @@ private:
         return plan;
     }
 
+    /// Anew, once there may be twice as many.
+    void send_photons(const PassPlan& plan) {
+        const double walked = static_cast<double>(film_.crop().width()) * film_.crop().height() * plan.first;
+        const int due = static_cast<int>(std::clamp(walked, double{fewest_photons}, double{most_photons}));
+        if (due >= 2 * photons_ || (due == most_photons && photons_ < due)) {
+            caustics_ = CausticPhotons(scene_, due, settings_.seed, settings_.threads);
+            photons_ = due;
+        }
+    }
+
     /// All walks of a pass, by the decisions of the preset.
     void walk(const PassPlan& plan) {
         const Preset& preset = settings_.preset;
@@ -135,7 +145,8 @@ private:
             &fields_.surface, &fields_.volume, classical_flights,
             preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields_.surface, &fields_.volume,
-                                        preset.direction ? std::nullopt : std::optional(1.0f));
+                                        preset.direction ? std::nullopt : std::optional(1.0f), &caustics_.on_surfaces(),
+                                        &caustics_.in_media());
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
                 run_with(GuidedDecisions{distance, direction, survival});
@@ -199,6 +210,7 @@ private:
     LightChoices lights_;
     ReflectionChoices reflections_;
     CausticPhotons caustics_;
+    int photons_ = 0;  ///< that were sent
     RecordBudget budget_;
 };
 

@@ -1,0 +1,187 @@
+#include <wend/decision/glints.h>
+
+#include <algorithm>
+#include <span>
+
+namespace wend {
+namespace {
+
+/// Photons that a cell has at most. More of them know more ways to lights, fewer know them more exactly.
+constexpr std::size_t most_glints = 32;
+
+/// The group of each glint, and how many groups there are: around the one that would be missed most, then around the
+/// next, so that no way to a light is left out.
+struct Grouping {
+    std::array<std::size_t, most_glints> of{};
+    std::size_t count = 0;
+};
+
+Grouping grouped(std::span<const Glint> glints) {
+    Grouping groups;
+    std::array<float, most_glints> apart;
+    apart.fill(4);
+    std::size_t next = 0;
+    float all = 0;
+    for (std::size_t i = 0; i < glints.size(); ++i) {
+        const float light = mean_value(glints[i].light);
+        all += light;
+        next = light > mean_value(glints[next].light) ? i : next;
+    }
+    // Groups that are much fainter say nothing, and would be nothing to divide by.
+    constexpr float negligible = 1e-6f;
+    float missed = all;
+    while (groups.count < GlintMap::most_groups && missed > negligible * all) {
+        const Vec3 centre = glints[next].towards;
+        missed = 0;
+        for (std::size_t i = 0; i < glints.size(); ++i) {
+            const float d = length_squared(glints[i].towards - centre);
+            if (d < apart[i]) {
+                apart[i] = d;
+                groups.of[i] = groups.count;
+            }
+            if (const float loss = apart[i] * mean_value(glints[i].light); loss > missed) {
+                missed = loss;
+                next = i;
+            }
+        }
+        ++groups.count;
+    }
+    return groups;
+}
+
+GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
+    const Vec3 size = bounds.size();
+    const Vec3 around = Vec3(1, 1, 1) * (2 * std::max({size.x, size.y, size.z, 1e-6f}));
+    // Outermost points lie within an interval's ends by chance, or where space was divided on one of these.
+    const auto n = static_cast<float>(glints.size());
+    GlintMap::Cell cell;
+    cell.reach = Box3(bounds.min - around, bounds.max + around);
+    cell.extent = size * ((n + 0.5f) / std::max(1.0f, n - 1));
+
+    const Grouping groups = grouped(glints);
+    cell.count = groups.count;
+    std::array<Vec3, GlintMap::most_groups> sums;
+    sums.fill({0, 0, 0});
+    cell.places.fill({0, 0, 0});
+    std::array<float, GlintMap::most_groups> members{}, squares{};
+    for (std::size_t i = 0; i < glints.size(); ++i) {
+        const std::size_t group = groups.of[i];
+        const float light = mean_value(glints[i].light);
+        ++members[group];
+        sums[group] += glints[i].towards * light;
+        cell.weights[group] += light;
+        cell.colours[group] += glints[i].light;
+        cell.distances[group] += glints[i].distance * light;
+        cell.places[group] += glints[i].position * light;
+    }
+    for (std::size_t group = 0; group < cell.count; ++group) {
+        cell.lobes[group].mean = normalize(sums[group]);
+        cell.distances[group] /= cell.weights[group];
+        cell.places[group] *= 1 / cell.weights[group];
+        cell.light += cell.weights[group];
+    }
+    // Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that
+    // the length of the way.
+    std::array<float, GlintMap::most_groups> turned{}, moved{};
+    for (std::size_t i = 0; i < glints.size(); ++i) {
+        const std::size_t group = groups.of[i];
+        const Vec3& mean = cell.lobes[group].mean;
+        const Vec3 offset = glints[i].position - cell.places[group];
+        const Vec3 across = offset - mean * dot(offset, mean);
+        turned[group] -= dot(glints[i].towards - mean, across);
+        moved[group] += length_squared(across);
+    }
+    const float most_turned = 1 / std::max({size.x, size.y, size.z, 1e-6f});
+    for (std::size_t group = 0; group < cell.count; ++group) {
+        const float before = std::max(moved[group] / members[group], 1e-12f);
+        const float turn = (turned[group] + before / cell.distances[group]) / (moved[group] + before);
+        cell.turns[group] = std::clamp(turn, -most_turned, most_turned);
+    }
+    float square = 0;
+    for (std::size_t i = 0; i < glints.size(); ++i) {
+        const float d = length_squared(glints[i].towards - cell.direction(groups.of[i], glints[i].position));
+        squares[groups.of[i]] += d;
+        square += d;
+    }
+    // A group of few is thought to spread as others do, and a cell without any spread far.
+    const std::size_t freedom = glints.size() - cell.count;
+    const float expected = freedom > 0 ? square / static_cast<float>(freedom) : 1.0f;
+    for (std::size_t group = 0; group < cell.count; ++group) {
+        const float spread = (squares[group] + expected) / members[group];
+        cell.lobes[group].kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
+    }
+    return cell;
+}
+
+}  // namespace
+
+float GlintMap::Cell::fluence(bool in_volume) const {
+    const float area = std::max({extent.x * extent.y, extent.y * extent.z, extent.z * extent.x});
+    const float size = in_volume ? extent.x * extent.y * extent.z : area;
+    return light / std::max(size, 1e-20f);
+}
+
+GlintMap::GlintMap(std::vector<Glint> glints) : size_(glints.size()) {
+    struct Part {
+        std::span<Glint> glints;
+        std::size_t node;
+    };
+    std::vector<Part> parts;
+    if (!glints.empty()) {
+        nodes_.emplace_back();
+        parts.push_back({glints, 0});
+    }
+    while (!parts.empty()) {
+        const auto [here, node] = parts.back();
+        parts.pop_back();
+        Box3 bounds;
+        for (const Glint& glint : here) {
+            bounds.extendBy(glint.position);
+        }
+        if (here.size() <= most_glints) {
+            nodes_[node].next = static_cast<std::uint32_t>(cells_.size());
+            cells_.push_back(cell_of(here, bounds));
+            continue;
+        }
+        const auto axis = static_cast<int>(bounds.majorAxis());
+        const std::size_t half = here.size() / 2;
+        std::nth_element(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(half), here.end(),
+                         [axis](const Glint& a, const Glint& b) { return a.position[axis] < b.position[axis]; });
+        const std::size_t next = nodes_.size();
+        nodes_[node] = {here[half].position[axis], axis, static_cast<std::uint32_t>(next)};
+        nodes_.resize(next + 2);
+        parts.push_back({here.first(half), next});
+        parts.push_back({here.subspan(half), next + 1});
+    }
+}
+
+const GlintMap::Cell* GlintMap::find(const Vec3& position) const {
+    if (nodes_.empty()) {
+        return nullptr;
+    }
+    const Node* node = nodes_.data();
+    while (node->axis >= 0) {
+        node = &nodes_[node->next + (position[node->axis] < node->split ? 0 : 1)];
+    }
+    const Cell& cell = cells_[node->next];
+    return cell.reach.intersects(position) ? &cell : nullptr;
+}
+
+Vec3 GlintMixture::sample(float u, const Vec2& u2) const {
+    float left = u * sum_;
+    std::size_t i = 0;
+    while (i + 1 < count_ && left >= weights_[i]) {
+        left -= weights_[i++];
+    }
+    return lobes_[i].sample(u2);
+}
+
+float GlintMixture::density(const Vec3& direction) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        sum += weights_[i] * lobes_[i].density(direction);
+    }
+    return sum / sum_;
+}
+
+}  // namespace wend

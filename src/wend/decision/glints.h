@@ -1,0 +1,104 @@
+// Light that smooth surfaces lead to a place, as photons tell of it: one more way to draw directions.
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/core/vector.h>
+#include <wend/sampling/vmf.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wend {
+
+/// What a photon tells of the place where it arrived.
+struct Glint {
+    Vec3 position{0, 0, 0};
+    Vec3 towards{0, 0, 1};  ///< where it came from, unit length
+    float distance = 0;     ///< of the light, along the way
+    Rgb light;              ///< the photon's flux, or what is in proportion to it
+};
+
+/// Glints by place: cells of a few that arrived next to each other, in groups of similar directions, of which each is
+/// mostly one way to one light.
+class GlintMap {
+public:
+    static constexpr std::size_t most_groups = 8;
+
+    struct Cell {
+        Box3 reach;       ///< where it has something to say
+        Vec3 extent;      ///< of the space that its glints lie in
+        float light = 0;  ///< sum over the groups
+        std::size_t count = 0;
+        std::array<Vmf, most_groups> lobes;        ///< directions of each group, seen from its place
+        std::array<Vec3, most_groups> places;      ///< where it arrived, as a mean
+        std::array<float, most_groups> turns{};    ///< by how much directions turn away from a step aside, in 1/length
+        std::array<float, most_groups> weights{};  ///< its light, as a mean over channels
+        std::array<Rgb, most_groups> colours;      ///< its light
+        std::array<float, most_groups> distances{};  ///< of its light, along the way
+
+        /// Where a group's light comes from, as seen from a position.
+        Vec3 direction(std::size_t group, const Vec3& position) const {
+            return normalize(lobes[group].mean - (position - places[group]) * turns[group]);
+        }
+        /// Of one place, about: in a medium light per volume, on surfaces per area.
+        float fluence(bool in_volume) const;
+    };
+
+    /// Knows of none.
+    GlintMap() = default;
+    /// All glints of surfaces, or all of media.
+    explicit GlintMap(std::vector<Glint> glints);
+
+    /// What is known around a position, or null.
+    const Cell* find(const Vec3& position) const;
+
+    /// How many glints there are.
+    std::size_t size() const { return size_; }
+
+private:
+    /// A plane that divides space, or where `axis` is negative a cell.
+    struct Node {
+        float split = 0;
+        std::int32_t axis = -1;
+        std::uint32_t next = 0;  ///< the first of two nodes, or the cell
+    };
+
+    std::vector<Node> nodes_;
+    std::vector<Cell> cells_;
+    std::size_t size_ = 0;
+};
+
+/// Directions towards the groups of a cell, by how much of their light a scattering function scatters.
+class GlintMixture {
+public:
+    /// None.
+    GlintMixture() = default;
+
+    template <class F>
+    GlintMixture(const GlintMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.count) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            lobes_[i] = {cell.direction(i, position), cell.lobes[i].kappa};
+            weights_[i] = cell.weights[i] * mean_value(f.evaluate(lobes_[i].mean));
+            sum_ += weights_[i];
+        }
+    }
+
+    /// Whether there is nothing to draw from.
+    bool is_empty() const { return !(sum_ > 0); }
+
+    /// A direction, from a number of [0,1) and a point of [0,1)².
+    Vec3 sample(float u, const Vec2& u2) const;
+
+    /// Per steradian.
+    float density(const Vec3& direction) const;
+
+private:
+    std::size_t count_ = 0;
+    float sum_ = 0;
+    std::array<Vmf, GlintMap::most_groups> lobes_;
+    std::array<float, GlintMap::most_groups> weights_{};
+};
+
+}  // namespace wend
