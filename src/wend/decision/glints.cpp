@@ -13,6 +13,7 @@ constexpr std::size_t most_glints = 32;
 /// next, so that no way to a light is left out.
 struct Grouping {
     std::array<std::size_t, most_glints> of{};
+    std::array<Vec3, GlintMap::most_groups> centres;
     std::size_t count = 0;
 };
 
@@ -32,6 +33,7 @@ Grouping grouped(std::span<const Glint> glints) {
     float missed = all;
     while (groups.count < GlintMap::most_groups && missed > negligible * all) {
         const Vec3 centre = glints[next].towards;
+        groups.centres[groups.count] = centre;
         missed = 0;
         for (std::size_t i = 0; i < glints.size(); ++i) {
             const float d = length_squared(glints[i].towards - centre);
@@ -75,7 +77,9 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
         cell.places[group] += glints[i].position * light;
     }
     for (std::size_t group = 0; group < cell.count; ++group) {
-        cell.lobes[group].mean = normalize(sums[group]);
+        // Directions may cancel.
+        const Vec3 mean = sums[group] * (1 / cell.weights[group]);
+        cell.lobes[group].mean = length(mean) > 1e-3f ? normalize(mean) : groups.centres[group];
         cell.distances[group] /= cell.weights[group];
         cell.places[group] *= 1 / cell.weights[group];
         cell.light += cell.weights[group];
