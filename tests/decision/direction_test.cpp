@@ -83,9 +83,16 @@ struct LobeField {
 
 const Vec3 here(1, 2, 3);
 /// Glints that have nothing to do with what there is.
-const GlintMap glints({{{1, 2, 3}, normalize(Vec3(0.3f, 0.9f, 0.4f)), 1, Rgb(0.3f)},
-                       {{1.1f, 2, 3}, normalize(Vec3(0.1f, 0.9f, 0.3f)), 1, Rgb(0.2f)},
-                       {{1, 2.1f, 3}, normalize(Vec3(0.2f, -0.4f, 0.9f)), 1, Rgb(0.2f)}});
+const GlintMap glints = [] {
+    std::vector<Glint> around;
+    Pcg32 random(9);
+    for (int i = 0; i < 30; ++i) {
+        const Vec3 towards = i % 3 > 0 ? Vec3(0.3f, 0.9f, 0.4f) : Vec3(0.2f, -0.4f, 0.9f);
+        const Vec3 moved(random.uniform(), random.uniform(), random.uniform());
+        around.push_back({here + moved * 0.1f, normalize(towards + moved * 0.3f), 2, Rgb(0.2f)});
+    }
+    return GlintMap(around);
+}();
 const LobeField wrong{LobeAdjoint{{normalize(Vec3(-1, 0.5f, 0.2f)), 6}}};
 const LobeField nothing{};
 constexpr float classical_share = 0.3f;
@@ -206,7 +213,7 @@ TEST(Direction, SamplesAmongGlintsFollowTheirDensity) {
 
 TEST(Direction, GlintsAreTriedEvenByWalksThatTheGuideFailed) {
     const Volume f;
-    const Vec3 towards = normalize(Vec3(0.3f, 0.9f, 0.4f));
+    const Vec3 towards = normalize(Vec3(0.45f, 1.05f, 0.55f));
     const GuidedDirection guide(&wrong, &wrong, classical_share, &glints, &glints);
     EXPECT_GT(guide.at(here, true, f, 0.5f * least_boost).density(towards), f.density(towards));
     EXPECT_EQ(guide.at(here + Vec3(5, 0, 0), true, f, 0.5f * least_boost).density(towards), f.density(towards));

@@ -6,6 +6,8 @@
 namespace wend {
 namespace {
 
+/// Wider lobes are of light that is found by chance: a part of a sky, or ways of which too little is known.
+constexpr float least_kappa = 20;
 /// Photons that a cell has at most. More of them know more ways to lights, fewer know them more exactly.
 constexpr std::size_t most_glints = 32;
 
@@ -82,7 +84,6 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
         cell.lobes[group].mean = length(mean) > 1e-3f ? normalize(mean) : groups.centres[group];
         cell.distances[group] /= cell.weights[group];
         cell.places[group] *= 1 / cell.weights[group];
-        cell.light += cell.weights[group];
     }
     // Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that
     // the length of the way.
@@ -112,7 +113,10 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
     const float expected = freedom > 0 ? square / static_cast<float>(freedom) : 1.0f;
     for (std::size_t group = 0; group < cell.count; ++group) {
         const float spread = (squares[group] + expected) / members[group];
-        cell.lobes[group].kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
+        const float kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
+        cell.lobes[group].kappa = kappa;
+        cell.weights[group] = kappa < least_kappa ? 0.0f : cell.weights[group];
+        cell.light += cell.weights[group];
     }
     return cell;
 }

@@ -29,12 +29,12 @@ public:
     struct Cell {
         Box3 reach;       ///< where it has something to say
         Vec3 extent;      ///< of the space that its glints lie in
-        float light = 0;  ///< sum over the groups
+        float light = 0;  ///< sum of the weights
         std::size_t count = 0;
         std::array<Vmf, most_groups> lobes;        ///< directions of each group, seen from its place
         std::array<Vec3, most_groups> places;      ///< where it arrived, as a mean
         std::array<float, most_groups> turns{};    ///< by how much directions turn away from a step aside, in 1/length
-        std::array<float, most_groups> weights{};  ///< its light, as a mean over channels
+        std::array<float, most_groups> weights{};  ///< its light, as a mean over channels; 0 where the lobe is wide
         std::array<Rgb, most_groups> colours;      ///< its light
         std::array<float, most_groups> distances{};  ///< of its light, along the way
 
@@ -42,7 +42,8 @@ public:
         Vec3 direction(std::size_t group, const Vec3& position) const {
             return normalize(lobes[group].mean - (position - places[group]) * turns[group]);
         }
-        /// Of one place, about: in a medium light per volume, on surfaces per area.
+
+        /// Of all narrow lobes together, about: in a medium light per volume, on surfaces per area.
         float fluence(bool in_volume) const;
     };
 

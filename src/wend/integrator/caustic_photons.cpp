@@ -199,13 +199,16 @@ std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec
         return std::nullopt;
     }
     const auto i = static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count));
-    const Vec3 towards = cell->direction(i, position);
+    // As a plane mirror shows it: a field takes distances for those of what lies straight ahead.
+    const Vec3 way = cell->places[i] + cell->lobes[i].mean * cell->distances[i] - position;
+    const float distance = length(way);
+    const Vec3 towards = way * (1 / distance);
     const float cosine = in_volume ? 1.0f : dot(towards, normal);
     const float size = extent(cell->extent, normal) * std::max(cosine, 0.1f);
-    if (!(cosine > 0) || !(size > 0)) {
+    if (!(cosine > 0) || !(size > 0) || !(distance > 0)) {
         return std::nullopt;
     }
-    return CausticSight{towards, cell->distances[i], cell->colours[i] * (static_cast<float>(cell->count) / size)};
+    return CausticSight{towards, distance, cell->colours[i] * (static_cast<float>(cell->count) / size)};
 }
 
 }  // namespace wend
