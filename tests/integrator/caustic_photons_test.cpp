@@ -92,8 +92,7 @@ TEST(CausticPhotons, SeeTheLampInAMirror) {
         ASSERT_TRUE(sight);
         EXPECT_FALSE(caustics.near({u.x, 3, u.y}, {0, 1, 0}, random)) << "nothing comes from above";
         const Vec3 met = Vec3(u.x, 3, u.y) + sight->towards * sight->distance;
-        // Directions and distances are means of several photons, which a lamp of this size changes a little.
-        EXPECT_NEAR(met.y, -height, 0.01f * size);
+        EXPECT_NEAR(met.y, -height, 1e-3f);
         sum += met;
     }
     // A photon arrived beside the place that asks, on any side of it.

@@ -111,30 +111,25 @@ public:
             if (!product_ && glint_share_ == 0) {
                 return f_.sample(u, u2);
             }
+            const float own_share = product_ ? classical_share_ : 1.0f;
+            const bool by_glints = u < glint_share_;
+            u = std::min(by_glints ? u / glint_share_ : (u - glint_share_) / (1 - glint_share_), one_minus_epsilon);
             DirectionSample s;
-            if (u < glint_share_) {
-                s.direction = glints_.sample(std::min(u / glint_share_, one_minus_epsilon), u2);
+            if (!by_glints && u < own_share) {
+                const auto classical = f_.sample(u / own_share, u2);
+                if (!classical) {
+                    return std::nullopt;
+                }
+                s = *classical;
+                if (s.specular) {
+                    s.boost = (1 - glint_share_) * own_share;
+                    s.density *= s.boost;
+                    return s;
+                }
+            } else {
+                s.direction = by_glints ? glints_.sample(u, u2) : product_->sample(u2);
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
-            } else {
-                u = std::min((u - glint_share_) / (1 - glint_share_), one_minus_epsilon);
-                if (!product_ || u < classical_share_) {
-                    const auto classical = f_.sample(product_ ? u / classical_share_ : u, u2);
-                    if (!classical) {
-                        return std::nullopt;
-                    }
-                    s = *classical;
-                    const float share = (1 - glint_share_) * (product_ ? classical_share_ : 1.0f);
-                    if (s.specular) {
-                        s.density *= share;
-                        s.boost = share;
-                        return s;
-                    }
-                } else {
-                    s.direction = product_->sample(u2);
-                    s.value = f_.evaluate(s.direction);
-                    s.density = f_.density(s.direction);
-                }
             }
             const float own = s.density;
             const float glint = glint_share_ > 0 ? glint_share_ * glints_.density(s.direction) : 0.0f;

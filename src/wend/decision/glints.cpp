@@ -67,6 +67,7 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
     std::array<Vec3, GlintMap::most_groups> sums;
     sums.fill({0, 0, 0});
     cell.places.fill({0, 0, 0});
+    cell.images.fill({0, 0, 0});
     std::array<float, GlintMap::most_groups> members{}, squares{};
     for (std::size_t i = 0; i < glints.size(); ++i) {
         const std::size_t group = groups.of[i];
@@ -77,6 +78,7 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
         cell.colours[group] += glints[i].light;
         cell.distances[group] += glints[i].distance * light;
         cell.places[group] += glints[i].position * light;
+        cell.images[group] += (glints[i].position + glints[i].towards * glints[i].distance) * light;
     }
     for (std::size_t group = 0; group < cell.count; ++group) {
         // Directions may cancel.
@@ -84,6 +86,7 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
         cell.lobes[group].mean = length(mean) > 1e-3f ? normalize(mean) : groups.centres[group];
         cell.distances[group] /= cell.weights[group];
         cell.places[group] *= 1 / cell.weights[group];
+        cell.images[group] *= 1 / cell.weights[group];
     }
     // Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that
     // the length of the way.

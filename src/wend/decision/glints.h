@@ -33,6 +33,7 @@ public:
         std::size_t count = 0;
         std::array<Vmf, most_groups> lobes;        ///< directions of each group, seen from its place
         std::array<Vec3, most_groups> places;      ///< where it arrived, as a mean
+        std::array<Vec3, most_groups> images;      ///< where its light would be if all mirrors were plane
         std::array<float, most_groups> turns{};    ///< by how much directions turn away from a step aside, in 1/length
         std::array<float, most_groups> weights{};  ///< its light, as a mean over channels; 0 where the lobe is wide
         std::array<Rgb, most_groups> colours;      ///< its light

@@ -200,7 +200,7 @@ std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec
     }
     const auto i = static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count));
     // As a plane mirror shows it: a field takes distances for those of what lies straight ahead.
-    const Vec3 way = cell->places[i] + cell->lobes[i].mean * cell->distances[i] - position;
+    const Vec3 way = cell->images[i] - position;
     const float distance = length(way);
     const Vec3 towards = way * (1 / distance);
     const float cosine = in_volume ? 1.0f : dot(towards, normal);

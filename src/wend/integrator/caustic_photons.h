@@ -30,14 +30,14 @@ public:
     /// About `count` are sent, in a scene that has smooth surfaces.
     CausticPhotons(const Scene& scene, int count, std::uint64_t seed, int threads);
 
-    /// How many arrived and were kept.
+    /// How many arrived.
     std::size_t size() const { return on_surfaces_.size() + in_media_.size(); }
 
     const GlintMap& on_surfaces() const { return on_surfaces_; }
     const GlintMap& in_media() const { return in_media_; }
 
-    /// One of the photons close to a place on a surface, on the side of the normal, or in a medium, where the normal is
-    /// zero. Nothing if there is none.
+    /// What one group of photons, by chance of those close by, tells of a place on a surface, on the side of the
+    /// normal, or in a medium, where the normal is zero. Nothing if there is none.
     std::optional<CausticSight> near(const Vec3& position, const Vec3& normal, Pcg32& random) const;
 
 private:
