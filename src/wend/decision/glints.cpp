@@ -7,7 +7,7 @@ namespace wend {
 namespace {
 
 /// Wider lobes are of light that is found by chance: a part of a sky, or ways of which too little is known.
-constexpr float least_kappa = 20;
+constexpr float least_kappa = 100;
 /// Photons that a cell has at most. More of them know more ways to lights, fewer know them more exactly.
 constexpr std::size_t most_glints = 32;
 
@@ -137,6 +137,13 @@ GlintMap::GlintMap(std::vector<Glint> glints) : size_(glints.size()) {
         std::span<Glint> glints;
         std::size_t node;
     };
+    // What is much fainter than others says nothing, and would be nothing to divide by.
+    double all = 0;
+    for (const Glint& glint : glints) {
+        all += static_cast<double>(mean_value(glint.light));
+    }
+    const auto negligible = static_cast<float>(1e-9 * all / static_cast<double>(std::max<std::size_t>(size_, 1)));
+    std::erase_if(glints, [&](const Glint& glint) { return mean_value(glint.light) <= negligible; });
     std::vector<Part> parts;
     if (!glints.empty()) {
         nodes_.emplace_back();
