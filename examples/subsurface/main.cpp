@@ -90,7 +90,7 @@ private:
         const float u = random_.uniform();
         const auto s = directions.sample(u, random_.uniform2());
         throughput_ *= s->weight();
-        slab_.turn(ray_.direction, s->direction);
+        slab_.turn(directions, s->direction);
         ray_ = {position, s->direction};
         density_ = s->density;
         // 5. Survive.
@@ -118,7 +118,7 @@ private:
         const Vec3 w = sun.to_world(wend::to_cone(random_.uniform2(), sun_width));
         const float length = distance_to_exit({position, w});
         SlabWalk there = slab_;
-        there.turn(ray_.direction, w);
+        there.turn(directions, w);
         const float own = directions.density(w) * there.pass(length);
         const Rgb transmittance = wend::exp(wax.extinction() * -length);
         return wax.phase.evaluate(dot(ray_.direction, w)) * transmittance * sun_radiance * (1 / (own + sun_density));

@@ -127,7 +127,7 @@ Estimates estimate(const SlabGuide& guide, float bias = 1) {
             const auto s = directions.sample(u, random.uniform2());
             weight *= s->weight() * bias;
             shape = 1 + dot(s->direction, second_normal);
-            walk.turn(before, s->direction);
+            walk.turn(directions, s->direction);
             const SlabFlight second = walk.fly(0.5f, random.uniform(), random);
             weight *= second.flight.weight;
             e.relative.add(walk.relative_densities()[2]);
@@ -207,8 +207,9 @@ TEST(SlabWalk, HeadsForLampsAndFliesOutToThem) {
     Pcg32 random(2);
     ASSERT_TRUE(walk.fly(infinity, 0.5f, random).flight.scatters);
     const Vec3& towards = lamps[0].lobe.mean;
-    EXPECT_GT(SlabWalk::Directions(walk, arrival, random).density(towards), 0.3f * lamps[0].lobe.density(towards));
-    walk.turn(arrival, towards);
+    const SlabWalk::Directions directions(walk, arrival, random);
+    EXPECT_GT(directions.density(towards), 0.3f * lamps[0].lobe.density(towards));
+    walk.turn(directions, towards);
     EXPECT_GT(walk.pass(10), 0.8f);
 }
 
@@ -223,7 +224,7 @@ TEST(SlabWalk, NoWeightExceedsTheClassicalOneOverItsShare) {
             const SlabWalk::Directions directions(walk, before, random);
             const float u = random.uniform();
             const Vec3 w = directions.sample(u, random.uniform2())->direction;
-            walk.turn(before, w);
+            walk.turn(directions, w);
             before = w;
             const SlabGuide::Shares relative = walk.relative_densities();
             for (std::size_t technique = 0; technique < 3; ++technique) {

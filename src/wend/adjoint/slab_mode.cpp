@@ -1,4 +1,5 @@
 #include <wend/adjoint/slab_mode.h>
+#include <wend/numeric/fast_exp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +33,14 @@ std::vector<float> to_powers(std::span<const double> legendre) {
 }  // namespace
 
 SlabMode::SlabMode(double k, double albedo, std::span<const double> source)
-    : k_(static_cast<float>(k)), albedo_(static_cast<float>(albedo)), source_(to_powers(source)) {
+    : k_(static_cast<float>(k)),
+      albedo_(static_cast<float>(albedo)),
+      source_(to_powers(source)),
+      is_isotropic_(source.size() == 1),
+      logarithm_(std::log1p(2 * k_ / (1 - k_))) {
     constexpr int steps = 256;
-    most_ = least_ = radiance(-1);
+    source_.resize((source_.size() + stride - 1) / stride * stride);
+    most_ = least_ = inward_ = radiance(-1);
     for (int i = 1; i <= steps; ++i) {
         const float value = radiance(-1 + 2 * static_cast<float>(i) / steps);
         most_ = std::max(most_, value);
@@ -44,17 +50,14 @@ SlabMode::SlabMode(double k, double albedo, std::span<const double> source)
 }
 
 Vec3 SlabMode::sample(const PhaseFunction& phase, const Vec3& before, const Vec3& normal, Pcg32& random) const {
-    if (source_.size() == 1) {
+    if (is_isotropic_) {
         // Isotropic scattering: (1 - k mu)^-1 is inverted in closed form.
         const Vec2 u = random.uniform2();
         if (k_ == 0) {
             return to_sphere(u);
         }
-        const double k = k_;
-        const double logarithm = std::log1p(2 * k / (1 - k));
-        const double cosine = -1 - (1 + k) / k * std::expm1(-logarithm * static_cast<double>(u.x));
-        const auto mu = static_cast<float>(std::clamp(cosine, -1.0, 1.0));
-        return Frame::from_z(normal).to_world(direction_from_cosine(mu, u.y));
+        const float cosine = -1 - (1 + k_) / k_ * fast_expm1(-logarithm_ * u.x);
+        return Frame::from_z(normal).to_world(direction_from_cosine(std::clamp(cosine, -1.0f, 1.0f), u.y));
     }
     for (;;) {
         const Vec3 w = phase.sample(before, random.uniform2());

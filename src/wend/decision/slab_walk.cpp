@@ -1,5 +1,6 @@
 #include <wend/decision/slab_walk.h>
 #include <wend/medium/transmittance.h>
+#include <wend/numeric/fast_exp.h>
 #include <wend/sampling/discrete.h>
 
 #include <algorithm>
@@ -68,6 +69,10 @@ float SlabWalk::scattered(int channel, const LampGuide::PerLamp& phases, const V
 
 void SlabWalk::head(const Vec3& w) {
     has_turned_ = false;
+    head(w, lit_ >= 0 ? lamps_.densities(w) : LampGuide::PerLamp{});
+}
+
+void SlabWalk::head(const Vec3& w, const LampGuide::PerLamp& densities) {
     for (int c = 0; c < guide_->channels(); ++c) {
         rate_[static_cast<std::size_t>(c)] = extinction_of(*guide_, c);
     }
@@ -76,7 +81,6 @@ void SlabWalk::head(const Vec3& w) {
     });
     heading_ = w;
     if (lit_ >= 0) {
-        const LampGuide::PerLamp densities = lamps_.densities(w);
         const float mu = dot(w, normal_[static_cast<std::size_t>(lit_)]);
         for (int c = 0; c < guide_->channels(); ++c) {
             float direct = 0;
@@ -197,38 +201,27 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
     return s;
 }
 
-void SlabWalk::turn(const Vec3& before, const Vec3& w) {
-    head(w);
-    const float phase = guide_->medium.phase.evaluate(dot(before, w));
-    // Of each lamp the density of its lobe, over the phase function, times the phase function at its middle.
-    LampGuide::PerLamp phases{}, boosts{};
-    if (lit_ >= 0) {
-        phases = lamps_.phases(guide_->medium.phase, before);
-        boosts = lamps_.densities(w);
-        for (std::size_t j = 0; j < lamps_.size(); ++j) {
-            boosts[j] *= phases[j] / phase;
-        }
-    }
+void SlabWalk::turn(const Directions& directions, const Vec3& w) {
+    const LampGuide::PerLamp densities = lit_ >= 0 ? lamps_.densities(w) : LampGuide::PerLamp{};
+    head(w, densities);
+    // All densities over the phase function.
+    const float phase = guide_->medium.phase.evaluate(dot(directions.before_, w));
     float total = 0;
     for (int c = 0; c < guide_->channels(); ++c) {
         total += posterior_[static_cast<std::size_t>(c)];
     }
     for_modes([&](std::size_t i, int s, int c) {
-        const Vec3& normal = normal_[static_cast<std::size_t>(s)];
-        const SlabMode& m = mode(s, c);
+        float towards = directions.relative_[i] * mode(s, c).radiance(dot(w, normal_[static_cast<std::size_t>(s)]));
         if (is_lit(s)) {
-            float towards = diffuse(c) * m.radiance(dot(w, normal));
-            for (std::size_t j = 0; j < lamps_.size(); ++j) {
-                towards += lamps_.fluence(c, j) * boosts[j];
-            }
-            posterior_[i] *= towards / scattered(c, phases, before);
-        } else {
-            posterior_[i] *= m.radiance(dot(w, normal)) / m.source(dot(before, normal));
+            const LampGuide::PerLamp& shares = directions.shares_[static_cast<std::size_t>(c)];
+            towards +=
+                posterior_[i] / phase * std::inner_product(shares.begin(), shares.end(), densities.begin(), 0.0f);
         }
-        total += posterior_[i];
+        posterior_[i] = towards;
+        total += towards;
     });
     for_layers([&](std::size_t i, int c) {
-        posterior_[i] *= static_cast<float>(LayerGuide::Directions(layers(c), place_, before).density(w)) / phase;
+        posterior_[i] *= static_cast<float>(directions.layered_[static_cast<std::size_t>(c)].density(w)) / phase;
         total += posterior_[i];
     });
     normalize(total);
@@ -286,27 +279,26 @@ float SlabWalk::pass(float length) {
 }
 
 float SlabWalk::weigh_flight(float length, bool collides) {
-    const auto weigh = [&](std::size_t i) {
-        posterior_[i] *= std::exp(-rate_[i] * length) * (collides ? rate_[i] : 1.0f);
-    };
-    for (int c = 0; c < guide_->channels(); ++c) {
-        weigh(static_cast<std::size_t>(c));
+    const auto count = static_cast<std::size_t>(techniques());
+    Values passed;
+    for (std::size_t i = 0; i < count; ++i) {
+        passed[i] = fast_exp(-rate_[i] * length) * (collides ? rate_[i] : 1.0f);
     }
-    for_modes([&](std::size_t i, int s, int c) {
-        const float before = posterior_[i];
-        weigh(i);
-        if (is_lit(s)) {
+    if (lit_ >= 0) {
+        for (int c = 0; c < guide_->channels(); ++c) {
             const float direct = direct_[static_cast<std::size_t>(c)];
-            posterior_[i] = (1 - direct) * posterior_[i] + (collides ? 0.0f : direct * before);
+            float& p = passed[static_cast<std::size_t>((1 + lit_) * guide_->channels() + c)];
+            p = (1 - direct) * p + (collides ? 0.0f : direct);
         }
-    });
+    }
     for_layers([&](std::size_t i, int c) {
-        posterior_[i] *= static_cast<float>(layers(c).flight(place_, heading_, expected_[static_cast<std::size_t>(c)],
-                                                             static_cast<double>(length), collides));
+        passed[i] = static_cast<float>(layers(c).flight(place_, heading_, expected_[static_cast<std::size_t>(c)],
+                                                        static_cast<double>(length), collides));
     });
     float total = 0;
-    for (int i = 0; i < techniques(); ++i) {
-        total += posterior_[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < count; ++i) {
+        posterior_[i] *= passed[i];
+        total += posterior_[i];
     }
     normalize(total);
     return total;

@@ -68,6 +68,8 @@ public:
         float lamp_density(const Vec3& w) const;
 
     private:
+        friend class SlabWalk;
+
         const SlabWalk& walk_;
         Vec3 before_;
         Pcg32& random_;
@@ -78,8 +80,8 @@ public:
         LampGuide::PerLamp connected_{};                                    // probability of a connection to each lamp
     };
 
-    /// The walk after it went from `before` into w at a collision.
-    void turn(const Vec3& before, const Vec3& w);
+    /// Goes on in direction w from a collision, of which `directions` were made when the walk was as it is.
+    void turn(const Directions& directions, const Vec3& w);
     /// Whether the direction now is one that turn() chose.
     bool has_turned() const { return has_turned_; }
 
@@ -134,7 +136,7 @@ private:
         }
     }
     /// The strategy that heads for lamps expects the light of its mode beside theirs: this times the mode's.
-    float diffuse(int channel) const { return lamps_.diffuse()[channel] / mode(lit_, channel).radiance(-1); }
+    float diffuse(int channel) const { return lamps_.diffuse()[channel] / mode(lit_, channel).inward_radiance(); }
     /// What a collision scatters to a walk that arrived along `before`, times the mode's: of both, given the phase
     /// function for each lamp.
     float scattered(int channel, const LampGuide::PerLamp& phases, const Vec3& before) const;
@@ -142,6 +144,8 @@ private:
     /// Draws a technique; u becomes a fresh uniform number.
     std::size_t choose(float& u) const;
     void normalize(float total);
+    /// head(), given the densities of the lamps' lobes.
+    void head(const Vec3& w, const LampGuide::PerLamp& densities);
     /// Counts a flight in; returns its probability under the mixture, or density if it `collides` there.
     float weigh_flight(float length, bool collides);
 
@@ -151,7 +155,7 @@ private:
     std::array<int, SlabGuide::most_strategies> strategy_;
     SlabGuide::Shares share_;  // of classical sampling, then slot by slot
     Values posterior_;         // slot by slot, classical sampling first; channels within
-    Values rate_;              // of the exponential flight under each technique that has one
+    Values rate_{};            // of the exponential flight under each technique that has one
     int layered_ = -1;         // slot of the strategy that follows layers; none if negative
     int lit_ = -1;             // slot of the strategy that heads for lamps; none if negative
     LampGuide lamps_;

@@ -22,7 +22,8 @@ float steepness(float decay, float curvature, float depth) {
         return 1;
     }
     const float x = decay * std::max(0.0f, 1 / curvature - std::max(0.0f, depth));
-    return x > 0.1f ? 1 / std::tanh(x) - 1 / x : x / 3;
+    const float e = fast_expm1(-2 * x);
+    return x > 0.1f ? -(2 + e) / e - 1 / x : x / 3;
 }
 
 BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads)
@@ -30,7 +31,9 @@ BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, floa
       decay_(decay),
       spacing_(length(box_.size()) / std::sqrt(static_cast<float>(points.size()))),
       points_(std::move(points)),
+      places_(points_.size()),
       cells_(side * side * side) {
+    std::transform(points_.begin(), points_.end(), places_.begin(), [](const LitPoint& p) { return p.point; });
     const Vec3 step = box_.size() * (1.0f / side);
     parallel_for(cells_.size(), threads, [&](std::size_t i) {
         const int n = static_cast<int>(i);
@@ -40,7 +43,7 @@ BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, floa
         std::vector<std::pair<float, std::uint16_t>> distances;
         distances.reserve(points_.size());
         for (std::size_t p = 0; p < points_.size(); ++p) {
-            distances.emplace_back(distance2_to(points_[p].point, centre), static_cast<std::uint16_t>(p));
+            distances.emplace_back(distance2_to(p, centre), static_cast<std::uint16_t>(p));
         }
         Cell& cell = cells_[i];
         double light = 0, unlit = 0;
@@ -87,22 +90,22 @@ std::size_t BoundaryField::cell_at(const Vec3& p) const {
     return static_cast<std::size_t>((z * side + y) * side + x);
 }
 
-const LitPoint& BoundaryField::closest_point(const Cell& cell, const Vec3& position) const {
-    std::uint16_t best = cell.nearest[0];
+std::size_t BoundaryField::closest_point(const Cell& cell, const Vec3& position) const {
+    std::size_t best = cell.nearest[0];
     float least = infinity;
-    for (const std::uint16_t candidate : cell.nearest) {
-        const float distance2 = distance2_to(points_[candidate].point, position);
+    for (const std::size_t candidate : cell.nearest) {
+        const float distance2 = distance2_to(candidate, position);
         if (distance2 < least) {
             least = distance2;
             best = candidate;
         }
     }
-    return points_[best];
+    return best;
 }
 
 BoundaryField::View BoundaryField::at(const Vec3& position) const {
     const Cell& cell = cells_[cell_at(position)];
-    return {closest_point(cell, position), cell, position, decay_};
+    return {points_[closest_point(cell, position)], cell, position, decay_};
 }
 
 float BoundaryField::mean_curvature() const {
@@ -130,11 +133,12 @@ LampView BoundaryField::View::lamps(const Rgb& returned, const Rgb& decay) const
     return view;
 }
 
-float BoundaryField::distance2_to(const BoundaryPoint& point, const Vec3& position) const {
-    const Vec3 way = position - point.position;
-    const float height = dot(way, point.normal);
-    const float aside = std::max(0.0f, safe_sqrt(length_squared(way) - sqr(height)) - spacing_);
-    return sqr(height) + sqr(aside);
+float BoundaryField::distance2_to(std::size_t point, const Vec3& position) const {
+    const BoundaryPoint& place = places_[point];
+    const Vec3 way = position - place.position;
+    const float height2 = sqr(dot(way, place.normal));
+    const float aside2 = length_squared(way) - height2;
+    return aside2 > sqr(spacing_) ? height2 + sqr(std::sqrt(aside2) - spacing_) : height2;
 }
 
 }  // namespace wend

@@ -43,14 +43,15 @@ private:
         float irradiance = 0;  ///< mean over the boundary, as it counts from here
     };
     std::size_t cell_at(const Vec3& position) const;
-    const LitPoint& closest_point(const Cell& cell, const Vec3& position) const;
+    std::size_t closest_point(const Cell& cell, const Vec3& position) const;
     /// Square of that to the flat piece of surface that a point stands for.
-    float distance2_to(const BoundaryPoint& point, const Vec3& position) const;
+    float distance2_to(std::size_t point, const Vec3& position) const;
 
     Box3 box_;
     float decay_;    ///< beneath a plane
     float spacing_;  ///< of the points
     std::vector<LitPoint> points_;
+    std::vector<BoundaryPoint> places_;  ///< of the points, side by side for the search
     std::vector<Cell> cells_;
 };
 

@@ -369,16 +369,22 @@ private:
         float distance;  ///< infinity as well where boundaries refract
         Rgb radiance;
         float density;
-        SlabWalk slab;  ///< towards the light, if the walk is in a guided stay
+        SlabWalk slab;  ///< towards the light, in a guided stay
         Passage passage;
     };
     /// `often`: how many connections see the light as this one does, as a mean; `value`: what is scattered here.
     template <class Directions>
     Connection weigh(const Sight& sight, float often, bool point_like, const Rgb& value, const Directions& directions,
                      bool in_volume) const;
-    Sight look_straight(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
-    std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Vec3& position);
-    SlabWalk slab_towards(const Vec3& direction, bool in_volume) const;
+    template <class Directions>
+    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vec3& position,
+                        const Vec3& normal, bool in_volume);
+    template <class Directions>
+    std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
+                                                 const Vec3& position);
+    /// The walk, if it is in a guided stay, after it went from a collision in a direction.
+    template <class Directions>
+    SlabWalk slab_towards(const Vec3& direction, const Directions& directions) const;
     /// Tells the log of a light that no connection reaches.
     void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
     /// Tells the log of light that smooth surfaces lead to a vertex.

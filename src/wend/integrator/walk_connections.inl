@@ -8,6 +8,7 @@
 #include <wend/integrator/scattering.h>
 
 #include <algorithm>
+#include <concepts>
 #include <optional>
 
 namespace wend {
@@ -51,7 +52,7 @@ void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const D
         return;
     }
     Connection found;
-    if (const auto sight = look_through_boundaries(*chosen, position)) {
+    if (const auto sight = look_through_boundaries(*chosen, directions, position)) {
         found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, true);
         if (Stay* const stay = stay_inside()) {
             stay->connected_through = true;
@@ -83,7 +84,7 @@ auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float time
     if (is_black(value)) {
         return {};
     }
-    const Sight sight = look_straight(chosen, position, normal, in_volume);
+    const Sight sight = look_straight(chosen, directions, position, normal, in_volume);
     if (is_black(sight.passage.transmittance)) {
         if (log_ && !sight.slab.is_inside()) {
             hint_at_refracted(chosen, position, normal, in_volume);
@@ -123,25 +124,27 @@ auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool po
 }
 
 template <class Decisions>
-SlabWalk PathTracer<Decisions>::Walk::slab_towards(const Vec3& direction, bool in_volume) const {
+template <class Directions>
+SlabWalk PathTracer<Decisions>::Walk::slab_towards(const Vec3& direction, const Directions& directions) const {
     SlabWalk slab;
-    if (in_volume && now_.slab.is_inside()) {
+    if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
         slab = now_.slab;
-        slab.turn(now_.ray.direction, direction);
+        slab.turn(directions, direction);
     }
     return slab;
 }
 
 template <class Decisions>
-auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Vec3& position, const Vec3& normal,
-                                                bool in_volume) -> Sight {
+template <class Directions>
+auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
+                                                const Vec3& position, const Vec3& normal, bool in_volume) -> Sight {
     const LightSample& light = chosen.light;
     const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
     Sight sight{light.direction,
                 light.distance,
                 light.radiance,
                 chosen.density(),
-                slab_towards(light.direction, in_volume),
+                slab_towards(light.direction, directions),
                 {}};
     sight.passage =
         pass(scene_, d_.distance, shadow_ray({position, normal}, light), medium, sight.slab, sampler_.random());
@@ -149,8 +152,9 @@ auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, cons
 }
 
 template <class Decisions>
-auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Vec3& position)
-    -> std::optional<Sight> {
+template <class Directions>
+auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
+                                                          const Vec3& position) -> std::optional<Sight> {
     const LightSample& light = chosen.light;
     const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
     const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
@@ -163,7 +167,7 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
                 infinity,
                 is_far ? environment_radiance(source, -arriving) : emitted_radiance(source, way->end.normal, arriving),
                 chosen.density() * way->density_ratio,
-                slab_towards(way->direction, true),
+                slab_towards(way->direction, directions),
                 {}};
     sight.passage = pass(scene_, d_.distance, *way, sight.slab, sampler_.random());
     return sight;

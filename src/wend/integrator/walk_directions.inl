@@ -63,7 +63,7 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
     if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
         now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
         now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
-        now_.slab.turn(now_.ray.direction, s->direction);
+        now_.slab.turn(directions, s->direction);
     }
     if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
         return false;

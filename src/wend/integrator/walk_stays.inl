@@ -85,7 +85,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     const Hit* const surface = std::exchange(hit_, &*hit);
     const Rgb phase = f.evaluate(*w);
     now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
-    now_.slab.turn(now_.ray.direction, *w);
+    now_.slab.turn(directions, *w);
     now_.ray = ray;
     const float passing = now_.slab.pass(hit->distance);
     const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
