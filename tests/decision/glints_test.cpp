@@ -56,8 +56,8 @@ TEST(Glints, OneAloneIsKnownWhereItArrived) {
     const GlintMap::Cell* cell = map.find({1, 2, 3});
     ASSERT_NE(cell, nullptr);
     EXPECT_EQ(cell->count, 1u);
-    EXPECT_NEAR(dot(cell->lobes[0].mean, bright), 1, 1e-6f);
-    EXPECT_GT(cell->lobes[0].kappa, 0);
+    EXPECT_NEAR(dot(cell->groups[0].lobe.mean, bright), 1, 1e-6f);
+    EXPECT_GT(cell->groups[0].lobe.kappa, 0);
     EXPECT_EQ(map.find({1, 2, 4}), nullptr);
 }
 
@@ -72,8 +72,12 @@ TEST(Glints, LightIsNeitherLostNorMade) {
         const GlintMap::Cell* cell = map.find(place(random));
         ASSERT_NE(cell, nullptr);
         EXPECT_LE(cell->count, GlintMap::most_groups);
-        const auto end = cell->weights.begin() + static_cast<std::ptrdiff_t>(cell->count);
-        EXPECT_NEAR(std::accumulate(cell->weights.begin(), end, 0.0f), cell->light, 1e-4f * cell->light);
+        ASSERT_LE(cell->narrow, cell->count);
+        const auto end = cell->groups.begin() + static_cast<std::ptrdiff_t>(cell->narrow);
+        const float light =
+            std::accumulate(cell->groups.begin(), end, 0.0f,
+                            [](float all, const GlintMap::Group& group) { return all + mean_value(group.light); });
+        EXPECT_NEAR(light, cell->light, 1e-4f * cell->light);
         sum += static_cast<double>(cell->fluence(false));
     }
     EXPECT_NEAR(sum / places, n, 0.02 * n);
@@ -88,12 +92,13 @@ TEST(Glints, NoLampIsLeftOut) {
         const GlintMap::Cell* cell = map.find(place(random));
         ASSERT_NE(cell, nullptr);
         float light = 0;
-        for (std::size_t group = 0; group < cell->count; ++group) {
-            const bool is_faint = dot(cell->lobes[group].mean, faint) > 0.99f;
-            EXPECT_TRUE(is_faint || dot(cell->lobes[group].mean, bright) > 0.99f) << "a group of two lamps";
-            EXPECT_NEAR(cell->distances[group], is_faint ? 7 : 5, 1e-4f);
-            EXPECT_NEAR(cell->colours[group].r, 2 * cell->colours[group].g, 1e-4f);
-            light += is_faint ? cell->weights[group] : 0.0f;
+        for (std::size_t g = 0; g < cell->count; ++g) {
+            const GlintMap::Group& group = cell->groups[g];
+            const bool is_faint = dot(group.lobe.mean, faint) > 0.99f;
+            EXPECT_TRUE(is_faint || dot(group.lobe.mean, bright) > 0.99f) << "a group of two lamps";
+            EXPECT_NEAR(group.distance, is_faint ? 7 : 5, 1e-4f);
+            EXPECT_NEAR(group.light.r, 2 * group.light.g, 1e-4f);
+            light += is_faint && g < cell->narrow ? mean_value(group.light) : 0.0f;
         }
         found += light > 0 ? 1 : 0;
     }
@@ -142,13 +147,13 @@ TEST(Glints, DirectionsTurnWithThePlace) {
         const Vec3 towards = normalize(picture - position);
         const auto closest = [&](const auto& direction) {
             float best = 2;
-            for (std::size_t group = 0; group < cell->count; ++group) {
-                best = std::min(best, length(direction(group) - towards));
+            for (std::size_t g = 0; g < cell->count; ++g) {
+                best = std::min(best, length(direction(cell->groups[g]) - towards));
             }
             return best;
         };
-        turned.add(closest([&](std::size_t group) { return cell->direction(group, position); }));
-        unturned.add(closest([&](std::size_t group) { return cell->lobes[group].mean; }));
+        turned.add(closest([&](const GlintMap::Group& group) { return group.direction(position); }));
+        unturned.add(closest([](const GlintMap::Group& group) { return group.lobe.mean; }));
     }
     EXPECT_LT(turned.mean(), 0.6 * unturned.mean());
 }

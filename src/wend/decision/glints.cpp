@@ -1,6 +1,7 @@
 #include <wend/decision/glints.h>
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 namespace wend {
@@ -62,65 +63,69 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
     cell.reach = Box3(bounds.min - around, bounds.max + around);
     cell.extent = size * ((n + 0.5f) / std::max(1.0f, n - 1));
 
-    const Grouping groups = grouped(glints);
-    cell.count = groups.count;
+    const Grouping grouping = grouped(glints);
+    cell.count = grouping.count;
+    const std::span groups(cell.groups.data(), cell.count);
     std::array<Vec3, GlintMap::most_groups> sums;
     sums.fill({0, 0, 0});
-    cell.places.fill({0, 0, 0});
-    cell.images.fill({0, 0, 0});
     std::array<float, GlintMap::most_groups> members{}, squares{};
     for (std::size_t i = 0; i < glints.size(); ++i) {
-        const std::size_t group = groups.of[i];
-        const float light = mean_value(glints[i].light);
-        ++members[group];
-        sums[group] += glints[i].towards * light;
-        cell.weights[group] += light;
-        cell.colours[group] += glints[i].light;
-        cell.distances[group] += glints[i].distance * light;
-        cell.places[group] += glints[i].position * light;
-        cell.images[group] += (glints[i].position + glints[i].towards * glints[i].distance) * light;
+        const Glint& glint = glints[i];
+        const float light = mean_value(glint.light);
+        ++members[grouping.of[i]];
+        sums[grouping.of[i]] += glint.towards * light;
+        GlintMap::Group& group = groups[grouping.of[i]];
+        group.light += glint.light;
+        group.distance += glint.distance * light;
+        group.place += glint.position * light;
+        group.image += (glint.position + glint.towards * glint.distance) * light;
     }
-    for (std::size_t group = 0; group < cell.count; ++group) {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        GlintMap::Group& group = groups[g];
+        const float scale = 1 / mean_value(group.light);
         // Directions may cancel.
-        const Vec3 mean = sums[group] * (1 / cell.weights[group]);
-        cell.lobes[group].mean = length(mean) > 1e-3f ? normalize(mean) : groups.centres[group];
-        cell.distances[group] /= cell.weights[group];
-        cell.places[group] *= 1 / cell.weights[group];
-        cell.images[group] *= 1 / cell.weights[group];
+        const Vec3 mean = sums[g] * scale;
+        group.lobe.mean = length(mean) > 1e-3f ? normalize(mean) : grouping.centres[g];
+        group.distance *= scale;
+        group.place *= scale;
+        group.image *= scale;
     }
     // Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that
     // the length of the way.
     std::array<float, GlintMap::most_groups> turned{}, moved{};
     for (std::size_t i = 0; i < glints.size(); ++i) {
-        const std::size_t group = groups.of[i];
-        const Vec3& mean = cell.lobes[group].mean;
-        const Vec3 offset = glints[i].position - cell.places[group];
+        const std::size_t g = grouping.of[i];
+        const Vec3& mean = groups[g].lobe.mean;
+        const Vec3 offset = glints[i].position - groups[g].place;
         const Vec3 across = offset - mean * dot(offset, mean);
-        turned[group] -= dot(glints[i].towards - mean, across);
-        moved[group] += length_squared(across);
+        turned[g] -= dot(glints[i].towards - mean, across);
+        moved[g] += length_squared(across);
     }
     const float most_turned = 1 / std::max({size.x, size.y, size.z, 1e-6f});
-    for (std::size_t group = 0; group < cell.count; ++group) {
-        const float before = std::max(moved[group] / members[group], 1e-12f);
-        const float turn = (turned[group] + before / cell.distances[group]) / (moved[group] + before);
-        cell.turns[group] = std::clamp(turn, -most_turned, most_turned);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const float before = std::max(moved[g] / members[g], 1e-12f);
+        const float turn = (turned[g] + before / groups[g].distance) / (moved[g] + before);
+        groups[g].turn = std::clamp(turn, -most_turned, most_turned);
     }
     float square = 0;
     for (std::size_t i = 0; i < glints.size(); ++i) {
-        const float d = length_squared(glints[i].towards - cell.direction(groups.of[i], glints[i].position));
-        squares[groups.of[i]] += d;
+        const std::size_t g = grouping.of[i];
+        const float d = length_squared(glints[i].towards - groups[g].direction(glints[i].position));
+        squares[g] += d;
         square += d;
     }
     // A group of few is thought to spread as others do, and a cell without any spread far.
     const std::size_t freedom = glints.size() - cell.count;
     const float expected = freedom > 0 ? square / static_cast<float>(freedom) : 1.0f;
-    for (std::size_t group = 0; group < cell.count; ++group) {
-        const float spread = (squares[group] + expected) / members[group];
-        const float kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
-        cell.lobes[group].kappa = kappa;
-        cell.weights[group] = kappa < least_kappa ? 0.0f : cell.weights[group];
-        cell.light += cell.weights[group];
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const float spread = (squares[g] + expected) / members[g];
+        groups[g].lobe.kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
     }
+    const auto wide = std::partition(groups.begin(), groups.end(),
+                                     [](const GlintMap::Group& group) { return group.lobe.kappa >= least_kappa; });
+    cell.narrow = static_cast<std::size_t>(wide - groups.begin());
+    cell.light = std::accumulate(groups.begin(), wide, 0.0f,
+                                 [](float sum, const GlintMap::Group& group) { return sum + mean_value(group.light); });
     return cell;
 }
 

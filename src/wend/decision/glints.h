@@ -26,25 +26,28 @@ class GlintMap {
 public:
     static constexpr std::size_t most_groups = 8;
 
+    /// Mostly one way to one light.
+    struct Group {
+        Vmf lobe;             ///< of directions, seen from its place
+        Vec3 place{0, 0, 0};  ///< where it arrived, as a mean
+        Vec3 image{0, 0, 0};  ///< where its light would be if all mirrors were plane
+        float turn = 0;       ///< by how much directions turn away from a step aside, in 1/length
+        float distance = 0;   ///< of its light, along the way
+        Rgb light;
+
+        /// Where its light comes from, as seen from a position.
+        Vec3 direction(const Vec3& position) const { return normalize(lobe.mean - (position - place) * turn); }
+    };
+
     struct Cell {
         Box3 reach;       ///< where it has something to say
         Vec3 extent;      ///< of the space that its glints lie in
-        float light = 0;  ///< sum of the weights
+        float light = 0;  ///< of narrow groups, as a mean over channels
         std::size_t count = 0;
-        std::array<Vmf, most_groups> lobes;        ///< directions of each group, seen from its place
-        std::array<Vec3, most_groups> places;      ///< where it arrived, as a mean
-        std::array<Vec3, most_groups> images;      ///< where its light would be if all mirrors were plane
-        std::array<float, most_groups> turns{};    ///< by how much directions turn away from a step aside, in 1/length
-        std::array<float, most_groups> weights{};  ///< its light, as a mean over channels; 0 where the lobe is wide
-        std::array<Rgb, most_groups> colours;      ///< its light
-        std::array<float, most_groups> distances{};  ///< of its light, along the way
+        std::size_t narrow = 0;  ///< groups that are worth drawing from; these come first
+        std::array<Group, most_groups> groups;
 
-        /// Where a group's light comes from, as seen from a position.
-        Vec3 direction(std::size_t group, const Vec3& position) const {
-            return normalize(lobes[group].mean - (position - places[group]) * turns[group]);
-        }
-
-        /// Of all narrow lobes together, about: in a medium light per volume, on surfaces per area.
+        /// Of all narrow groups together, about: in a medium light per volume, on surfaces per area.
         float fluence(bool in_volume) const;
     };
 
@@ -79,10 +82,11 @@ public:
     GlintMixture() = default;
 
     template <class F>
-    GlintMixture(const GlintMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.count) {
+    GlintMixture(const GlintMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.narrow) {
         for (std::size_t i = 0; i < count_; ++i) {
-            lobes_[i] = {cell.direction(i, position), cell.lobes[i].kappa};
-            weights_[i] = cell.weights[i] * mean_value(f.evaluate(lobes_[i].mean));
+            const GlintMap::Group& group = cell.groups[i];
+            lobes_[i] = {group.direction(position), group.lobe.kappa};
+            weights_[i] = mean_value(group.light) * mean_value(f.evaluate(lobes_[i].mean));
             sum_ += weights_[i];
         }
     }

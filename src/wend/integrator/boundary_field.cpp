@@ -91,16 +91,16 @@ std::size_t BoundaryField::cell_at(const Vec3& p) const {
 }
 
 std::size_t BoundaryField::closest_point(const Cell& cell, const Vec3& position) const {
-    std::size_t best = cell.nearest[0];
-    float least = infinity;
-    for (const std::size_t candidate : cell.nearest) {
-        const float distance2 = distance2_to(candidate, position);
-        if (distance2 < least) {
-            least = distance2;
-            best = candidate;
-        }
+    // First all distances, then the least of them: which one it is cannot be foretold.
+    std::array<float, candidates> distances;
+    for (std::size_t k = 0; k < candidates; ++k) {
+        distances[k] = distance2_to(cell.nearest[k], position);
     }
-    return best;
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < candidates; ++k) {
+        best = distances[k] < distances[best] ? k : best;
+    }
+    return cell.nearest[best];
 }
 
 BoundaryField::View BoundaryField::at(const Vec3& position) const {
@@ -137,8 +137,8 @@ float BoundaryField::distance2_to(std::size_t point, const Vec3& position) const
     const BoundaryPoint& place = places_[point];
     const Vec3 way = position - place.position;
     const float height2 = sqr(dot(way, place.normal));
-    const float aside2 = length_squared(way) - height2;
-    return aside2 > sqr(spacing_) ? height2 + sqr(std::sqrt(aside2) - spacing_) : height2;
+    const float aside = std::max(0.0f, safe_sqrt(length_squared(way) - height2) - spacing_);
+    return height2 + sqr(aside);
 }
 
 }  // namespace wend

@@ -198,9 +198,10 @@ std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec
     if (!cell) {
         return std::nullopt;
     }
-    const auto i = static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count));
+    const GlintMap::Group& group =
+        cell->groups[static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count))];
     // As a plane mirror shows it: a field takes distances for those of what lies straight ahead.
-    const Vec3 way = cell->images[i] - position;
+    const Vec3 way = group.image - position;
     const float distance = length(way);
     const Vec3 towards = way * (1 / distance);
     const float cosine = in_volume ? 1.0f : dot(towards, normal);
@@ -208,7 +209,7 @@ std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec
     if (!(cosine > 0) || !(size > 0) || !(distance > 0)) {
         return std::nullopt;
     }
-    return CausticSight{towards, distance, cell->colours[i] * (static_cast<float>(cell->count) / size)};
+    return CausticSight{towards, distance, group.light * (static_cast<float>(cell->count) / size)};
 }
 
 }  // namespace wend

@@ -48,10 +48,6 @@ float vmf_kappa(float cosine) {
     return std::min(static_cast<float>(kappa), Vmf::max_kappa);
 }
 
-float Vmf::density(const Vec3& direction) const {
-    return vmf_peak(kappa) * std::exp(-0.5f * kappa * length_squared(direction - mean));
-}
-
 Vmf convolve(const Vmf& lobe, float kappa) {
     return {lobe.mean, vmf_kappa(vmf_mean_cosine(lobe.kappa) * vmf_mean_cosine(kappa))};
 }

@@ -24,7 +24,7 @@ struct Vmf {
     /// Concentration, in [0, max_kappa].
     float kappa = 0;
 
-    /// Density at a unit direction, in 1/sr.
+    /// Density at a unit direction, in 1/sr; far outside of a narrow lobe next to 0 instead of 0.
     float density(const Vec3& direction) const;
 
     /// The direction belonging to a point of the unit square, [0,1)² (jakob2012).
@@ -40,6 +40,10 @@ float vmf_peak(float kappa);
 inline float vmf_spread(float kappa) {
     const float positive = kappa > 1e-6f ? kappa : 1e-6f;
     return -fast_expm1(-2 * positive) / positive;
+}
+
+inline float Vmf::density(const Vec3& direction) const {
+    return fast_exp(-0.5f * kappa * length_squared(direction - mean)) / (2 * pi * vmf_spread(kappa));
 }
 
 inline Vec3 Vmf::sample(Vec2 u, float inverse_kappa) const {
