@@ -2,6 +2,7 @@
 #include <tests/support/chi_square_sphere.h>
 #include <wend/core/random.h>
 #include <wend/sampling/warp.h>
+#include <wend/stats/moments.h>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,23 @@ TEST(Exponential, EndsOfTheRangeAreFinite) {
     EXPECT_EQ(to_exponential(0, 2), 0);
     EXPECT_TRUE(std::isfinite(to_exponential(one_minus_epsilon, 2)));
     EXPECT_GT(to_exponential(1e-7f, 1), 0);
+}
+
+TEST(Exponential, OpticalDepthsReachBeyondWhatOneFloatCanTell) {
+    Pcg32 random(5);
+    EXPECT_GE(uniformity_of([&](const Vec2&) { return -std::expm1(-sample_optical_depth(random)); }), test::passing);
+    EXPECT_LT(uniformity_of([&](const Vec2&) { return -std::expm1(-1.03f * sample_optical_depth(random)); }),
+              test::failing);
+    // Beyond ln 256 the distribution is that of the whole, moved.
+    Moments beyond;
+    for (int i = 0; i < 4000000; ++i) {
+        const float depth = sample_optical_depth(random);
+        if (depth > 5.545177f) {
+            beyond.add(static_cast<double>(depth - 5.545177f));
+        }
+    }
+    EXPECT_NEAR(beyond.count(), 4000000.0 / 256, 5 * std::sqrt(4000000.0 / 256));
+    EXPECT_NEAR(beyond.mean(), 1, 5 * beyond.standard_error());
 }
 
 TEST(GoldenLattice, PointsUnderARandomShiftAreUniform) {

@@ -1,5 +1,6 @@
 #include <wend/decision/channels.h>
 #include <wend/decision/distance.h>
+#include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>
 
 namespace wend {
@@ -62,18 +63,14 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
     // majorant is then the same in all channels and cancels. Which of them are real is decided for the mixture of
     // channels.
     const float looks = medium.looks(index_ray, start.length);
+    TentativeCollisions collisions(random);
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
         if (!(cell.maximum > 0)) {
             return true;
         }
         const float rate = std::max(largest * cell.maximum, looks);
         const float majorant = rate / largest;
-        // Double: steps in a very dense cell can be below the spacing of floats.
-        for (double t_exact = t_in;;) {
-            t_exact += to_exponential(random.uniform(), rate);
-            if (t_exact >= t_out) {
-                return true;
-            }
+        for (double t_exact = t_in; collisions.next(t_exact, t_out, rate);) {
             const auto t = static_cast<float>(t_exact);
             const float u = random.uniform() * majorant;
             const float acceptance = grey ? 1.0f : dot(probability, relative);
@@ -104,6 +101,7 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
             flight.weight *= medium.scattering() * (1 / (largest * acceptance));
             return false;
         }
+        return true;
     };
     medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length, cross);
     return flight;

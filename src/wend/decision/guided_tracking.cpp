@@ -1,7 +1,7 @@
 #include <wend/decision/guided_tracking.h>
 
 #include <wend/decision/channels.h>
-#include <wend/sampling/warp.h>
+#include <wend/medium/tentative_collisions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +89,7 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
     const bool grey = relative.r == relative.g && relative.g == relative.b;
 
     const float looks = medium_.looks(index_ray, start_.length);
+    TentativeCollisions collisions(random);
     for (int i = 0; i < count_; ++i) {
         const Piece& piece = pieces_[i];
         const float length = piece.t_out - piece.t_in;
@@ -100,12 +101,7 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
         const float stretched = std::min(2 * std::max(wanted, bright > 0 ? 1.0f : 0.0f) * piece.density.mean,
                                          most_stretching * piece.density.maximum);
         const float rate = std::max(largest * std::max(piece.density.maximum, stretched), looks);
-        // Double: steps in a very dense cell can be below the spacing of floats.
-        for (double t_exact = piece.t_in;;) {
-            t_exact += to_exponential(random.uniform(), rate);
-            if (t_exact >= piece.t_out) {
-                break;
-            }
+        for (double t_exact = piece.t_in; collisions.next(t_exact, piece.t_out, rate);) {
             const auto t = static_cast<float>(t_exact);
             const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
             const float density = medium_.density().sample_nearest(index_ray.at(t), corner);

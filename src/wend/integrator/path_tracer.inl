@@ -85,16 +85,39 @@ private:
     };
     static constexpr int none = -1;
 
+    /// The surface ahead. What it is like is asked where a walk gets there, or wants to know beforehand.
+    class Ahead {
+    public:
+        Ahead(const Scene& scene, const Ray& ray, float distance)
+            : scene_(scene), ray_(ray), found_(scene.find(ray, distance)) {}
+
+        explicit operator bool() const { return found_.has_value(); }
+        float distance() const { return found_ ? found_->distance : farthest; }
+        /// There must be one.
+        const Hit& hit() {
+            if (!hit_) {
+                hit_ = scene_.complete(*found_, ray_);
+            }
+            return *hit_;
+        }
+
+    private:
+        const Scene& scene_;
+        Ray ray_;
+        std::optional<RayHit> found_;
+        std::optional<Hit> hit_;
+    };
+
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
         // In a stay most flights end long before the boundary: no ray is traced further than they go.
         const float drawn =
             now_.slab.is_inside() ? now_.slab.draw_distance(sampler_.uniform(), sampler_.random()) : infinity;
-        const std::optional<Hit> hit = scene_.intersect(now_.ray, drawn);
+        Ahead ahead(scene_, now_.ray, drawn);
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
-            const Flight flight = fly(medium, hit, drawn);
+            const Flight flight = fly(medium, ahead, drawn);
             if (!is_black(flight.emitted)) {
                 glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
             }
@@ -108,32 +131,33 @@ private:
                 return scatter_in(medium, flight.distance);
             }
         }
-        if (!hit) {
+        if (!ahead) {
             if (const MetLight arriving = met_.beyond(now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
                 gather(arriving.radiance, slope_of(arriving));
             }
             return false;
         }
-        now_.travelled += hit->distance;
-        if (hit->light >= 0) {
-            if (const MetLight arriving = met_.at(*hit, now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
+        const Hit& hit = ahead.hit();
+        now_.travelled += hit.distance;
+        if (hit.light >= 0) {
+            if (const MetLight arriving = met_.at(hit, now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
                 gather(arriving.radiance, slope_of(arriving));
             }
         }
-        if (scene_.is_interface(*hit)) {
+        if (scene_.is_interface(hit)) {
             const MediumId from =
-                std::exchange(now_.medium, scene_.medium_beyond(*hit, now_.ray.direction, now_.medium));
-            now_.ray = spawn_ray(hit->position, hit->normal, now_.ray.direction);
+                std::exchange(now_.medium, scene_.medium_beyond(hit, now_.ray.direction, now_.medium));
+            now_.ray = spawn_ray(hit.position, hit.normal, now_.ray.direction);
             now_.lamps_ahead = 0;
-            enter_medium(*hit, from);
+            enter_medium(hit, from);
             return ++now_.interfaces < most_interfaces;
         }
-        return scatter_at(*hit);
+        return scatter_at(hit);
     }
 
     /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
-    Flight fly(const Medium& medium, const std::optional<Hit>& hit, float drawn) {
-        const float length = hit ? hit->distance : farthest;
+    Flight fly(const Medium& medium, Ahead& ahead, float drawn) {
+        const float length = ahead.distance();
         if (Stay* const stay = stay_inside()) {
             ++stay->flights;
         }
@@ -148,7 +172,7 @@ private:
         FlightStart start{
             now_.ray, length, now_.throughput, now_.boost, {}, now_.depth, met_.in(now_.medium, now_.last)};
         if (d_.distance.looks_ahead(medium, start)) {
-            start.end = end_of_segment(hit);
+            start.end = end_of_segment(ahead);
         }
         const Flight flight = d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
         if (!flight.scatters) {
@@ -169,16 +193,17 @@ private:
     /// Light that was weighted against connections from a collision changes less than the walk's density.
     std::optional<StaySlope> slope_of(const MetLight& arriving);
 
-    FlightEnd end_of_segment(const std::optional<Hit>& hit) const {
+    FlightEnd end_of_segment(Ahead& ahead) const {
         FlightEnd end;
-        if (!hit) {
+        if (!ahead) {
             end.emitted = mean_value(met_.beyond(now_.last, now_.ray.direction).radiance);
             return end;
         }
-        end.kind = scene_.is_interface(*hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
-        end.position = hit->position;
-        end.normal = faced(*hit);
-        end.emitted = hit->light >= 0 ? mean_value(met_.at(*hit, now_.last, now_.ray.direction).radiance) : 0.0f;
+        const Hit& hit = ahead.hit();
+        end.kind = scene_.is_interface(hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
+        end.position = hit.position;
+        end.normal = faced(hit);
+        end.emitted = hit.light >= 0 ? mean_value(met_.at(hit, now_.last, now_.ray.direction).radiance) : 0.0f;
         return end;
     }
 

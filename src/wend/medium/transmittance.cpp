@@ -1,3 +1,4 @@
+#include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>
 
 namespace wend {
@@ -32,6 +33,7 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
         estimate *= roulette_threshold / size;
         return true;
     };
+    TentativeCollisions collisions(random);
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
         if (cell.minimum > 0) {
             const float control = -largest * cell.minimum * (t_out - t_in);
@@ -42,12 +44,7 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
         }
         const float range = cell.maximum - cell.minimum;
         const float rate = largest * range;
-        // Double: steps in a very dense cell can be below the spacing of floats.
-        for (double t = t_in; rate > 0;) {
-            t += to_exponential(random.uniform(), rate);
-            if (t >= t_out) {
-                break;
-            }
+        for (double t = t_in; collisions.next(t, t_out, rate);) {
             const Vec3 u(random.uniform(), random.uniform(), random.uniform());
             const float excess =
                 (medium.density().sample_nearest(index_ray.at(static_cast<float>(t)), u) - cell.minimum) / range;

@@ -1,7 +1,9 @@
 // Elementary maps from uniform numbers to points and directions. Each density is with respect to area or solid angle.
 #pragma once
 
+#include <wend/core/random.h>
 #include <wend/core/vector.h>
+#include <wend/numeric/fast_log.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +64,20 @@ inline Vec2 to_triangle(const Vec2& u) {
 /// A distance with density rate * exp(-rate * t); u in [0,1). Uniform numbers are multiples of 2^-24, so 1 - u is
 /// exact.
 inline float to_exponential(float u, float rate) {
-    return -std::log(1 - u) / rate;
+    return -fast_log(1 - u) / rate;
+}
+
+/// An optical depth with density exp(-x), however rare: what lies beyond the first ln 256 is like the whole again, and
+/// within it a uniform float is fine enough.
+inline float sample_optical_depth(Pcg32& random) {
+    constexpr float beyond = 1.0f / 256, ln_256 = 5.545177444f;
+    float passed = 0;
+    float left = 1 - random.uniform();
+    while (left <= beyond) {
+        passed += ln_256;
+        left = 1 - random.uniform();
+    }
+    return passed - fast_log(left);
 }
 
 /// Point i of n in a lattice of the unit square by the golden ratio, moved by a shift in [0,1)² around its edges. With

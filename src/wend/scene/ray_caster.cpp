@@ -160,7 +160,7 @@ void RayCaster::attach(RTCScene scene, int index) {
     rtcReleaseGeometry(geometry);
 }
 
-std::optional<RayCaster::RawHit> RayCaster::intersect(const Ray& ray, float distance, Visible visible) const {
+std::optional<RayHit> RayCaster::intersect(const Ray& ray, float distance, Visible visible) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query;
@@ -174,7 +174,7 @@ std::optional<RayCaster::RawHit> RayCaster::intersect(const Ray& ray, float dist
     const int instance = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID
                              ? -1
                              : static_cast<int>(query.hit.instID[0] - static_cast<unsigned>(d_.surfaces.size()));
-    return RawHit{query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, instance};
+    return RayHit{query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, instance};
 }
 
 bool RayCaster::is_occluded(const Ray& ray, float distance) const {
@@ -185,7 +185,7 @@ bool RayCaster::is_occluded(const Ray& ray, float distance) const {
     return query.tfar < 0;
 }
 
-Hit RayCaster::complete(const RawHit& raw, const Ray& ray) const {
+Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     Hit hit;
     hit.distance = raw.distance;
     hit.surface = &d_.surfaces[raw.surface];

@@ -18,23 +18,14 @@ public:
     /// Which surfaces a ray sees.
     enum Visible : unsigned { opaque = 1, interfaces = 2, everything = 3 };
 
-    /// What Embree reports, to be completed by the surface itself.
-    struct RawHit {
-        float distance;
-        float u, v;
-        unsigned surface;
-        unsigned primitive;
-        int instance;  ///< -1: not an instance
-    };
-
     /// Refers to the description, which must not move nor change.
     explicit RayCaster(const SceneDescription& description);
 
-    std::optional<RawHit> intersect(const Ray& ray, float distance, Visible visible) const;
+    std::optional<RayHit> intersect(const Ray& ray, float distance, Visible visible) const;
     bool is_occluded(const Ray& ray, float distance) const;
 
     /// The hit's place, normals and parameters in the world.
-    Hit complete(const RawHit& raw, const Ray& ray) const;
+    Hit complete(const RayHit& raw, const Ray& ray) const;
     /// Of the shading normal (Scene::normal_change).
     Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
     Box3 bounds() const;

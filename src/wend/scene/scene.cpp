@@ -86,22 +86,29 @@ void Scene::add_glowing_media() {
     }
 }
 
-std::optional<Hit> Scene::intersect(const Ray& ray, float distance) const {
+std::optional<RayHit> Scene::find(const Ray& ray, float distance) const {
     Ray rest = ray;
     float passed = 0;
     for (;;) {
-        const auto raw = caster_->intersect(rest, distance - passed, RayCaster::everything);
-        if (!raw) {
-            return std::nullopt;
+        auto found = caster_->intersect(rest, distance - passed, RayCaster::everything);
+        if (!found || d_.surfaces[found->surface].alpha < 0) {
+            if (found) {
+                found->distance += passed;
+            }
+            return found;
         }
-        Hit hit = caster_->complete(*raw, rest);
+        const Hit hit = caster_->complete(*found, rest);
         if (is_there(hit, rest, d_.textures)) {
-            hit.distance += passed;
-            return hit;
+            found->distance += passed;
+            return found;
         }
         passed += hit.distance;
         rest = spawn_ray(hit.position, hit.normal, ray.direction);
     }
+}
+
+Hit Scene::complete(const RayHit& found, const Ray& ray) const {
+    return caster_->complete(found, ray);
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {

@@ -63,6 +63,15 @@ struct SceneDescription {
     bool light_tree = true;  ///< choose lights by the tree, not by power alone
 };
 
+/// Where a ray meets a surface, as far as is known once it has been found.
+struct RayHit {
+    float distance;
+    float u, v;
+    unsigned surface;
+    unsigned primitive;
+    int instance;  ///< -1: not an instance
+};
+
 /// Where a ray meets a surface.
 struct Hit {
     float distance = 0;
@@ -90,7 +99,14 @@ public:
 
     /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their
     /// probability, decided by a hash of the ray, so that the answer is a function of the arguments.
-    std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const;
+    std::optional<RayHit> find(const Ray& ray, float distance = infinity) const;
+    /// The place, normals and parameters, of what find() found on that ray.
+    Hit complete(const RayHit& found, const Ray& ray) const;
+    /// Both at once.
+    std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const {
+        const auto found = find(ray, distance);
+        return found ? std::optional(complete(*found, ray)) : std::nullopt;
+    }
     /// By how much the shading normal changes when the hit moves by a small `displacement` along the surface, to first
     /// order.
     Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
