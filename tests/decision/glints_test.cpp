@@ -72,8 +72,8 @@ TEST(Glints, LightIsNeitherLostNorMade) {
         const GlintMap::Cell* cell = map.find(place(random));
         ASSERT_NE(cell, nullptr);
         EXPECT_LE(cell->count, GlintMap::most_groups);
-        ASSERT_LE(cell->narrow, cell->count);
-        const auto end = cell->groups.begin() + static_cast<std::ptrdiff_t>(cell->narrow);
+        ASSERT_LE(cell->bright, cell->count);
+        const auto end = cell->groups.begin() + static_cast<std::ptrdiff_t>(cell->bright);
         const float light =
             std::accumulate(cell->groups.begin(), end, 0.0f,
                             [](float all, const GlintMap::Group& group) { return all + mean_value(group.light); });
@@ -98,7 +98,7 @@ TEST(Glints, NoLampIsLeftOut) {
             EXPECT_TRUE(is_faint || dot(group.lobe.mean, bright) > 0.99f) << "a group of two lamps";
             EXPECT_NEAR(group.distance, is_faint ? 7 : 5, 1e-4f);
             EXPECT_NEAR(group.light.r, 2 * group.light.g, 1e-4f);
-            light += is_faint && g < cell->narrow ? mean_value(group.light) : 0.0f;
+            light += is_faint && g < cell->bright ? mean_value(group.light) : 0.0f;
         }
         found += light > 0 ? 1 : 0;
     }

@@ -7,8 +7,9 @@
 namespace wend {
 namespace {
 
-/// Wider lobes are of light that is found by chance: a part of a sky, or ways of which too little is known.
-constexpr float least_kappa = 100;
+/// How much brighter than the mean over all directions a lobe is, at least. What is less bright is found by chance: a
+/// part of a sky, or ways of which too little is known.
+constexpr float least_contrast = 10;
 /// Photons that a cell has at most. More of them know more ways to lights, fewer know them more exactly.
 constexpr std::size_t most_glints = 32;
 
@@ -121,11 +122,13 @@ GlintMap::Cell cell_of(std::span<const Glint> glints, const Box3& bounds) {
         const float spread = (squares[g] + expected) / members[g];
         groups[g].lobe.kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
     }
-    const auto wide = std::partition(groups.begin(), groups.end(),
-                                     [](const GlintMap::Group& group) { return group.lobe.kappa >= least_kappa; });
-    cell.narrow = static_cast<std::size_t>(wide - groups.begin());
-    cell.light = std::accumulate(groups.begin(), wide, 0.0f,
-                                 [](float sum, const GlintMap::Group& group) { return sum + mean_value(group.light); });
+    const auto add_light = [](float sum, const GlintMap::Group& group) { return sum + mean_value(group.light); };
+    const float all = std::accumulate(groups.begin(), groups.end(), 0.0f, add_light);
+    const auto dim = std::partition(groups.begin(), groups.end(), [all](const GlintMap::Group& group) {
+        return vmf_peak(group.lobe.kappa) * mean_value(group.light) >= least_contrast * inv_4pi * all;
+    });
+    cell.bright = static_cast<std::size_t>(dim - groups.begin());
+    cell.light = std::accumulate(groups.begin(), dim, 0.0f, add_light);
     return cell;
 }
 

@@ -42,12 +42,12 @@ public:
     struct Cell {
         Box3 reach;       ///< where it has something to say
         Vec3 extent;      ///< of the space that its glints lie in
-        float light = 0;  ///< of narrow groups, as a mean over channels
+        float light = 0;  ///< of bright groups, as a mean over channels
         std::size_t count = 0;
-        std::size_t narrow = 0;  ///< groups that are worth drawing from; these come first
+        std::size_t bright = 0;  ///< groups that are worth drawing from; these come first
         std::array<Group, most_groups> groups;
 
-        /// Of all narrow groups together, about: in a medium light per volume, on surfaces per area.
+        /// Of all bright groups together, about: in a medium light per volume, on surfaces per area.
         float fluence(bool in_volume) const;
     };
 
@@ -82,7 +82,7 @@ public:
     GlintMixture() = default;
 
     template <class F>
-    GlintMixture(const GlintMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.narrow) {
+    GlintMixture(const GlintMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.bright) {
         for (std::size_t i = 0; i < count_; ++i) {
             const GlintMap::Group& group = cell.groups[i];
             lobes_[i] = {group.direction(position), group.lobe.kappa};
