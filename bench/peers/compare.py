@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Wend and other renderers in equal time: `compare.py SCENE --time 60 --wend build/release/bin/wend --out DIR`.
 
-Needs `pip install OpenEXR mitsuba bpy` (Blender with Cycles and Open PGL); a renderer that does not run is left out with
-a word. The reference is two halves by Wend, and the last column a picture's mean over theirs: a renderer that converged
-to something else, or took the scene for another one, would show it there.
+Needs `pip install OpenEXR numpy pillow mitsuba bpy` (bpy is Blender, with Cycles and Open PGL); a renderer that does not
+run is left out with a word. The reference is two halves by Wend, and the last column of the table is a picture's mean
+over theirs: a renderer that converged to something else, or took the scene for another one, would show it there. All
+pictures, in their order, and a half of the reference are written side by side as SCENE.png.
 """
 
 import argparse
@@ -12,7 +13,9 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import OpenEXR
+from PIL import Image
 
 import renderers
 from scenes import SCENES
@@ -26,9 +29,20 @@ RENDERERS = {
 }
 
 
-def mean_of(path):
+def pixels_of(path):
     channels = OpenEXR.File(path).channels()
-    return float(channels['RGB' if 'RGB' in channels else 'RGBA'].pixels[..., :3].mean())
+    return channels['RGB' if 'RGB' in channels else 'RGBA'].pixels[..., :3]
+
+
+def mean_of(path):
+    return float(pixels_of(path).mean())
+
+
+def write_row(paths, path):
+    """Side by side, lighter where they are dark, as screens have it."""
+    rows = [pixels_of(p) / (4 * mean_of(paths[-1])) for p in paths]
+    row = np.clip(np.concatenate(rows, axis=1), 0, 1) ** (1 / 2.2)
+    Image.fromarray((255 * row + 0.5).astype(np.uint8)).save(path)
 
 
 def main():
@@ -74,6 +88,8 @@ def main():
             mean = mean_of(picture(name, seed)) / (0.5 * sum(mean_of(half) for half in halves))
             print(f'{name:24}{told["spp"] or "-":>8}{told["seconds"]:9.1f}{m["relmse"]:12.4g}'
                   f'{m["relmse_trimmed"]:12.4g}{m["error_p9999"]:10.4g}{mean:8.4f}', flush=True)
+    made = [picture(name, 1) for name in a.only or RENDERERS]
+    write_row([p for p in made if os.path.exists(p)] + halves[:1], f'{reference}.png')
 
 
 if __name__ == '__main__':
