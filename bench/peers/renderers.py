@@ -29,6 +29,8 @@ def pbrt_text(scene):
         lines += [medium('fog', scene.fog), 'MediumInterface "" "fog"']
     lines += [f'LookAt {numbers(mirrored(scene.eye))}  {numbers(mirrored(scene.target))}  0 1 0',
               f'Camera "perspective" "float fov" [ {scene.fov} ]', 'WorldBegin']
+    if scene.fog:
+        lines.append('MediumInterface "fog" "fog"')  # on both sides of walls, whichever way these face
     if scene.sky:
         lines.append(f'LightSource "infinite" "rgb L" [ {numbers(scene.sky)} ]')
     for i, mesh in enumerate(scene.meshes):
