@@ -21,7 +21,7 @@ import renderers
 from scenes import SCENES
 
 RENDERERS = {
-    'mitsuba volpath': lambda a: renderers.mitsuba(),
+    'mitsuba volpath': lambda a: renderers.mitsuba,
     'cycles': lambda a: renderers.cycles(False),
     'cycles guided': lambda a: renderers.cycles(True),
     'wend classical': lambda a: renderers.wend(a.wend, '--sampling', 'classical', '--subsurface', 'classical'),

@@ -1,5 +1,5 @@
-"""Each renderer's own way to say a scene, and to render it: render(scene, settings, seconds, path, seed) writes an EXR
-picture and returns (samples a pixel, seconds)."""
+"""Each renderer's own way to say a scene, and to render it: render(scene, seconds, path, seed) writes an EXR picture and
+returns (samples a pixel, seconds); no samples are told by Cycles."""
 
 import json
 import math
@@ -105,29 +105,27 @@ def mitsuba_dict(mi, scene):
     return result
 
 
-def mitsuba():
-    def render(scene, seconds, path, seed):
-        import mitsuba as mi
-        mi.set_variant('scalar_rgb')
-        mi.Thread.thread().logger().set_log_level(mi.LogLevel.Warn)
-        built = mi.load_dict(mitsuba_dict(mi, scene))
-        integrator = mi.load_dict({'type': 'volpath', 'max_depth': scene.depth + 1, 'rr_depth': 5})
+def mitsuba(scene, seconds, path, seed):
+    import mitsuba as mi
+    mi.set_variant('scalar_rgb')
+    mi.Thread.thread().logger().set_log_level(mi.LogLevel.Warn)
+    built = mi.load_dict(mitsuba_dict(mi, scene))
+    integrator = mi.load_dict({'type': 'volpath', 'max_depth': scene.depth + 1, 'rr_depth': 5})
 
-        def run(spp, number):
-            start = time.time()
-            picture = mi.render(built, integrator=integrator, spp=spp, seed=number)
-            return picture, time.time() - start
+    def run(spp, number):
+        start = time.time()
+        picture = mi.render(built, integrator=integrator, spp=spp, seed=number)
+        return picture, time.time() - start
 
-        # Samples are added in passes until the time is spent.
-        spp = 4
-        total, samples, spent, number = None, 0, 0.0, 1000 * seed
-        while samples == 0 or spent + 0.5 * spent / samples * spp < seconds:
-            picture, took = run(spp, number)
-            total = picture * spp if total is None else total + picture * spp
-            samples, spent, number = samples + spp, spent + took, number + 1
-        mi.Bitmap(total / samples).write(path)
-        return samples, spent
-    return render
+    # Samples are added in passes until the time is spent.
+    spp = 4
+    total, samples, spent, number = None, 0, 0.0, 1000 * seed
+    while samples == 0 or spent + 0.5 * spent / samples * spp < seconds:
+        picture, took = run(spp, number)
+        total = picture * spp if total is None else total + picture * spp
+        samples, spent, number = samples + spp, spent + took, number + 1
+    mi.Bitmap(total / samples).write(path)
+    return samples, spent
 
 
 # -------------------------------------------------------------------------------------------------------------- Cycles
@@ -143,9 +141,7 @@ def build_blender(bpy, scene):
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata([turned(p) for p in points], [], triangles)
         mesh.materials.append(material)
-        thing = bpy.data.objects.new(name, mesh)
-        there.collection.objects.link(thing)
-        return thing
+        there.collection.objects.link(bpy.data.objects.new(name, mesh))
 
     def nodes_of(material):
         material.use_nodes = True
@@ -238,5 +234,5 @@ def cycles(guided):
         c.use_guiding = guided
         start = time.time()
         bpy.ops.render.render(write_still=True)
-        return 0, time.time() - start
+        return None, time.time() - start
     return render

@@ -5,7 +5,7 @@ Coordinates are right-handed with y up. A medium is (absorption, scattering, g),
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 
 @dataclass
@@ -26,7 +26,7 @@ class Scene:
     fog: tuple = None  # the medium that fills all the rest
     sky: tuple = None
     depth: int = 100
-    size: tuple = field(default=(320, 180))
+    size: tuple = (320, 180)
 
 
 def quad(a, b, c, d, **kind):
