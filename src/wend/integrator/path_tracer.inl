@@ -6,6 +6,7 @@
 #include <wend/integrator/light_met.h>
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
+#include <wend/integrator/surface_ahead.h>
 
 #include <algorithm>
 #include <concepts>
@@ -85,36 +86,13 @@ private:
     };
     static constexpr int none = -1;
 
-    /// The surface ahead. What it is like is asked where a walk gets there, or wants to know beforehand.
-    class Ahead {
-    public:
-        Ahead(const Scene& scene, const Ray& ray, float distance)
-            : scene_(scene), ray_(ray), found_(scene.find(ray, distance)) {}
-
-        explicit operator bool() const { return found_.has_value(); }
-        float distance() const { return found_ ? found_->distance : farthest; }
-        /// There must be one.
-        const Hit& hit() {
-            if (!hit_) {
-                hit_ = scene_.complete(*found_, ray_);
-            }
-            return *hit_;
-        }
-
-    private:
-        const Scene& scene_;
-        Ray ray_;
-        std::optional<RayHit> found_;
-        std::optional<Hit> hit_;
-    };
-
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
         // In a stay most flights end long before the boundary: no ray is traced further than they go.
         const float drawn =
             now_.slab.is_inside() ? now_.slab.draw_distance(sampler_.uniform(), sampler_.random()) : infinity;
-        Ahead ahead(scene_, now_.ray, drawn);
+        SurfaceAhead ahead(scene_, now_.ray, drawn);
         if (now_.medium != vacuum) {
             const Medium& medium = scene_.medium(now_.medium);
             const Flight flight = fly(medium, ahead, drawn);
@@ -156,7 +134,7 @@ private:
     }
 
     /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
-    Flight fly(const Medium& medium, Ahead& ahead, float drawn) {
+    Flight fly(const Medium& medium, SurfaceAhead& ahead, float drawn) {
         const float length = ahead.distance();
         if (Stay* const stay = stay_inside()) {
             ++stay->flights;
@@ -193,7 +171,7 @@ private:
     /// Light that was weighted against connections from a collision changes less than the walk's density.
     std::optional<StaySlope> slope_of(const MetLight& arriving);
 
-    FlightEnd end_of_segment(Ahead& ahead) const {
+    FlightEnd end_of_segment(SurfaceAhead& ahead) const {
         FlightEnd end;
         if (!ahead) {
             end.emitted = mean_value(met_.beyond(now_.last, now_.ray.direction).radiance);

@@ -1,0 +1,37 @@
+// The surface that a walk's flight may end at.
+#pragma once
+
+#include <wend/integrator/light_connection.h>
+#include <wend/scene/scene.h>
+
+#include <optional>
+
+namespace wend {
+
+/// The nearest surface along a ray. What it is like is asked where a walk gets there, or wants to know beforehand: most
+/// flights through a dense medium do neither.
+class SurfaceAhead {
+public:
+    SurfaceAhead(const Scene& scene, const Ray& ray, float distance)
+        : scene_(scene), ray_(ray), found_(scene.find(ray, distance)) {}
+
+    /// Whether there is one within the distance.
+    explicit operator bool() const { return found_.has_value(); }
+    /// To the surface, or `farthest`.
+    float distance() const { return found_ ? found_->distance : farthest; }
+    /// There must be one.
+    const Hit& hit() {
+        if (!hit_) {
+            hit_ = scene_.complete(*found_, ray_);
+        }
+        return *hit_;
+    }
+
+private:
+    const Scene& scene_;
+    Ray ray_;
+    std::optional<RayHit> found_;
+    std::optional<Hit> hit_;
+};
+
+}  // namespace wend
