@@ -36,17 +36,21 @@ struct Continuations {
     bool judged = true;
 };
 
-Continuations mean_continuations(const AdjointSurvival& survival, std::optional<float> ratio, int room = 64) {
+Continuations mean_continuations(const AdjointSurvival& survival, const Outlook& outlook) {
     constexpr int count = 40000;
     Pcg32 random(1);
     Continuations mean;
     for (int i = 0; i < count; ++i) {
-        const std::optional<WeightWindow::Outcome> outcome = survival.before_direction(ratio, room, random);
+        const std::optional<WeightWindow::Outcome> outcome = survival.before_direction(outlook, random);
         mean.judged = mean.judged && outcome;
         mean.weight += outcome ? outcome->copies / outcome->expected / count : 0;
         mean.copies += outcome ? outcome->copies / static_cast<double>(count) : 0;
     }
     return mean;
+}
+
+Continuations mean_continuations(const AdjointSurvival& survival, std::optional<float> ratio, int room = 64) {
+    return mean_continuations(survival, Outlook{ratio, 1, room});
 }
 
 TEST(AdjointSurvival, KeepsTheExpectedWeight) {
@@ -86,6 +90,22 @@ TEST(AdjointSurvival, LackOfRoomLowersTheSplittingAndDropsNothing) {
         EXPECT_NEAR(mean.copies, room, 1e-9);
         EXPECT_NEAR(mean.weight, 1, 1e-9);
     }
+}
+
+TEST(AdjointSurvival, SplitsWhatIsHeavierThanItBegan) {
+    const AdjointSurvival survival(true, true, noisy);
+    for (const std::optional<float> ratio : {std::optional<float>(), {0.01f}, {1.0f}, {2.0f}}) {
+        const Continuations mean = mean_continuations(survival, Outlook{ratio, 2.5f, 64});
+        ASSERT_TRUE(mean.judged);
+        EXPECT_NEAR(mean.copies, 2.5, 0.02);
+        EXPECT_NEAR(mean.weight, 1, 0.01);
+    }
+    EXPECT_NEAR(mean_continuations(survival, Outlook{4.0f, 2.5f, 64}).copies, 4, 1e-9);
+    EXPECT_NEAR(mean_continuations(survival, Outlook{std::nullopt, 40, 3}).copies, 3, 1e-9);
+    // What has kept its weight or lost some is judged by what is expected alone.
+    EXPECT_FALSE(mean_continuations(survival, Outlook{std::nullopt, 1.5f, 64}).judged);
+    EXPECT_NEAR(mean_continuations(survival, Outlook{2.5f, 0.1f, 64}).copies, 2.5, 0.02);
+    EXPECT_FALSE(mean_continuations(AdjointSurvival(true, false, noisy), Outlook{std::nullopt, 2.5f, 64}).judged);
 }
 
 TEST(AdjointSurvival, LeavesToTheWeightWhatItMayNotJudge) {

@@ -26,14 +26,21 @@ struct WalkState {
     bool is_judged_elsewhere = false;
 };
 
-/// Is asked twice at a vertex. `before_direction`: how many directions to draw, given the ratio of the walk's expected
-/// contribution from here on to the value that it estimates, and how many continuations there is room for; nothing if
-/// that is to be judged by the weight, once a direction is drawn. Then `after_direction` tells the probability of going
-/// on, at most 1.
+/// What is known of a walk at a vertex before its direction is drawn.
+struct Outlook {
+    /// The walk's expected contribution from here on, over the value that it estimates.
+    std::optional<float> ratio;
+    /// What the walk carries over what it began with: the throughput's mean over the channels, times
+    /// WalkState::index_scale.
+    float weight = 1;
+    int room = 1;  ///< for continuations, at least 1
+};
+
+/// Is asked twice at a vertex. `before_direction`: how many directions to draw; nothing if that is to be judged by the
+/// weight, once a direction is drawn. Then `after_direction` tells the probability of going on, at most 1.
 template <class D>
-concept SurvivalDecision = requires(const D& d, std::optional<float> ratio, int room, Pcg32& random,
-                                    const WalkState& state) {
-    { d.before_direction(ratio, room, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
+concept SurvivalDecision = requires(const D& d, const Outlook& outlook, Pcg32& random, const WalkState& state) {
+    { d.before_direction(outlook, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
     { d.after_direction(state) } -> std::same_as<float>;
 };
 
@@ -49,8 +56,7 @@ public:
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_boost = 1e4f;
 
-    std::optional<WeightWindow::Outcome> before_direction(std::optional<float> /*ratio*/, int /*room*/,
-                                                          Pcg32& /*random*/) const {
+    std::optional<WeightWindow::Outcome> before_direction(const Outlook& /*outlook*/, Pcg32& /*random*/) const {
         return std::nullopt;
     }
     float after_direction(const WalkState& state) const {
@@ -71,6 +77,10 @@ inline constexpr ClassicalSurvival guided_walks_end{1.0f / 8};
 
 /// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known. Of walks that
 /// are judged elsewhere that ends but the worthless: what it lets through would come back with many times its weight.
+///
+/// A walk gets heavier than it began only on ways that were drawn less often than scattering would have it, since
+/// little was expected of them; should they lead to light all the same, it stands out. So the window's upper edge holds
+/// for its weight too, known contribution or not. As weights do not grow in the mean, few walks are so heavy.
 class AdjointSurvival {
 public:
     /// With either of the two off, its side of the window is open. `sample_variance`: of one sample of a pixel,
@@ -84,12 +94,16 @@ public:
         window_.low *= std::max(least_roulette, 1 / std::sqrt(1 + 1 / sample_variance));
     }
 
-    std::optional<WeightWindow::Outcome> before_direction(std::optional<float> ratio, int room, Pcg32& random) const {
+    std::optional<WeightWindow::Outcome> before_direction(const Outlook& outlook, Pcg32& random) const {
+        std::optional<float> ratio = outlook.ratio;
+        if (splitting_ && outlook.weight > window_.high) {
+            ratio = std::max(outlook.weight, ratio.value_or(0));
+        }
         if (!ratio || (*ratio < window_.low && !roulette_) || (*ratio > window_.high && !splitting_)) {
             return std::nullopt;
         }
         WeightWindow window = window_;
-        window.most = std::min(window.most, room);
+        window.most = std::min(window.most, outlook.room);
         return window.sample(*ratio, random);
     }
     float after_direction(const WalkState& state) const {

@@ -291,6 +291,7 @@ private:
         return mean_value(now_.throughput * f.albedo() * *in_scattered) / expected_;
     }
 
+    float weight() const { return mean_value(now_.throughput) * now_.index_scale; }
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {
