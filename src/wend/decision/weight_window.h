@@ -9,7 +9,7 @@ namespace wend {
 
 /// A window around the ratio of a walk's expected contribution (weight times adjoint) to the value it is estimating
 /// (vorba2016). Inside it a walk goes on; below, it survives with the ratio as its probability; above, it is split into
-/// as many. Never by weight alone: a good guide lets weights vary on purpose, and roulette on them undoes it.
+/// as many. No roulette by weight alone: a good guide lets weights vary on purpose, and that would undo it.
 struct WeightWindow {
     double low = 1.0 / 3;   ///< in (0,1]
     double high = 5.0 / 3;  ///< >= 1
