@@ -24,9 +24,7 @@ SceneDescription sea() {
 
 /// Walks never die of roulette, so that their length is known.
 struct Immortal {
-    std::optional<WeightWindow::Outcome> before_direction(const Outlook&, Pcg32&) const {
-        return std::nullopt;
-    }
+    std::optional<WeightWindow::Outcome> before_direction(const Outlook&, Pcg32&) const { return std::nullopt; }
     float after_direction(const WalkState&) const { return 1; }
 };
 
