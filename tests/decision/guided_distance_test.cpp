@@ -294,10 +294,12 @@ TEST(GuidedDistance, LooksAhead) {
 }
 
 /// Whether flights are those of classical sampling, number for number.
-bool is_classical(const Slices& field, const Medium& medium, float boost_so_far) {
-    const GuidedDistance distance(&field, &field, share, DistanceGuiding::scatter_and_distance);
+bool is_classical(const Slices& field, const Medium& medium, float boost_so_far, int depth = 0,
+                  int guided_in_grids = 1) {
+    const GuidedDistance distance(&field, &field, share, DistanceGuiding::scatter_and_distance, guided_in_grids);
     FlightStart start = start_with(nothing(0.1f));
     start.boost = boost_so_far;
+    start.depth = depth;
     Pcg32 guided(4), classical(4);
     for (int i = 0; i < 200; ++i) {
         const float u = guided.uniform();
@@ -318,6 +320,17 @@ TEST(GuidedDistance, IsClassicalWhereTheGuideFailedOrKnowsNothing) {
         EXPECT_TRUE(is_classical(blank, medium, 1));
         EXPECT_TRUE(is_classical(field, medium, 0.04f));
         EXPECT_FALSE(is_classical(field, medium, 0.06f));
+    }
+}
+
+TEST(GuidedDistance, IsClassicalInGridsAfterSoManyVertices) {
+    const Slices field = uneven();
+    const Medium homogeneous_one = homogeneous(Rgb(0.2f), Rgb(0.6f)), grid = test::smooth_medium(Rgb(0.2f), Rgb(0.6f));
+    for (int guided = 0; guided < 3; ++guided) {
+        for (int depth = 0; depth < 4; ++depth) {
+            EXPECT_EQ(is_classical(field, grid, 1, depth, guided), depth >= guided);
+            EXPECT_FALSE(is_classical(field, homogeneous_one, 1, depth, guided));
+        }
     }
 }
 

@@ -29,18 +29,24 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
 /// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous
-/// media by FlightPieces, through grids, at the beginning of a walk, by GuidedTracking.
+/// media by FlightPieces, through grids by GuidedTracking.
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
     /// The fields are not owned. `classical_share` in (0,1] bounds the weight by 1/classical_share times the classical
-    /// one.
-    GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding)
-        : surface_(surface), volume_(volume), classical_share_(classical_share), guiding_(guiding) {}
+    /// one. Through grids the flights before a walk's first `guided_in_grids` vertices are guided: later ones gain less
+    /// than the cells on their way cost (docs/theory/distance.md).
+    GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding,
+                   int guided_in_grids = 1)
+        : surface_(surface),
+          volume_(volume),
+          classical_share_(classical_share),
+          guiding_(guiding),
+          guided_in_grids_(guided_in_grids) {}
 
     /// Whether a flight is guided as soon as something is known: not once a walk has lost its trust.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
-        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids;
+        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
         return guidable && start.boost >= least_boost && start.length > 0;
     }
 
@@ -60,9 +66,6 @@ public:
     }
 
 private:
-    /// Through grids only the first flight is guided. Later ones would gain less than the cells on their way cost
-    /// (docs/theory/distance.md).
-    static constexpr int guided_in_grids = 1;
     /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
     /// next.
     static constexpr float share_in_grids = 0.5f;
@@ -145,6 +148,7 @@ private:
     const Field* volume_;
     float classical_share_;
     DistanceGuiding guiding_;
+    int guided_in_grids_;
     ClassicalDistance classical_;
 };
 

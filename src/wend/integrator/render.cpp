@@ -34,6 +34,9 @@ double seconds_since(Clock::time_point start) {
 
 // Half of the flights follow the medium alone, whatever the guide says.
 constexpr float classical_flights = 0.5f;
+// Of a walk that is not split, guided through grids. Where it is, it goes on in numbers from where much is scattered,
+// which brings as much as to be there more often, for less (docs/theory/distance.md).
+constexpr int flights_in_grids = 1;
 // Photons from lights to smooth surfaces: as many as there have been walks, between these.
 constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
 // Before, neither the field nor the pixels are known well enough to end or split walks by them, or to judge guides.
@@ -143,7 +146,8 @@ private:
         }
         const GuidedDistance distance(
             &fields_.surface, &fields_.volume, classical_flights,
-            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
+            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone,
+            preset.splitting ? 0 : flights_in_grids);
         const GuidedDirection direction(&fields_.surface, &fields_.volume,
                                         preset.direction ? std::nullopt : std::optional(1.0f), &caustics_.on_surfaces(),
                                         &caustics_.in_media());
