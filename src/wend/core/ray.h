@@ -8,6 +8,10 @@ namespace wend {
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
+/// How long a ray's segment is where nothing is near: further than any scene reaches, and finite, so that it can be
+/// multiplied.
+inline constexpr float longest_segment = 1e30f;
+
 /// A half-line. `direction` has unit length, so distances along the ray are in scene units.
 struct Ray {
     Vec3 origin;

@@ -100,7 +100,7 @@ private:
     bool fly() {
         FlightStart start;
         start.ray = ray_;
-        start.length = hit_ ? hit_->distance : farthest;
+        start.length = hit_ ? hit_->distance : longest_segment;
         start.throughput = flux_;
         if (medium_ == vacuum) {
             travelled_ += start.length;

@@ -30,7 +30,7 @@ Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& r
         const std::optional<Hit> hit = scene.intersect(way.last);
         if (medium != vacuum) {
             way.transmittance *=
-                estimate_transmittance(scene.medium(medium), way.last, hit ? hit->distance : farthest, random);
+                estimate_transmittance(scene.medium(medium), way.last, hit ? hit->distance : longest_segment, random);
         }
         if (!(max_value(way.transmittance) > least_transmittance)) {
             return way;

@@ -13,8 +13,6 @@
 
 namespace wend {
 
-/// How far rays go where nothing is near.
-inline constexpr float farthest = 1e30f;
 /// A ray that meets as many interfaces in a row is caught between coincident surfaces.
 inline constexpr int most_interfaces = 1000;
 
@@ -76,7 +74,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     Passage passage;
     Ray ray = shadow.ray;
     const float part = shadow.medium == vacuum ? 1 - 1e-4f : 1.0f;  // short of a light that is a surface
-    float rest = shadow.length == infinity ? farthest : shadow.length * part;
+    float rest = shadow.length == infinity ? longest_segment : shadow.length * part;
     if (scene.is_occluded(ray, rest)) {
         return blocked;
     }
@@ -120,7 +118,7 @@ Passage pass(const Scene& scene, const Distance& distance, const RefractedWay& w
         }
         if (leg.medium != vacuum) {
             const Medium& medium = scene.medium(leg.medium);
-            const float length = std::min(leg.length, farthest);
+            const float length = std::min(leg.length, longest_segment);
             passage.transmittance *= estimate_transmittance(medium, leg.ray, length, random);
             passage.probability *=
                 slab.is_inside() ? Rgb(slab.pass(length)) : distance.pass_probability(medium, leg.ray, length);

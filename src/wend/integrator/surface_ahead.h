@@ -1,7 +1,7 @@
 // The surface that a walk's flight may end at.
 #pragma once
 
-#include <wend/integrator/light_connection.h>
+#include <wend/core/ray.h>
 #include <wend/scene/scene.h>
 
 #include <optional>
@@ -17,8 +17,8 @@ public:
 
     /// Whether there is one within the distance.
     explicit operator bool() const { return found_.has_value(); }
-    /// To the surface, or `farthest`.
-    float distance() const { return found_ ? found_->distance : farthest; }
+    /// To the surface, or `longest_segment`.
+    float distance() const { return found_ ? found_->distance : longest_segment; }
     /// There must be one.
     const Hit& hit() {
         if (!hit_) {
