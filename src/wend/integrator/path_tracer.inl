@@ -7,6 +7,7 @@
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
 #include <wend/integrator/surface_ahead.h>
+#include <wend/integrator/walk_branch.h>
 
 #include <algorithm>
 #include <concepts>
@@ -52,40 +53,6 @@ public:
     }
 
 private:
-    /// Where a walk is. A walk that was split has several.
-    struct Branch {
-        Ray ray{};
-        MediumId medium = vacuum;
-        Rgb throughput{1.0f};
-        float boost = 1;
-        float index_scale = 1;
-        int depth = 0;
-        int uncounted = 0;  ///< vertices, of those, that do not count towards the largest depth
-        int interfaces = 0;
-        float travelled = 0;                ///< since the last vertex
-        SlabWalk slab;                      ///< the stay in a dense medium, if it is guided
-        int stay = none;                    ///< the last one, of those that are told
-        SlabGuide::Shares relative{};       ///< relative densities in the stay, or at its end
-        bool is_classical = false;          ///< in a stay left to classical sampling alone
-        bool is_told = true;                ///< whether collisions go into the log
-        StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
-        /// Of a connection at the boundary that began at the last collision: the density of its direction, over that of
-        /// the direction that was drawn.
-        float lamps_ahead = 0;
-        /// How often the surface vertex at hand was connected from the collision before, as a mean.
-        float connected_before = 0;
-        SlabGuide::Shares at_collision{};  ///< relative densities there
-        float from_collision = 0;          ///< part of the last vertex's connections that began there
-        LastVertex last;
-
-        guide::PathLog::Branch logged{};
-        int boundary = ReflectionLog::none;  ///< the last one that was passed
-
-        MediumId coloured = vacuum;  ///< the last medium that was entered where the boundary has a colour
-        Rgb relative_albedo{1.0f};   ///< in it, over that of the medium
-    };
-    static constexpr int none = -1;
-
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
@@ -163,7 +130,7 @@ private:
     void enter_medium(const Hit& hit, MediumId from);
     void update_stay();
     /// The last stay that is told, and the same if it goes on; null if there is none.
-    Stay* last_stay() { return now_.stay != none ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
+    Stay* last_stay() { return now_.stay >= 0 ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
     Stay* stay_inside() {
         Stay* const stay = last_stay();
         return stay && stay->medium == now_.medium ? stay : nullptr;
@@ -301,7 +268,7 @@ private:
         pending_.push_back(now_);
     }
 
-    void go_on_from(const Branch& branch) {
+    void go_on_from(const WalkBranch& branch) {
         now_ = branch;
         if (log_) {
             log_->resume(now_.logged);
@@ -425,8 +392,8 @@ private:
     ReflectionLog boundaries_;
     LightMet met_;
 
-    Branch now_;
-    std::vector<Branch> pending_;
+    WalkBranch now_;
+    std::vector<WalkBranch> pending_;
     Rgb radiance_;
     float expected_;
     const Hit* hit_ = nullptr;  ///< of the surface vertex at hand

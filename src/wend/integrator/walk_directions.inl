@@ -37,7 +37,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
         if (log_) {
             now_.logged = log_->branch();
         }
-        const Branch here = now_;
+        const WalkBranch here = now_;
         if (draw_direction(f, directions, position, normal, in_volume, true)) {
             leave_pending();
         }

@@ -81,7 +81,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     if (!hit || scene_.is_interface(*hit)) {
         return;
     }
-    const Branch here = now_;
+    const WalkBranch here = now_;
     const Hit* const surface = std::exchange(hit_, &*hit);
     const Rgb phase = f.evaluate(*w);
     now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};

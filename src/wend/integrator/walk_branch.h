@@ -1,0 +1,52 @@
+// Where a walk is.
+#pragma once
+
+#include <wend/core/ray.h>
+#include <wend/decision/slab_guide.h>
+#include <wend/decision/slab_walk.h>
+#include <wend/guide/path_log.h>
+#include <wend/integrator/light_met.h>
+#include <wend/integrator/reflection_choices.h>
+#include <wend/integrator/stay_plan.h>
+
+namespace wend {
+
+/// All that a walk needs to go on from its last vertex. A walk that was split has several.
+struct WalkBranch {
+    Ray ray{};
+    MediumId medium = vacuum;
+    Rgb throughput{1.0f};
+    float boost = 1;        ///< see WalkState
+    float index_scale = 1;  ///< see WalkState
+    int depth = 0;          ///< vertices so far
+    int uncounted = 0;      ///< of those, the ones that do not count towards the largest depth
+    int interfaces = 0;
+    float travelled = 0;  ///< since the last vertex
+    LastVertex last;
+
+    // The stay in a dense medium.
+    SlabWalk slab;                      ///< if it is guided
+    int stay = -1;                      ///< the last one, of those that are told; negative if there is none
+    SlabGuide::Shares relative{};       ///< relative densities in the stay, or at its end
+    bool is_classical = false;          ///< in a stay left to classical sampling alone
+    bool is_told = true;                ///< whether collisions go into the log
+    StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
+
+    // Connections at the boundary of a dense medium that began at the last collision.
+    /// The density of such a connection's direction, over that of the direction that was drawn.
+    float lamps_ahead = 0;
+    /// How often the surface vertex at hand was connected from the collision before, as a mean.
+    float connected_before = 0;
+    SlabGuide::Shares at_collision{};  ///< relative densities there
+    float from_collision = 0;          ///< part of the last vertex's connections that began there
+
+    // For those that learn from walks.
+    guide::PathLog::Branch logged{};
+    int boundary = ReflectionLog::none;  ///< the last one that was passed
+
+    // The last medium that was entered where the boundary has a colour.
+    MediumId coloured = vacuum;
+    Rgb relative_albedo{1.0f};  ///< in it, over that of the medium
+};
+
+}  // namespace wend
