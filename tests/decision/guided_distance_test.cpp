@@ -68,7 +68,7 @@ public:
 
     /// For rays towards +x.
     template <class Visit>
-    void walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
+    void walk(const Ray& ray, float t0, float t1, Visit&& visit, float /*finest*/ = 0) const {
         for (std::size_t i = slice_of(ray.at(t0).x); t0 < t1; ++i) {
             const float end = i < ends_.size() ? (ends_[i] - ray.origin.x) / ray.direction.x : t1;
             if (end > t0) {

@@ -43,12 +43,15 @@ struct Step {
     float t_in, t_out;
 };
 
-std::vector<Step> steps_of(const Ray& ray, float t0, float t1) {
+std::vector<Step> steps_of(const Ray& ray, float t0, float t1, float finest = 0) {
     std::vector<Step> steps;
-    field().walk(ray, t0, t1, [&](const ScatteredLight& light, float t_in, float t_out) {
-        steps.push_back({&light, t_in, t_out});
-        return true;
-    });
+    field().walk(
+        ray, t0, t1,
+        [&](const ScatteredLight& light, float t_in, float t_out) {
+            steps.push_back({&light, t_in, t_out});
+            return true;
+        },
+        finest);
     return steps;
 }
 
@@ -155,6 +158,27 @@ TEST(FieldWalk, ThroughCorners) {
         const Vec3 d = Vmf{}.sample(random.uniform2());
         expect_honest({cell.min - d, d}, 0, 3);
     }
+}
+
+TEST(FieldWalk, DividesNoFurtherThanAsked) {
+    Pcg32 random(6);
+    std::size_t all = 0, told = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray{position_around(random, 0), Vmf{}.sample(random.uniform2())};
+        const float end = 0.5f + random.uniform();
+        const std::vector<Step> steps = steps_of(ray, 0, end, 0.5f);
+        ASSERT_EQ(steps.front().t_in, 0);
+        ASSERT_EQ(steps.back().t_out, end);
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            const Step& s = steps[k];
+            ASSERT_TRUE(k == 0 || s.t_in == steps[k - 1].t_out);
+            ASSERT_TRUE(is_tiny(s) || s.light == field().scattered_light(ray.at(0.5f * (s.t_in + s.t_out))));
+        }
+        ASSERT_EQ(steps_of(ray, 0, end, end).size(), 1u);
+        all += steps_of(ray, 0, end).size();
+        told += steps.size();
+    }
+    EXPECT_LT(told, all);
 }
 
 TEST(FieldWalk, StopsWhenTold) {

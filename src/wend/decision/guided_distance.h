@@ -21,7 +21,8 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
     { field.scattered_light(p)->near.intensity } -> std::convertible_to<float>;
     { field.leaving(p, p) } -> std::same_as<float>;
     { field.scattered_light(p)->trust } -> std::convertible_to<float>;
-    field.walk(ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.trust > 0; });
+    field.walk(
+        ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.trust > 0; }, 0.1f);
     { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
 };
 
@@ -70,14 +71,18 @@ private:
     /// next.
     static constexpr float share_in_grids = 0.5f;
 
+    /// Of a flight, what cells on its way are told apart to.
+    static constexpr float finest = 1.0f / 20;
+
     /// What the guide is not trusted with is added to the classical flights.
     float classical_share(float trust) const { return 1 - (1 - classical_share_) * trust; }
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
         float trust = 0;
+        const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
-        medium.phase.visit([&](const auto& phase) { trust = look_along(start, phase, pieces); });
+        medium.phase.visit([&](const auto& phase) { trust = look_along(start, phase, reach, pieces); });
         pieces.finish(start.length, ahead(start), levels());
         const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share(trust) : 1.0f, u);
         Flight flight;
@@ -91,12 +96,12 @@ private:
         return flight;
     }
 
-    /// How far the cell at the beginning is to be trusted.
+    /// How far the cell at the beginning is to be trusted. `reach`: few flights go further.
     template <class Phase>
-    float look_along(const FlightStart& start, const Phase& phase, FlightPieces& pieces) const {
+    float look_along(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
         const Vec3& before = start.ray.direction;
         float trust = 0;
-        volume_->walk(start.ray, 0, start.length, [&](const auto& light, float t_in, float t_out) {
+        const auto look = [&](const auto& light, float t_in, float t_out) {
             if (!(t_in > 0)) {
                 trust = light.trust;
             }
@@ -115,7 +120,8 @@ private:
                 }
             }
             return pieces.add(t_out, light.in_scattered(before, phase));
-        });
+        };
+        volume_->walk(start.ray, 0, start.length, look, finest * std::min(start.length, reach));
         return trust;
     }
 

@@ -68,8 +68,10 @@ public:
     /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end,
     /// and neighbours that scatter the same light may be taken for one.
     /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.
+    /// What is left of the way on one side of a plane of the tree is not divided any more where it is no longer than
+    /// `finest`: the cell in its middle stands for all of it.
     template <class Visit>
-    void walk(const Ray& ray, float t0, float t1, Visit&& visit) const;
+    void walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest = 0) const;
 
     /// What the records told of each lobe of a position's cell, as seen from the region's reference point.
     std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const {
@@ -161,7 +163,7 @@ constexpr std::size_t Field::bytes_per_cell() {
 }
 
 template <class Visit>
-void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
+void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest) const {
     struct Part {
         std::uint32_t node;
         float t_in, t_out;
@@ -195,6 +197,8 @@ void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit) const {
             part.node = starts_on_plane_and_leaves ? far : near;
         } else if (t <= part.t_in) {
             part.node = far;
+        } else if (part.t_out - part.t_in <= finest) {
+            part.node = t > 0.5f * (part.t_in + part.t_out) ? near : far;
         } else {
             waiting[count++] = {far, t, part.t_out};
             part = {near, part.t_in, t};
