@@ -167,7 +167,7 @@ class GuidedWeights : public testing::TestWithParam<Case> {};
 
 TEST_P(GuidedWeights, AreUnbiasedInEveryBinAndChannel) {
     const Case& c = GetParam();
-    const GuidedDistance distance(&c.field, &c.field, share, c.guiding);
+    const GuidedDistance distance(&c.field, &c.field, share, c.guiding, 1);
     const FlightStart start = start_with(nothing(2), c.throughput);
     constexpr std::size_t bins = 3;
     std::array<std::array<Moments, 3>, bins + 2> means;
@@ -244,7 +244,7 @@ TEST(GuidedDistance, TheBoostIsDensityOverClassical) {
     const Slices field = uneven();
     const Medium medium = homogeneous(Rgb(0.2f), Rgb(0.6f)), grid = test::smooth_medium(Rgb(0.2f), Rgb(0.6f));
     for (const auto guiding : {DistanceGuiding::scatter_alone, DistanceGuiding::scatter_and_distance}) {
-        const GuidedDistance distance(&field, &field, share, guiding);
+        const GuidedDistance distance(&field, &field, share, guiding, 1);
         Pcg32 random(2);
         float least = infinity, most = 0;
         for (int i = 0; i < 4000; ++i) {
@@ -271,7 +271,7 @@ TEST(GuidedDistance, LooksAhead) {
     const Slices volume({}, {2}), surface({}, {7}), blank({}, {});
     const Medium medium = homogeneous(Rgb(0.2f), Rgb(0.6f));
     const auto boost = [&](const Slices& surfaces, FlightEnd::Kind kind, const Vec3& normal) {
-        const GuidedDistance distance(&surfaces, &volume, share, DistanceGuiding::scatter_and_distance);
+        const GuidedDistance distance(&surfaces, &volume, share, DistanceGuiding::scatter_and_distance, 1);
         FlightEnd end = nothing(0.5f);
         end.kind = kind;
         end.position = ray.at(segment);
@@ -336,7 +336,7 @@ TEST(GuidedDistance, IsClassicalInGridsAfterSoManyVertices) {
 
 TEST(GuidedDistance, EmissionOfAHomogeneousMediumHasNoVariance) {
     const Slices field = uneven();
-    const GuidedDistance distance(&field, &field, share, DistanceGuiding::scatter_and_distance);
+    const GuidedDistance distance(&field, &field, share, DistanceGuiding::scatter_and_distance, 1);
     const HomogeneousMedium medium{Rgb(0.5f), Rgb(0.2f), Rgb(3), PhaseFunction()};
     Pcg32 random(5);
     for (int i = 0; i < 100; ++i) {
@@ -349,7 +349,7 @@ TEST(GuidedDistance, ASegmentBeyondAnyScene) {
     const Slices field = uneven(), many = very_many();
     for (const Slices* slices : {&field, &many}) {
         for (const auto guiding : {DistanceGuiding::scatter_alone, DistanceGuiding::scatter_and_distance}) {
-            const GuidedDistance distance(slices, slices, share, guiding);
+            const GuidedDistance distance(slices, slices, share, guiding, 1);
             for (const Medium& medium :
                  {Medium(homogeneous(red_absorption, blue_scattering)),
                   Medium(homogeneous({0, 0.2f, 0.1f}, {0, 0.6f, 1.2f})), Medium(homogeneous(Rgb(0), Rgb(0))),

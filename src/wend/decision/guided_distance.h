@@ -38,7 +38,7 @@ public:
     /// one. Through grids the flights before a walk's first `guided_in_grids` vertices are guided: later ones gain less
     /// than the cells on their way cost (docs/theory/distance.md).
     GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding,
-                   int guided_in_grids = 1)
+                   int guided_in_grids)
         : surface_(surface),
           volume_(volume),
           classical_share_(classical_share),
@@ -69,7 +69,7 @@ public:
 private:
     /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
     /// next.
-    static constexpr float share_in_grids = 0.5f;
+    static constexpr float share_in_grids = 1.0f / 3;
 
     /// Of a flight, what cells on its way are told apart to.
     static constexpr float finest = 1.0f / 20;

@@ -32,8 +32,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Half of the flights follow the medium alone, whatever the guide says.
-constexpr float classical_flights = 0.5f;
+// A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
+constexpr float classical_flights = 0.25f;
 // Of a walk that is not split, guided through grids. Where it is, it goes on in numbers from where much is scattered,
 // which brings as much as to be there more often, for less (docs/theory/distance.md).
 constexpr int flights_in_grids = 1;
