@@ -72,7 +72,8 @@ TEST(Share, MeasuresSecondMomentsWhateverShareDrew) {
 
 TEST(Share, FollowsAGuideThatIsRightAndNotOneThatIsWrong) {
     EXPECT_LT(sums_of(right, 20000).best(), 0.2f);
-    EXPECT_GT(sums_of(beside, 20000).best(), 0.7f);
+    // What such a guide never finds comes in bright records, few of which are many of the others.
+    EXPECT_GT(sums_of(beside, 100000).best(), 0.7f);
 }
 
 TEST(Share, IsTheMinimumOfTheMeasuredMoments) {
@@ -85,10 +86,10 @@ TEST(Share, IsTheMinimumOfTheMeasuredMoments) {
     EXPECT_LE(second_moment(near, share), 1.01 * second_moment(near, share + 0.1));
 }
 
-TEST(Share, StaysNearOneHalfUntilThereIsEvidence) {
-    EXPECT_EQ(ShareSums().best(), 0.5f);
-    EXPECT_NEAR(sums_of(right, 3).best(), 0.5f, 0.1f);
-    EXPECT_NEAR(sums_of(beside, 3).best(), 0.5f, 0.1f);
+TEST(Share, StaysWhereItIsUnprovenUntilThereIsEvidence) {
+    EXPECT_EQ(ShareSums().best(), 0.3f);
+    EXPECT_NEAR(sums_of(right, 3).best(), 0.3f, 0.1f);
+    EXPECT_NEAR(sums_of(beside, 3).best(), 0.3f, 0.1f);
 }
 
 TEST(Share, OneFreakDecidesNothing) {
@@ -98,7 +99,7 @@ TEST(Share, OneFreakDecidesNothing) {
     freak.scattered *= 1e12f;
     freak.guided_density = 0;
     sums.add(freak);
-    EXPECT_NEAR(sums.best(), 0.5f, 0.1f);
+    EXPECT_NEAR(sums.best(), 0.3f, 0.1f);
 }
 
 TEST(Share, DoesNotDependOnTheUnitOfRadiance) {
@@ -117,7 +118,7 @@ TEST(Share, IsKeptByTheFieldAndForgottenWithTime) {
     const auto records = [](const Vmf& guide) {
         Pcg32 random(3);
         Records result;
-        for (int i = 0; i < 20000; ++i) {
+        for (int i = 0; i < 100000; ++i) {
             result.push_back(draw(guide, 0.5f, random));
         }
         return result;
@@ -137,7 +138,7 @@ TEST(Share, IsKeptByTheFieldAndForgottenWithTime) {
         r.classical_density = r.guided_density = 0;
     }
     field = fit(Field::empty(field.bounds()), unguided, settings, 1).field;
-    EXPECT_EQ(field.find(Vec3(0))->classical_share(), 0.5f);
+    EXPECT_EQ(field.find(Vec3(0))->classical_share(), 0.3f);
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 namespace wend::guide {
 namespace {
 
-/// Records of which one half has c = 0 and the other g = 0: what they add to the moments is least for equal shares.
-constexpr double doubting_records = 32;
+/// As effective records, what they assume unseen: of ways that only classical sampling finds, and that only the guide
+/// does. For these parts the parabola below is least at ShareSums::unproven.
+constexpr double doubting_records = 32, found_by_classical = 1.0 / 16, found_by_guide = 9.0 / 16;
 
 /// Where the parabola through three points at x - h, x and x + h, the middle one the lowest, is least.
 double lowest(double x, double h, double left, double middle, double right) {
@@ -26,19 +27,20 @@ void ShareSums::add(const Record& record) {
     for (std::size_t k = 0; k < shares.size(); ++k) {
         moment[k] += numerator / (shares[k] * c + (1 - shares[k]) * g);
     }
-    const double equal = numerator / (shares[half] * (c + g));
+    const double equal = numerator / (0.5 * (c + g));
     square += equal * equal;
 }
 
 float ShareSums::best() const {
-    if (!(moment[half] > 0)) {
-        return static_cast<float>(shares[half]);
+    const double at_half = moment[2];
+    if (!(at_half > 0)) {
+        return static_cast<float>(unproven);
     }
     // What one record says, where they differ: the sum over their effective number.
-    const double doubt = doubting_records * square / moment[half];
+    const double doubt = doubting_records * square / at_half;
     std::array<double, shares.size()> total = moment;
     for (std::size_t k = 0; k < shares.size(); ++k) {
-        total[k] += doubt * 0.25 * (1 / shares[k] + 1 / (1 - shares[k]));
+        total[k] += doubt * (found_by_classical / shares[k] + found_by_guide / (1 - shares[k]));
     }
     const auto k = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
     if (k == 0 || k + 1 == shares.size()) {

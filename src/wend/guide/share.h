@@ -15,7 +15,8 @@ namespace wend::guide {
 /// (docs/theory/learned_field.md).
 struct ShareSums {
     static constexpr std::array<double, 5> shares = {0.1, 0.3, 0.5, 0.7, 0.9};
-    static constexpr std::size_t half = 2;
+    /// The share where nothing is known.
+    static constexpr double unproven = shares[1];
 
     /// Of Q_α for each of the shares.
     std::array<double, shares.size()> moment{};
@@ -25,8 +26,8 @@ struct ShareSums {
     /// Adds a usable record; one that does not know both densities says nothing.
     void add(const Record& record);
 
-    /// The share with the least second moment, 0.1 to 0.9. It stays near one half, whose risk is least, until many
-    /// records speak against it, and one bright record counts as one.
+    /// The share with the least second moment, 0.1 to 0.9. It stays near `unproven` until many records speak
+    /// against it, and one bright record counts as one.
     float best() const;
 
     /// All sums times `linear`, the square times `quadratic`.
