@@ -106,7 +106,7 @@ static void check_distribution(const wend_distribution* distribution, const char
 }
 
 static wend_field* train(int threads) {
-    enum { count = 60000, passes = 3 };
+    enum { count = 60000, passes = 4 };
     const wend_bounds bounds = {{0, 0, 0}, {1, 1, 1}};
     wend_record* records = malloc(count * sizeof *records);
     wend_field* field = NULL;

@@ -91,7 +91,7 @@ TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     test::add_environment(s, Rgb(1.0f));
     const Scene scene(std::move(s));
     RenderSettings settings;
-    settings.samples = 4096;
+    settings.samples = 8192;
     settings.max_depth = 200;
     // What a choice adds to the noise of one sample, not how well samples are spread over it.
     settings.sampler = SamplerKind::independent;
