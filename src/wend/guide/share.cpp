@@ -27,17 +27,16 @@ void ShareSums::add(const Record& record) {
     for (std::size_t k = 0; k < shares.size(); ++k) {
         moment[k] += numerator / (shares[k] * c + (1 - shares[k]) * g);
     }
-    const double equal = numerator / (0.5 * (c + g));
+    const double equal = numerator / (shares[half] * (c + g));
     square += equal * equal;
 }
 
 float ShareSums::best() const {
-    const double at_half = moment[2];
-    if (!(at_half > 0)) {
+    if (!(moment[half] > 0)) {
         return static_cast<float>(unproven);
     }
     // What one record says, where they differ: the sum over their effective number.
-    const double doubt = doubting_records * square / at_half;
+    const double doubt = doubting_records * square / moment[half];
     std::array<double, shares.size()> total = moment;
     for (std::size_t k = 0; k < shares.size(); ++k) {
         total[k] += doubt * (found_by_classical / shares[k] + found_by_guide / (1 - shares[k]));

@@ -15,6 +15,7 @@ namespace wend::guide {
 /// (docs/theory/learned_field.md).
 struct ShareSums {
     static constexpr std::array<double, 5> shares = {0.1, 0.3, 0.5, 0.7, 0.9};
+    static constexpr std::size_t half = 2;
     /// The share where nothing is known.
     static constexpr double unproven = shares[1];
 
