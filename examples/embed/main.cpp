@@ -142,7 +142,7 @@ private:
 
     template <class F>
     bool scatter(const F& f, const Vec3& position, bool in_fog) {
-        const auto distribution = directions_.at(position, in_fog, f, boost_);
+        const auto distribution = directions_.at(position, in_fog, f, mean_value(throughput_));
         gather(connect(f, distribution, position));
         const float u = random_.uniform();
         const auto s = distribution.sample(u, random_.uniform2());

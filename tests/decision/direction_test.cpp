@@ -1,12 +1,13 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/trust.h>
+#include <wend/decision/heaviest_walk.h>
 #include <wend/guide/product.h>
 #include <wend/medium/phase_lobes.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -211,12 +212,27 @@ TEST(Direction, SamplesAmongGlintsFollowTheirDensity) {
     EXPECT_TRUE(test::follows_density(direction_test(alone, above), "glints_wall", 3));
 }
 
-TEST(Direction, GlintsAreTriedEvenByWalksThatTheGuideFailed) {
+TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
     const Volume f;
-    const Vec3 towards = normalize(Vec3(0.45f, 1.05f, 0.55f));
-    const GuidedDirection guide(&wrong, &wrong, classical_share, &glints, &glints);
-    EXPECT_GT(guide.at(here, true, f, 0.5f * least_boost).density(towards), f.density(towards));
-    EXPECT_EQ(guide.at(here + Vec3(5, 0, 0), true, f, 0.5f * least_boost).density(towards), f.density(towards));
+    for (const GlintMap* known : {static_cast<const GlintMap*>(nullptr), &glints}) {
+        const GuidedDirection guide(&wrong, &wrong, 0.01f, known, known);
+        for (const float weight : {0.2f, 1.0f, 2.0f, 2.9f, 3.0f, 5.0f}) {
+            SCOPED_TRACE(testing::Message() << "weight " << weight << (known ? ", glints" : ""));
+            const auto distribution = guide.at(here, true, f, weight);
+            Pcg32 random(7);
+            float heaviest = 0;
+            for (int i = 0; i < 20000; ++i) {
+                const float u = random.uniform();
+                const auto s = distribution.sample(u, random.uniform2());
+                ASSERT_TRUE(s);
+                heaviest = std::max(heaviest, weight * s->weight().r);
+            }
+            EXPECT_LE(heaviest, std::max(weight, heaviest_walk) * 1.0001f);
+            EXPECT_GE(heaviest, 0.9f * heaviest_walk);
+        }
+        const Vec3 against = -wrong.adjoint->lobe.mean;
+        EXPECT_LT(guide.at(here, true, f).density(against), 0.011f * f.density(against)) << "of unknown weight";
+    }
 }
 
 TEST(Direction, AnotherClassicalShareIsRejected) {
@@ -303,26 +319,26 @@ TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
     }
 }
 
-TEST(Direction, AWalkThatTheGuideFailedIsUnguidedButKnowsWhatToExpect) {
+TEST(Direction, AHeavyWalkIsUnguidedButKnowsWhatToExpect) {
     const Volume f;
     const GuidedDirection guide(&wrong, &wrong, classical_share);
-    const auto trusting = guide.at(here, true, f, least_boost);
-    const auto failed = guide.at(here, true, f, 0.99f * least_boost);
+    const auto light = guide.at(here, true, f, 0.99f * heaviest_walk);
+    const auto heavy = guide.at(here, true, f, heaviest_walk);
     const auto classical = ClassicalDirection().at(here, true, f);
-    ASSERT_TRUE(trusting.in_scattered() && failed.in_scattered());
+    ASSERT_TRUE(light.in_scattered() && heavy.in_scattered());
     for (int c = 0; c < 3; ++c) {
-        EXPECT_EQ((*failed.in_scattered())[c], (*trusting.in_scattered())[c]);
+        EXPECT_EQ((*heavy.in_scattered())[c], (*light.in_scattered())[c]);
     }
     Pcg32 random(6);
     for (int i = 0; i < 100; ++i) {
         const float u = random.uniform();
         const Vec2 u2 = random.uniform2();
-        const auto s = failed.sample(u, u2);
+        const auto s = heavy.sample(u, u2);
         ASSERT_TRUE(s);
         EXPECT_EQ(s->direction, classical.sample(u, u2)->direction);
         EXPECT_EQ(s->density, classical.sample(u, u2)->density);
         EXPECT_EQ(s->boost, 1);
-        EXPECT_NE(trusting.density(s->direction), s->density);
+        EXPECT_NE(light.density(s->direction), s->density);
     }
 }
 

@@ -119,7 +119,7 @@ HomogeneousMedium homogeneous(const Rgb& absorption, const Rgb& scattering) {
 }
 
 FlightStart start_with(const FlightEnd& end, const Rgb& throughput = Rgb(1)) {
-    return {ray, segment, throughput, 1, end};
+    return {ray, segment, throughput, 0, end};
 }
 
 FlightEnd nothing(float emitted) {
@@ -294,11 +294,10 @@ TEST(GuidedDistance, LooksAhead) {
 }
 
 /// Whether flights are those of classical sampling, number for number.
-bool is_classical(const Slices& field, const Medium& medium, float boost_so_far, int depth = 0,
-                  int guided_in_grids = 1) {
+bool is_classical(const Slices& field, const Medium& medium, float weight, int depth = 0, int guided_in_grids = 1) {
     const GuidedDistance distance(&field, &field, share, DistanceGuiding::scatter_and_distance, guided_in_grids);
     FlightStart start = start_with(nothing(0.1f));
-    start.boost = boost_so_far;
+    start.weight = weight;
     start.depth = depth;
     Pcg32 guided(4), classical(4);
     for (int i = 0; i < 200; ++i) {
@@ -313,13 +312,31 @@ bool is_classical(const Slices& field, const Medium& medium, float boost_so_far,
     return true;
 }
 
-TEST(GuidedDistance, IsClassicalWhereTheGuideFailedOrKnowsNothing) {
+TEST(GuidedDistance, IsClassicalForHeavyWalksAndWhereNothingIsKnown) {
     const Slices field = uneven(), blank({}, {});
     for (const Medium& medium :
          {Medium(homogeneous(Rgb(0.2f), Rgb(0.6f))), Medium(test::smooth_medium(Rgb(0.2f), Rgb(0.6f)))}) {
         EXPECT_TRUE(is_classical(blank, medium, 1));
-        EXPECT_TRUE(is_classical(field, medium, 0.04f));
-        EXPECT_FALSE(is_classical(field, medium, 0.06f));
+        EXPECT_TRUE(is_classical(field, medium, heaviest_walk));
+        EXPECT_FALSE(is_classical(field, medium, 0.9f * heaviest_walk));
+    }
+}
+
+TEST(GuidedDistance, NoFlightMakesAWalkTooHeavy) {
+    const Slices field = uneven();
+    const Medium medium = homogeneous(Rgb(0), Rgb(0.8f));
+    const GuidedDistance distance(&field, &field, 0.01f, DistanceGuiding::scatter_and_distance, 1);
+    for (const float weight : {0.2f, 1.0f, 2.0f, 2.9f, 5.0f}) {
+        FlightStart start = start_with(nothing(0));
+        start.weight = weight;
+        Pcg32 random(8);
+        float heaviest = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const float u = random.uniform();
+            heaviest = std::max(heaviest, weight * distance.sample(medium, start, u, random).weight.g);
+        }
+        EXPECT_LE(heaviest, std::max(weight, heaviest_walk) * 1.0001f) << weight;
+        EXPECT_GE(heaviest, std::max(0.9999f * weight, 0.9f * heaviest_walk)) << weight;
     }
 }
 

@@ -3,9 +3,11 @@
 #include <tests/support/scenes.h>
 
 #include <wend/integrator/reflection_choices.h>
+#include <wend/integrator/scattering.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -54,6 +56,22 @@ TEST(ReflectionChoices, FewRecordsSayLittle) {
     choices.learn();
     EXPECT_GT(choices.odds(here), 1);
     EXPECT_LT(choices.odds(here), 1.5f);
+}
+
+TEST(ReflectionChoices, NoneMakesAWalkTooHeavy) {
+    const Vec3 before = normalize(Vec3(0.2f, 0, -1));
+    for (const float odds : {1.0f / 64, 64.0f}) {
+        for (const float weight : {0.2f, 1.0f, 2.0f, 5.0f}) {
+            SurfaceScattering f(DielectricBsdf{1.5f, 0, 0}, Frame::from_z({0, 0, 1}), before);
+            f.prefer_reflection(odds, weight);
+            float least = 1;
+            for (int i = 0; i < 1000; ++i) {
+                least = std::min(least, f.sample(static_cast<float>(i) / 1000, {0.5f, 0.5f})->boost);
+            }
+            EXPECT_GE(least, std::min(1.0f, weight / heaviest_walk) * 0.9999f) << odds << ' ' << weight;
+            EXPECT_LT(least, std::max(0.8f, weight / heaviest_walk)) << odds << ' ' << weight;
+        }
+    }
 }
 
 TEST(ReflectionLog, TellsEveryBoundaryOfATree) {

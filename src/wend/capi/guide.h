@@ -148,7 +148,7 @@ wend_status wend_field_radiance(const wend_field* field, wend_vec3 position, wen
                                 wend_error* error) WEND_NOEXCEPT;
 
 /* How much of the directions around a position is best drawn by your own sampling of what scatters, the rest being
- * guided: learned from records that know both densities, 0.1 to 0.9, and one half without them. */
+ * guided: learned from records that know both densities, 0.1 to 0.9, and 0.3 without them. */
 wend_status wend_field_classical_share(const wend_field* field, wend_vec3 position, float* share,
                                        wend_error* error) WEND_NOEXCEPT;
 

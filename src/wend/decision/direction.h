@@ -4,7 +4,7 @@
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
 #include <wend/decision/glints.h>
-#include <wend/decision/trust.h>
+#include <wend/decision/heaviest_walk.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ public:
 
     /// The distribution at a vertex; `f` must outlive it.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f, float /*boost*/ = 1) const {
+    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f, float /*weight*/ = 0) const {
         return Distribution<F>(f);
     }
 };
@@ -94,14 +94,17 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        /// `adjoint` and `glints` may be null.
+        /// `adjoint` and `glints` may be null. `least_classical` in [0,1]: of the density of `f` alone, what is always
+        /// left of it.
         Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share,
-                     const GlintMap::Cell* glints, bool in_volume)
-            : f_(f), adjoint_(adjoint), classical_share_(classical_share) {
+                     const GlintMap::Cell* glints, bool in_volume, float least_classical)
+            : f_(f), adjoint_(adjoint) {
             if (glints) {
                 glints_ = GlintMixture(*glints, position, f);
-                glint_share_ = glints_.is_empty() ? 0.0f : share_of(glints->fluence(in_volume));
+                glint_share_ =
+                    glints_.is_empty() ? 0.0f : std::min(share_of(glints->fluence(in_volume)), 1 - least_classical);
             }
+            classical_share_ = std::max(classical_share, least_classical / (1 - glint_share_));
             if (adjoint) {
                 product_.emplace(InPlace{*adjoint, position, f});
             }
@@ -183,16 +186,15 @@ public:
         GlintMixture glints_;
     };
 
-    /// `boost` is the product of the walk's boosts so far: below least_boost the scattering function alone is sampled,
-    /// and the adjoint tells no more than what is to be expected.
+    /// `weight` is the walk's (Outlook::weight) and raises the classical share of one that has become heavy; 0 leaves
+    /// it alone. From heaviest_walk on the adjoint tells no more than what is to be expected.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float boost = 1) const {
+    Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float weight = 0) const {
         const LocalAdjoint* adjoint = f.is_guidable() ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
-        const bool guided = adjoint && boost >= least_boost;
         const GlintMap* glints = in_volume ? volume_glints_ : surface_glints_;
         const GlintMap::Cell* known = glints && f.is_guidable() ? glints->find(position) : nullptr;
-        return Distribution<F>(f, adjoint, position,
-                               guided ? classical_share_.value_or(adjoint->classical_share()) : 1.0f, known, in_volume);
+        const float share = adjoint ? classical_share_.value_or(adjoint->classical_share()) : 1.0f;
+        return Distribution<F>(f, adjoint, position, share, known, in_volume, least_classical(weight));
     }
 
 private:

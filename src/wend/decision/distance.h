@@ -66,8 +66,8 @@ struct FlightStart {
     float length = 0;  ///< to the end of the segment; may be beyond any scene
     /// Of the walk so far: chooses among colour channels.
     Rgb throughput{1.0f};
-    /// Product of the boosts of guided decisions so far (WalkState).
-    float boost = 1;
+    /// Of the walk so far (Outlook::weight); 0 where the share of classical flights does not depend on it.
+    float weight = 0;
     FlightEnd end;
     /// Vertices of the walk so far.
     int depth = 0;

@@ -4,7 +4,7 @@
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
 #include <wend/decision/guided_tracking.h>
-#include <wend/decision/trust.h>
+#include <wend/decision/heaviest_walk.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
@@ -45,10 +45,10 @@ public:
           guiding_(guiding),
           guided_in_grids_(guided_in_grids) {}
 
-    /// Whether a flight is guided as soon as something is known: not once a walk has lost its trust.
+    /// Whether a flight is guided as soon as something is known.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
         const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
-        return guidable && start.boost >= least_boost && start.length > 0;
+        return guidable && start.weight < heaviest_walk && start.length > 0;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
@@ -75,7 +75,9 @@ private:
     static constexpr float finest = 1.0f / 20;
 
     /// What the guide is not trusted with is added to the classical flights.
-    float classical_share(float trust) const { return 1 - (1 - classical_share_) * trust; }
+    float classical_share(float trust, float weight) const {
+        return std::max(1 - (1 - classical_share_) * trust, least_classical(weight));
+    }
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
@@ -84,7 +86,8 @@ private:
         // The kind of phase function is asked for once, not in every cell.
         medium.phase.visit([&](const auto& phase) { trust = look_along(start, phase, reach, pieces); });
         pieces.finish(start.length, ahead(start), levels());
-        const FlightPieces::Outcome outcome = pieces.sample(pieces.is_lit() ? classical_share(trust) : 1.0f, u);
+        const FlightPieces::Outcome outcome =
+            pieces.sample(pieces.is_lit() ? classical_share(trust, start.weight) : 1.0f, u);
         Flight flight;
         flight.scatters = outcome.scatters;
         flight.distance = outcome.distance;
@@ -127,7 +130,7 @@ private:
 
     Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
         const float trust = volume_->scattered_light(start.ray.origin)->trust;
-        GuidedTracking tracking(medium, start, classical_share(share_in_grids * trust));
+        GuidedTracking tracking(medium, start, classical_share(share_in_grids * trust, start.weight));
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;

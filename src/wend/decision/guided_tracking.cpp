@@ -136,7 +136,7 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
         const FlightStart rest{Ray{start_.ray.at(passed), start_.ray.direction},
                                start_.length - passed,
                                start_.throughput * flight.weight,
-                               flight.boost,
+                               start_.weight,
                                {},
                                start_.depth,
                                start_.keeps};

@@ -4,6 +4,7 @@
 #include <wend/adjoint/adjoint.h>
 #include <wend/guide/lobe_colours.h>
 #include <wend/guide/product.h>
+#include <wend/guide/share.h>
 
 namespace wend::guide {
 
@@ -16,7 +17,7 @@ public:
 
     /// `inverse_distance`: 1/distance of each lobe's source from the reference point; 0 where it is far or not known.
     Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence,
-           const LobeColours& colours = {}, float classical_share = 0.5f)
+           const LobeColours& colours = {}, float classical_share = float{ShareSums::unproven})
         : reference_(reference),
           fluence_(fluence),
           mixture_(mixture),
@@ -69,7 +70,7 @@ private:
     VmfMixture mixture_;
     Lanes inverse_distance_;
     LobeColours colours_;
-    float classical_share_ = 0.5f;
+    float classical_share_ = float{ShareSums::unproven};
 };
 
 static_assert(IncidentRadiance<VmfMixture>);

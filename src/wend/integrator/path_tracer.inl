@@ -115,7 +115,7 @@ private:
             return flight.flight;
         }
         FlightStart start{
-            now_.ray, length, now_.throughput, now_.boost, {}, now_.depth, met_.in(now_.medium, now_.last)};
+            now_.ray, length, now_.throughput, weight_to_bound(), {}, now_.depth, met_.in(now_.medium, now_.last)};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(ahead);
         }
@@ -222,7 +222,7 @@ private:
     SurfaceScattering scattering_at(const Hit& hit) const {
         SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
         if (f.reflects_or_refracts()) {
-            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}));
+            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}), weight_to_bound());
         }
         return f;
     }
@@ -242,7 +242,7 @@ private:
         if (in_volume && now_.is_classical) {
             return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
         }
-        return scatter(f, d_.direction.at(position, in_volume, f, now_.boost), position, normal, in_volume);
+        return scatter(f, d_.direction.at(position, in_volume, f, weight_to_bound()), position, normal, in_volume);
     }
 
     template <class F, class Directions>
@@ -259,6 +259,9 @@ private:
     }
 
     float weight() const { return mean_value(now_.throughput) * now_.index_scale; }
+    /// By which guided decisions are the more classical the heavier the walk is. At the boundary of a guided stay they
+    /// are not: there connections from the collision before have to know their densities, and not the roulette since.
+    float weight_to_bound() const { return now_.slab.is_inside() ? 0.0f : weight(); }
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {

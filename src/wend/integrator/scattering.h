@@ -2,8 +2,11 @@
 #pragma once
 
 #include <wend/core/frame.h>
+#include <wend/decision/heaviest_walk.h>
 #include <wend/decision/volume_scattering.h>
 #include <wend/scene/bsdf/bsdf.h>
+
+#include <algorithm>
 
 namespace wend {
 
@@ -35,8 +38,12 @@ public:
     }
     /// Whether light goes on either side, as Fresnel's equations have it.
     bool reflects_or_refracts() const { return std::holds_alternative<DielectricBsdf>(bsdf_); }
-    /// Draws reflections so many times more often (DielectricBsdf::odds).
-    void prefer_reflection(float odds) { std::get<DielectricBsdf>(bsdf_).odds = odds; }
+    /// Draws reflections so many times more often (DielectricBsdf::odds), the less so the more a walk weighs.
+    void prefer_reflection(float odds, float weight = 0) {
+        DielectricBsdf& boundary = std::get<DielectricBsdf>(bsdf_);
+        boundary.odds = odds;
+        boundary.fresnel_share = std::max(boundary.fresnel_share, least_classical(weight));
+    }
     bool is_guidable() const { return is_pictured_by_lobes(bsdf_); }
     float index_ratio(const Vec3& w) const { return wend::index_ratio(bsdf_, wo_, shading_.to_local(w)); }
     Rgb albedo() const { return directional_albedo(bsdf_, wo_); }

@@ -95,7 +95,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     Rgb brought;
     if (is_finite(arriving) && !boundary.is_specular()) {
         constexpr int n = connections_at_boundary;
-        const auto around = d_.direction.at(hit->position, false, boundary, now_.boost);
+        const auto around = d_.direction.at(hit->position, false, boundary, weight_to_bound());
         const float u = sampler_.random().uniform();
         for (int i = 0; i < n; ++i) {
             const auto chosen =

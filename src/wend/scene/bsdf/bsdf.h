@@ -50,9 +50,10 @@ struct DielectricBsdf {
     float ior = 1.5f;
     float alpha_x = 0;
     float alpha_y = 0;
-    /// How many times more often than Fresnel's equations have it a reflection is drawn over a refraction; a quarter of
-    /// all samples is left to them.
+    /// How many times more often than Fresnel's equations have it a reflection is drawn over a refraction.
     float odds = 1;
+    /// Of all samples, in (0,1], what is left to Fresnel's equations all the same.
+    float fresnel_share = 0.25f;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;

@@ -35,7 +35,6 @@ std::optional<Facet> facet_between(const DielectricBsdf& b, const Vec3& wo, cons
 }  // namespace
 
 float DielectricBsdf::reflection_probability(float fresnel) const {
-    constexpr float fresnel_share = 0.25f;
     const float reflected = fresnel * odds;
     // Exactly Fresnel's where nothing is preferred, and where everything is reflected.
     return odds == 1 || fresnel == 1
