@@ -45,7 +45,7 @@ public:
           guiding_(guiding),
           guided_in_grids_(guided_in_grids) {}
 
-    /// Whether a flight is guided as soon as something is known.
+    /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
         const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
         return guidable && start.weight < heaviest_walk && start.length > 0;
