@@ -161,13 +161,11 @@ void RayCaster::attach(RTCScene scene, int index) {
 }
 
 std::optional<RayHit> RayCaster::intersect(const Ray& ray, float distance, Visible visible) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query;
     query.ray = to_embree(ray, distance, visible);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_.get(), &context, &query);
+    embree_intersect(scene_.get(), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
     }
@@ -178,10 +176,8 @@ std::optional<RayHit> RayCaster::intersect(const Ray& ray, float distance, Visib
 }
 
 bool RayCaster::is_occluded(const Ray& ray, float distance) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRay query = to_embree(ray, distance, opaque);
-    rtcOccluded1(scene_.get(), &context, &query);
+    embree_occluded(scene_.get(), query);
     return query.tfar < 0;
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <wend/core/ray.h>
+#include <wend/scene/embree.h>
 #include <wend/scene/scene.h>
-
-#include <embree3/rtcore.h>
 
 #include <memory>
 #include <optional>
