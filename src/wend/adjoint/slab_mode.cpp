@@ -36,7 +36,7 @@ SlabMode::SlabMode(double k, double albedo, std::span<const double> source)
     : k_(static_cast<float>(k)),
       albedo_(static_cast<float>(albedo)),
       source_(to_powers(source)),
-      is_isotropic_(source.size() == 1),
+      has_constant_source_(source.size() == 1),
       logarithm_(std::log1p(2 * k_ / (1 - k_))) {
     constexpr int steps = 256;
     source_.resize((source_.size() + stride - 1) / stride * stride);
@@ -50,12 +50,13 @@ SlabMode::SlabMode(double k, double albedo, std::span<const double> source)
 }
 
 Vec3 SlabMode::sample(const PhaseFunction& phase, const Vec3& before, const Vec3& normal, Pcg32& random) const {
-    if (is_isotropic_) {
-        // Isotropic scattering: (1 - k mu)^-1 is inverted in closed form.
+    if (k_ == 0) {
+        // Light that comes from everywhere alike is no reason to turn: the density is the phase function.
+        return phase.sample(before, random.uniform2());
+    }
+    if (has_constant_source_ && phase.is_isotropic()) {
+        // (1 - k mu)^-1 is inverted in closed form.
         const Vec2 u = random.uniform2();
-        if (k_ == 0) {
-            return to_sphere(u);
-        }
         const float cosine = -1 - (1 + k_) / k_ * fast_expm1(-logarithm_ * u.x);
         return Frame::from_z(normal).to_world(direction_from_cosine(std::clamp(cosine, -1.0f, 1.0f), u.y));
     }

@@ -55,7 +55,7 @@ private:
     float k_ = 0;
     float albedo_ = 1;
     std::vector<float> source_{1, 0, 0, 0};  // coefficients of powers of mu, as many as a multiple of the stride
-    bool is_isotropic_ = true;
+    bool has_constant_source_ = true;
     float logarithm_ = 0;  // of the largest rate over the smallest
     float inward_ = 1;
     float most_ = 1;  // bounds of radiance()

@@ -2,6 +2,8 @@
 #include <wend/medium/phase.h>
 #include <wend/medium/phase_lobes.h>
 
+#include <algorithm>
+
 namespace wend {
 
 void HenyeyGreensteinMixture::add(float weight, float g) {
@@ -37,6 +39,10 @@ float HenyeyGreensteinMixture::mean_cosine() const {
         sum += weight_[i] * lobe_[i].g;
     }
     return sum / total_;
+}
+
+bool HenyeyGreensteinMixture::is_isotropic() const {
+    return std::all_of(lobe_.begin(), lobe_.begin() + count_, [](const auto& lobe) { return lobe.is_isotropic(); });
 }
 
 double HenyeyGreensteinMixture::moment(int degree) const {

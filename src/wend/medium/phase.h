@@ -33,6 +33,7 @@ struct HenyeyGreenstein {
     }
 
     float mean_cosine() const { return g; }
+    bool is_isotropic() const { return g == 0; }
     /// The integral of the function times Legendre's polynomial of the scattering cosine.
     double moment(int degree) const { return std::pow(static_cast<double>(g), degree); }
 
@@ -61,6 +62,7 @@ public:
     float evaluate(float cosine) const;
     float sample_cosine(float u) const;
     float mean_cosine() const;
+    bool is_isotropic() const;
     double moment(int degree) const;
     float blurred(const Vec3& before, const Vec3& mean) const;
 
@@ -89,6 +91,10 @@ public:
     }
     float mean_cosine() const {
         return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
+    }
+    /// Whether all directions are alike.
+    bool is_isotropic() const {
+        return std::visit([](const auto& p) { return p.is_isotropic(); }, kind_);
     }
     /// The integral of the function times Legendre's polynomial of the scattering cosine: 1, the mean cosine, ...
     double moment(int degree) const {

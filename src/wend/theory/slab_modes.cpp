@@ -17,11 +17,11 @@ constexpr float most_contrast = 40;
 SlabMode mode_of(double albedo, const PhaseFunction& phase) {
     std::vector<double> moments;
     for (int l = 0; l <= 256; ++l) {
-        const double moment = phase.moment(l);
-        if (std::abs(moment) < 1e-14) {
-            break;
-        }
-        moments.push_back(moment);
+        moments.push_back(phase.moment(l));
+    }
+    // Those in between may vanish, as every other does where forward and backward scattering balance.
+    while (moments.size() > 1 && std::abs(moments.back()) < 1e-14) {
+        moments.pop_back();
     }
     const DiscreteMode mode = discrete_mode(albedo, moments);
     return {mode.k, mode.albedo, mode.source};
