@@ -18,6 +18,12 @@ float into_unit(float u) {
     return std::clamp(u, 0.0f, 0x1.fffffep-1f);
 }
 
+/// What is so little is never drawn: close to the least of numbers no channel can be told from another.
+float or_nothing(float part) {
+    constexpr float least = 1e-30f;
+    return part >= least ? part : 0.0f;
+}
+
 FastPower passing(float depth) {
     return fast_power_of_two(-std::numbers::log2e_v<float> * depth);
 }
@@ -69,15 +75,15 @@ void FlightPieces::finish(float length, float ahead, bool level) {
     for (int i = 0; i < count_; ++i) {
         Piece& piece = pieces_[i];
         const Shares shares = shares_in(piece);
-        const float part = dot(albedo_ * passed, shares.stopped);
+        const float part = or_nothing(dot(albedo_ * passed, shares.stopped));
         passed *= shares.passing;
         scattered += part;
-        lit += piece.in_scattered * part;
+        lit += or_nothing(piece.in_scattered * part);
         piece.cumulative = lit;
     }
     for (int i = 0; i < near_count_; ++i) {
         Near& near = *near_[i];
-        near.part *= dot(scattering_rate_, transmitted(near.along.closest()));
+        near.part = or_nothing(near.part * dot(scattering_rate_, transmitted(near.along.closest())));
         lit += near.part;
         near.cumulative = lit;
     }
@@ -86,7 +92,7 @@ void FlightPieces::finish(float length, float ahead, bool level) {
         count_ = 1;
         near_count_ = 0;
     }
-    total_ = lit + ahead * dot(channels_, passed);
+    total_ = or_nothing(lit + ahead * dot(channels_, passed));
 }
 
 float FlightPieces::near_at(const Piece& piece, float distance) const {

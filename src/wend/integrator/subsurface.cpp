@@ -69,7 +69,12 @@ Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary
     const double inner = boundary.ior > 1 ? static_cast<double>(fresnel_diffuse_reflectance(1 / boundary.ior)) : 0.0;
     Rgb result;
     for (int c = 0; c < 3; ++c) {
-        const double albedo = static_cast<double>(medium.scattering[c] / medium.extinction()[c]);
+        const float extinction = medium.extinction()[c];
+        if (extinction == 0) {
+            result[c] = 0;
+            continue;
+        }
+        const double albedo = static_cast<double>(medium.scattering[c] / extinction);
         const double reflected = diffuse_reflectance(std::clamp(albedo * (1 - g) / (1 - albedo * g), 0.05, 1.0));
         result[c] = static_cast<float>(reflected / (1 - inner * reflected) / std::numbers::pi);
     }
