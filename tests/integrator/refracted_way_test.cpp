@@ -127,21 +127,22 @@ struct Followed {
     bool leaves = false;
 };
 
-Followed follow(const Scene& scene, Ray ray) {
+Followed follow(const Scene& scene, TracedRay ray) {
     for (int i = 0; i < 10; ++i) {
         const auto hit = scene.intersect(ray);
         if (!hit || hit->light >= 0) {
             return {ray.direction, hit.has_value(), !hit.has_value()};
         }
-        Vec3 w = ray.direction;
-        if (!scene.is_interface(*hit)) {
-            const auto refracted = refract(-w, hit->shading.n, std::get<DielectricMaterial>(scene.material(*hit)).ior);
-            if (!refracted) {
-                return {w};
-            }
-            w = refracted->direction;
+        if (scene.is_interface(*hit)) {
+            ray.pass(hit->element, hit->t);
+            continue;
         }
-        ray = spawn_ray(hit->position, hit->normal, w);
+        const Vec3& w = ray.direction;
+        const auto refracted = refract(-w, hit->shading.n, std::get<DielectricMaterial>(scene.material(*hit)).ior);
+        if (!refracted) {
+            return {w};
+        }
+        ray = ray.leave(*hit, refracted->direction);
     }
     return {ray.direction};
 }

@@ -58,14 +58,14 @@ void add_parallelogram(SceneDescription& scene, const Vec3& corner, const Vec3& 
 }
 
 void add_box(SceneDescription& scene, const Box3& box, int material, MediumId interior, MediumId exterior) {
-    const Vec3 d = box.max - box.min;
-    const Vec3 x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-    add_parallelogram(scene, box.min, y, x, material, interior, exterior);
-    add_parallelogram(scene, box.min, z, y, material, interior, exterior);
-    add_parallelogram(scene, box.min, x, z, material, interior, exterior);
-    add_parallelogram(scene, box.max, -x, -y, material, interior, exterior);
-    add_parallelogram(scene, box.max, -y, -z, material, interior, exterior);
-    add_parallelogram(scene, box.max, -z, -x, material, interior, exterior);
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) {
+        mesh.positions.push_back({i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                  i & 4 ? box.max.z : box.min.z});
+    }
+    mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    add_surface(scene, std::move(mesh), material, interior, exterior);
 }
 
 MediumId add_homogeneous(SceneDescription& scene, const Rgb& absorption, const Rgb& scattering, float g) {

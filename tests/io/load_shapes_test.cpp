@@ -164,8 +164,8 @@ TEST(LoadShapes, MediaLieOnTheSidesThatTheInterfaceNames) {
     const Scene scene(load_text(media + "MediumInterface \"in\" \"out\" Shape \"sphere\"").scene);
     const auto hit = scene.intersect({{0, 0, 5}, {0, 0, -1}});
     ASSERT_TRUE(hit);
-    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, vacuum), 0);
-    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, vacuum), 1);
+    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, {}).id, 0);
+    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, {}).id, 1);
 }
 
 TEST(LoadShapes, InstancesPlaceTheirObject) {

@@ -1,3 +1,4 @@
+#include <tests/scene/small_scene.h>
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/core/frame.h>
@@ -164,9 +165,11 @@ std::vector<SurfacePoint> shining_hits(const Light& light, const Vec3& p, const 
     const auto& l = std::get<QuadricLight>(light);
     const Vec3 origin = l.quadric->object_from_world.point(p), direction = l.quadric->object_from_world.vector(w);
     std::vector<SurfacePoint> points;
-    for (auto t = intersect(*l.quadric, origin, direction, 0, infinity); t;
-         t = intersect(*l.quadric, origin, direction, *t * 1.0001f, infinity)) {
-        const auto point = project(*l.quadric, origin + direction * *t);
+    for (const auto& crossing : crossings(*l.quadric, origin, direction)) {
+        if (!(crossing.t > 0)) {
+            continue;
+        }
+        const auto point = project(*l.quadric, origin + direction * crossing.t);
         const Vec3 normal = normalize(l.quadric->object_from_world.transposed_vector(point.normal)) * l.flip;
         if (!is_black(emitted_radiance(light, normal, -w))) {
             points.push_back({l.quadric->world_from_object.point(point.position), normal});
@@ -304,7 +307,7 @@ TEST(QuadricLights, ADensityThatIgnoresTheStretchIsRejected) {
     const auto wrong = [&](const Vec3& w) {
         const Vec3 origin = l.quadric->object_from_world.point(p), direction = l.quadric->object_from_world.vector(w);
         const Vec3 stretched = direction / length(direction);
-        const float t = *intersect(*l.quadric, origin, stretched, 0, infinity);
+        const float t = *test::first_crossing(*l.quadric, origin, stretched);
         return t * t / (4 * pi * std::abs(dot(origin + stretched * t, stretched)));
     };
     EXPECT_LT(direction_test(light, p, wrong).result.p_value, test::failing);

@@ -135,11 +135,11 @@ TEST(SceneIntersect, CutSpheresAreOpen) {
     test::add(description, Quadric(Sphere{1, -1, 0}, Transform()));
     const Scene scene(std::move(description));
     // From above into the bowl: its inner side, with the normal still outward.
-    const auto hit = scene.intersect({{0, 0, 3}, {0, 0, -1}});
+    const auto hit = scene.intersect(Ray{{0, 0, 3}, {0, 0, -1}});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, 4, 1e-5f);
     EXPECT_NEAR(hit->normal.z, -1, 1e-5f);
-    EXPECT_FALSE(scene.intersect({{-3, 0, 0.5f}, {1, 0, 0}}));
+    EXPECT_FALSE(scene.intersect(Ray{{-3, 0, 0.5f}, {1, 0, 0}}));
 }
 
 TEST(SceneIntersect, FlippedNormalsPointTheOtherWay) {
@@ -147,8 +147,8 @@ TEST(SceneIntersect, FlippedNormalsPointTheOtherWay) {
     test::add(description, Quadric(Sphere{}, Transform())).flip_normal = true;
     test::add(description, test::square(5)).flip_normal = true;
     const Scene scene(std::move(description));
-    EXPECT_NEAR(scene.intersect({{0, 0, -3}, {0, 0, 1}})->normal.z, 1, 1e-5f);
-    EXPECT_NEAR(scene.intersect({{0.2f, 0.1f, 3}, {0, 0, 1}})->normal.z, -1, 1e-5f);
+    EXPECT_NEAR(scene.intersect(Ray{{0, 0, -3}, {0, 0, 1}})->normal.z, 1, 1e-5f);
+    EXPECT_NEAR(scene.intersect(Ray{{0.2f, 0.1f, 3}, {0, 0, 1}})->normal.z, -1, 1e-5f);
 }
 
 TEST(SceneIntersect, MeshesInterpolateNormalsAndTextureCoordinates) {
@@ -159,14 +159,14 @@ TEST(SceneIntersect, MeshesInterpolateNormalsAndTextureCoordinates) {
                     normalize(Vec3(-0.2f, 0, 1))};
     test::add(description, mesh);
     const Scene scene(std::move(description));
-    const auto hit = scene.intersect({{0.5f, -0.25f, 2}, {0, 0, -1}});
+    const auto hit = scene.intersect(Ray{{0.5f, -0.25f, 2}, {0, 0, -1}});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->uv.x, 1.5f, 1e-5f);
     EXPECT_NEAR(hit->uv.y, 3 * 0.375f, 1e-5f);
     EXPECT_EQ(hit->normal, Vec3(0, 0, 1));
     EXPECT_GT(hit->shading.n.x, 0.05f);
     EXPECT_GT(hit->shading.s.x, 0.9f);
-    EXPECT_EQ(hit->primitive, 0u);
+    EXPECT_EQ(hit->element.primitive, 0u);
 }
 
 TEST(SceneNormals, ChangeAlongSurfacesAsTheyAreBent) {
@@ -201,10 +201,10 @@ TEST(SceneNormals, ChangeAlongSurfacesAsTheyAreBent) {
         for (int i = 0; i < 1000; ++i) {
             const Vec3 origin = point_in_cube(random, 1) + Vec3(0, 0, 4);
             const Vec3 step = point_in_cube(random, 1e-3f);
-            const auto hit = scene.intersect({origin, {0, 0, -1}});
-            const auto beside = scene.intersect({origin + Vec3(step.x, step.y, 0), {0, 0, -1}});
+            const auto hit = scene.intersect(Ray{origin, {0, 0, -1}});
+            const auto beside = scene.intersect(Ray{origin + Vec3(step.x, step.y, 0), {0, 0, -1}});
             // At a silhouette and across an edge normals do not change smoothly.
-            if (!hit || !beside || hit->primitive != beside->primitive || std::abs(hit->normal.z) < 0.3f) {
+            if (!hit || !beside || hit->element != beside->element || std::abs(hit->normal.z) < 0.3f) {
                 continue;
             }
             ++seen;
@@ -229,15 +229,15 @@ Scene sphere_between_media(int material, bool flip) {
 TEST(SceneMedia, NormalsPointToTheExterior) {
     for (const bool flip : {false, true}) {
         const Scene scene = sphere_between_media(1, flip);
-        const auto hit = scene.intersect({{0, 0, -3}, {0, 0, 1}});
+        const auto hit = scene.intersect(Ray{{0, 0, -3}, {0, 0, 1}});
         ASSERT_TRUE(hit);
-        EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, vacuum), flip ? 1 : 0);
-        EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, vacuum), flip ? 0 : 1);
+        EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, {}).id, flip ? 1 : 0);
+        EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, {}).id, flip ? 0 : 1);
     }
     auto description = test::two_materials();
     test::add(description, test::square());
     const Scene scene(std::move(description));
-    EXPECT_EQ(scene.medium_beyond(*scene.intersect({{0.1f, 0, -3}, {0, 0, 1}}), {0, 0, 1}, 7), 7);
+    EXPECT_EQ(scene.medium_beyond(*scene.intersect(Ray{{0.1f, 0, -3}, {0, 0, 1}}), {0, 0, 1}, MediumState(7)).id, 7);
 }
 
 TEST(SceneVisibility, InterfacesDoNotOcclude) {
@@ -290,24 +290,24 @@ TEST(SceneVisibility, BehindATransparentSurfaceIsTheNext) {
     test::add(description, test::square(0)).alpha = none;
     test::add(description, test::square(-1));
     const Scene scene(std::move(description));
-    const auto hit = scene.intersect({{0.1f, 0.2f, 2}, {0, 0, -1}});
+    const auto hit = scene.intersect(Ray{{0.1f, 0.2f, 2}, {0, 0, -1}});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, 3, 1e-3f);
-    EXPECT_FALSE(scene.intersect({{0.1f, 0.2f, 2}, {0, 0, -1}}, 2.5f));
+    EXPECT_FALSE(scene.intersect(Ray{{0.1f, 0.2f, 2}, {0, 0, -1}}, 2.5f));
 }
 
 TEST(SceneLights, PrimitivesKnowTheirLight) {
     auto description = test::two_materials();
     test::add(description, test::square()).first_light = 4;
     const Scene scene(std::move(description));
-    EXPECT_EQ(scene.intersect({{0.5f, -0.5f, 1}, {0, 0, -1}})->light, 4);
-    EXPECT_EQ(scene.intersect({{-0.5f, 0.5f, 1}, {0, 0, -1}})->light, 5);
+    EXPECT_EQ(scene.intersect(Ray{{0.5f, -0.5f, 1}, {0, 0, -1}})->light, 4);
+    EXPECT_EQ(scene.intersect(Ray{{-0.5f, 0.5f, 1}, {0, 0, -1}})->light, 5);
 }
 
 TEST(Scene, WithoutSurfacesNothingIsHit) {
     const Scene scene(test::two_materials());
-    EXPECT_FALSE(scene.intersect({{0, 0, 0}, {0, 0, 1}}));
-    EXPECT_FALSE(scene.is_occluded({{0, 0, 0}, {0, 0, 1}}, infinity));
+    EXPECT_FALSE(scene.intersect(Ray{{0, 0, 0}, {0, 0, 1}}));
+    EXPECT_FALSE(scene.is_occluded(Ray{{0, 0, 0}, {0, 0, 1}}, infinity));
     EXPECT_FALSE(scene.bounds().isEmpty());
 }
 

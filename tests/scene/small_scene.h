@@ -3,6 +3,7 @@
 
 #include <wend/scene/scene.h>
 
+#include <optional>
 #include <utility>
 
 namespace wend::test {
@@ -20,6 +21,16 @@ inline Surface& add(SceneDescription& scene, Shape shape, int material = 0) {
     scene.world_surfaces.push_back(static_cast<int>(scene.surfaces.size()));
     scene.surfaces.push_back({std::move(shape), material});
     return scene.surfaces.back();
+}
+
+/// The first place ahead where a ray meets a quadric, in object space.
+inline std::optional<float> first_crossing(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
+    for (const auto& crossing : crossings(quadric, origin, direction)) {
+        if (crossing.t > 0) {
+            return crossing.t;
+        }
+    }
+    return std::nullopt;
 }
 
 /// Two triangles from (-1,-1) to (1,1) at a height, normal +z.

@@ -64,6 +64,15 @@ public:
         return {m_[0][0] * v.x + m_[0][1] * v.y + m_[0][2] * v.z, m_[1][0] * v.x + m_[1][1] * v.y + m_[1][2] * v.z,
                 m_[2][0] * v.x + m_[2][1] * v.y + m_[2][2] * v.z};
     }
+    /// Bounds of the terms that point() adds up for points whose coordinates are no larger than these: rounding is in
+    /// proportion to it.
+    Vec3 magnitude(const Vec3& largest) const {
+        const auto row = [&](int i) {
+            return std::abs(m_[i][0]) * largest.x + std::abs(m_[i][1]) * largest.y + std::abs(m_[i][2]) * largest.z +
+                   std::abs(m_[i][3]);
+        };
+        return {row(0), row(1), row(2)};
+    }
     /// The transposed linear part: maps normals when this is the inverse map.
     Vec3 transposed_vector(const Vec3& v) const {
         return {m_[0][0] * v.x + m_[1][0] * v.y + m_[2][0] * v.z, m_[0][1] * v.x + m_[1][1] * v.y + m_[2][1] * v.z,

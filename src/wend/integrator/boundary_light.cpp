@@ -10,18 +10,26 @@
 namespace wend {
 namespace {
 
+/// From a point of a boundary, next to it on the side of w: of the point no more is known than where it is.
+Ray next_to(const BoundaryPoint& point, const Vec3& w, float diameter) {
+    constexpr float rounding = 2e-6f;
+    const Vec3& p = point.position;
+    const float by = rounding * (diameter + std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+    return {p + point.normal * (dot(w, point.normal) < 0 ? -by : by), w};
+}
+
 /// The length of a way through the object, at most `farthest`.
-float chord(const Scene& scene, MediumId medium, Ray ray, float farthest) {
+float chord(const Scene& scene, MediumId medium, TracedRay ray, float farthest) {
     float sum = 0;
     // Past what does not end the medium, such as interfaces within it.
     for (int crossed = 0; crossed < 8 && sum < farthest; ++crossed) {
         const std::optional<Hit> hit = scene.intersect(ray, farthest);
         sum += hit ? hit->distance : farthest;
         if (!hit || !scene.is_interface(*hit) ||
-            (hit->surface->bounds_medium() && scene.medium_beyond(*hit, ray.direction, medium) != medium)) {
+            (hit->surface->bounds_medium() && scene.medium_beyond(*hit, ray.direction, MediumState(medium)).id != medium)) {
             break;
         }
-        ray = spawn_ray(hit->position, hit->normal, ray.direction);
+        ray.pass(hit->element, hit->t);
     }
     return std::min(sum, farthest);
 }
@@ -35,11 +43,16 @@ struct Refracted {
 /// Sums up samples of lights as they arrive at a point of a boundary.
 class LightAtPoint {
 public:
-    LightAtPoint(const Scene& scene, const BoundaryPoint& point, const BoundarySurface& boundary)
-        : scene_(scene), point_(point), frame_(Frame::from_z(point.normal)), boundary_(boundary.bsdf()) {}
+    LightAtPoint(const Scene& scene, const BoundaryPoint& point, float diameter, const BoundarySurface& boundary)
+        : scene_(scene),
+          point_(point),
+          diameter_(diameter),
+          frame_(Frame::from_z(point.normal)),
+          boundary_(boundary.bsdf()) {}
 
     void add_sample(Pcg32& random) {
-        const auto seen = see_light({point_.position, point_.normal}, random);
+        const auto seen = see_light({point_.position, point_.normal}, random,
+                                    [&](const Vec3& w) { return TracedRay(next_to(point_, w, diameter_)); });
         const float cosine = seen ? dot(seen->light.direction, point_.normal) : 0.0f;
         if (!(cosine > 0)) {
             return;
@@ -72,9 +85,9 @@ public:
     /// from mirrors.
     void look_around(Pcg32& random) {
         const Vec3 w = frame_.to_world(to_cosine_hemisphere(random.uniform2()));
-        const std::optional<Hit> hit = scene_.intersect(spawn_ray(point_.position, point_.normal, w));
-        const MediumId outside = scene_.camera_medium();
-        const bool is_clear = (hit ? scene_.medium_beyond(*hit, -w, outside) : outside) == vacuum;
+        const std::optional<Hit> hit = scene_.intersect(next_to(point_, w, diameter_));
+        const MediumState outside = scene_.camera_medium();
+        const bool is_clear = (hit ? scene_.medium_beyond(*hit, -w, outside) : outside).id == vacuum;
         if (is_clear && !hit) {
             return;
         }
@@ -86,7 +99,8 @@ public:
             ++unknown_;
             return;
         }
-        if (const auto seen = see_light({hit->position, hit->normal}, random)) {
+        const auto from_hit = [&](const Vec3& towards) { return TracedRay::leave_anew(*hit, towards); };
+        if (const auto seen = see_light({hit->position, hit->normal}, random, from_hit)) {
             const float radiance =
                 mean_value(f->evaluate(seen->light.direction) * seen->light.radiance) / seen->density;
             reflected_ += std::isfinite(radiance) ? std::numbers::pi_v<float> * radiance : 0.0f;
@@ -141,8 +155,9 @@ private:
         float density;  ///< of the choice and the sample
     };
 
-    /// One of the lights, if nothing stands before it.
-    std::optional<SeenLight> see_light(const LightReceiver& receiver, Pcg32& random) const {
+    /// One of the lights, if nothing stands before it on the ray that `start` makes of its direction.
+    template <class Start>
+    std::optional<SeenLight> see_light(const LightReceiver& receiver, Pcg32& random, const Start& start) const {
         const float u = random.uniform();
         const Vec2 u2 = random.uniform2();
         const ChosenLight chosen =
@@ -152,8 +167,7 @@ private:
         }
         const auto light =
             sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
-        if (!light || scene_.is_occluded(spawn_ray(receiver.position, receiver.normal, light->direction),
-                                         light->distance * (1 - 1e-3f))) {
+        if (!light || scene_.is_occluded(start(light->direction), light->distance * (1 - 1e-3f))) {
             return std::nullopt;
         }
         return SeenLight{chosen.index, *light, light->density * chosen.probability};
@@ -177,6 +191,7 @@ private:
 
     const Scene& scene_;
     const BoundaryPoint& point_;
+    float diameter_;
     Frame frame_;
     DielectricBsdf boundary_;
     float irradiance_ = 0;
@@ -197,8 +212,8 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     float total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const BoundaryPoint& point = points[i];
-        const float thickness = chord(scene, medium, spawn_ray(point.position, point.normal, -point.normal), diameter);
-        LightAtPoint light(scene, point, boundary);
+        const float thickness = chord(scene, medium, next_to(point, -point.normal, diameter), diameter);
+        LightAtPoint light(scene, point, diameter, boundary);
         for (int k = 0; k < samples; ++k) {
             light.add_sample(random);
         }
@@ -231,7 +246,7 @@ float mean_chord(const Scene& scene, MediumId medium, std::span<const BoundaryPo
     float sum = 0;
     for (const BoundaryPoint& point : points) {
         const Vec3 inward = Frame::from_z(-point.normal).to_world(to_cosine_hemisphere(random.uniform2()));
-        sum += chord(scene, medium, spawn_ray(point.position, point.normal, inward), diameter);
+        sum += chord(scene, medium, next_to(point, inward, diameter), diameter);
     }
     return points.empty() ? 0.0f : sum / static_cast<float>(points.size());
 }

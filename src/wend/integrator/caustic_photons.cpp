@@ -37,7 +37,7 @@ bool is_smooth(const SceneDescription& scene, const Surface& surface) {
 /// Follows light from a source.
 class PhotonFlight {
 public:
-    PhotonFlight(const Scene& scene, const Ray& start, MediumId medium, const Rgb& flux, Pcg32& random)
+    PhotonFlight(const Scene& scene, const TracedRay& start, const MediumState& medium, const Rgb& flux, Pcg32& random)
         : scene_(scene), ray_(start), medium_(medium), flux_(flux), random_(random) {}
 
     /// To the first surface that is none of a medium alone: whether it is one at this distance.
@@ -47,15 +47,15 @@ public:
             if (!hit_) {
                 return false;
             }
-            if (medium_ != vacuum) {
-                flux_ *= estimate_transmittance(scene_.medium(medium_), ray_, hit_->distance, random_);
+            if (medium_.id != vacuum) {
+                flux_ *= estimate_transmittance(scene_.medium(medium_.id), ray_, hit_->distance, random_);
             }
             travelled_ += hit_->distance;
             if (!scene_.is_interface(*hit_)) {
                 return std::abs(travelled_ - distance) < 1e-3f * distance;
             }
             medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
-            ray_ = spawn_ray(hit_->position, hit_->normal, ray_.direction);
+            ray_.pass(hit_->element, hit_->t);
         }
         return false;
     }
@@ -64,8 +64,10 @@ public:
     std::optional<Photon> arrive() {
         int boundaries = 0;
         for (int met = 0; hit_ && met < most_interfaces && boundaries < most_boundaries; ++met) {
-            Vec3 beyond = ray_.direction;
-            if (!scene_.is_interface(*hit_)) {
+            if (scene_.is_interface(*hit_)) {
+                medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
+                ray_.pass(hit_->element, hit_->t);
+            } else {
                 SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
                 if (f.reflects_or_refracts()) {
                     f.prefer_reflection(odds_of_reflection);
@@ -79,15 +81,14 @@ public:
                 }
                 // Flux, unlike radiance, does not change with the index.
                 flux_ *= s->weight() * sqr(f.index_ratio(s->direction));
-                beyond = s->direction;
+                medium_ = scene_.medium_beyond(*hit_, s->direction, medium_);
+                ray_ = ray_.leave(*hit_, s->direction);
                 ++boundaries;
             }
-            medium_ = scene_.medium_beyond(*hit_, beyond, medium_);
-            ray_ = spawn_ray(hit_->position, hit_->normal, beyond);
             hit_ = scene_.intersect(ray_);
             if (fly()) {
                 const Vec3& position = ray_.origin;
-                const Medium& medium = scene_.medium(medium_);
+                const Medium& medium = scene_.medium(medium_.id);
                 const float scattering = mean_value(extinction_at(medium, position) * albedo(medium));
                 return told(position, flux_ * (1 / scattering), true);
             }
@@ -102,11 +103,11 @@ private:
         start.ray = ray_;
         start.length = hit_ ? hit_->distance : longest_segment;
         start.throughput = flux_;
-        if (medium_ == vacuum) {
+        if (medium_.id == vacuum) {
             travelled_ += start.length;
             return false;
         }
-        const Flight flight = ClassicalDistance().sample(scene_.medium(medium_), start, random_.uniform(), random_);
+        const Flight flight = ClassicalDistance().sample(scene_.medium(medium_.id), start, random_.uniform(), random_);
         flux_ *= flight.weight;
         travelled_ += flight.distance;
         ray_.origin = flight.scatters ? ray_.at(flight.distance) : ray_.origin;
@@ -120,8 +121,8 @@ private:
     }
 
     const Scene& scene_;
-    Ray ray_;
-    MediumId medium_;
+    TracedRay ray_;
+    MediumState medium_;
     Rgb flux_;
     Pcg32& random_;
     std::optional<Hit> hit_;
@@ -141,10 +142,11 @@ std::optional<Photon> shoot(const Scene& scene, const LightChoices& lights, cons
     const float distance = light.distance < infinity ? light.distance * (1 - 1e-4f) : 2 * length(scene.bounds().size());
     const Rgb flux = light.radiance * (std::abs(dot(light.direction, target.normal)) / (density * chosen->density()));
     // Where the light is, as far as the target knows; interfaces on the way will tell.
-    const MediumId medium = !target.surface->bounds_medium()          ? scene.camera_medium()
-                            : dot(light.direction, target.normal) > 0 ? target.surface->exterior
-                                                                      : target.surface->interior;
-    PhotonFlight flight(scene, {target.position + light.direction * distance, -light.direction}, medium, flux, random);
+    const MediumState medium = !target.surface->bounds_medium()          ? scene.camera_medium()
+                               : dot(light.direction, target.normal) > 0 ? MediumState(target.surface->exterior)
+                                                                         : MediumState(target.surface->interior);
+    PhotonFlight flight(scene, Ray{target.position + light.direction * distance, -light.direction}, medium, flux,
+                        random);
     return flight.reach(distance) ? flight.arrive() : std::nullopt;
 }
 

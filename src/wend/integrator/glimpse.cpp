@@ -18,19 +18,19 @@ constexpr float close_enough = 0.9998f;
 
 /// Where a ray ends that is refracted by every boundary on its way.
 struct Refracted {
-    Ray last;  ///< after the last boundary
+    TracedRay last;  ///< after the last boundary
     Rgb transmittance{1.0f};
     int crossings = 0;
     enum class End { blocked, light, nothing } end = End::blocked;
 };
 
-Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& random) {
+Refracted follow(const Scene& scene, const Ray& start, MediumState medium, Pcg32& random) {
     Refracted way{start};
     for (int met = 0; met < most_interfaces_met; ++met) {
         const std::optional<Hit> hit = scene.intersect(way.last);
-        if (medium != vacuum) {
+        if (medium.id != vacuum) {
             way.transmittance *=
-                estimate_transmittance(scene.medium(medium), way.last, hit ? hit->distance : longest_segment, random);
+                estimate_transmittance(scene.medium(medium.id), way.last, hit ? hit->distance : longest_segment, random);
         }
         if (!(max_value(way.transmittance) > least_transmittance)) {
             return way;
@@ -39,8 +39,10 @@ Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& r
             way.end = hit ? Refracted::End::light : Refracted::End::nothing;
             return way;
         }
-        Vec3 beyond = way.last.direction;
-        if (!scene.is_interface(*hit)) {
+        if (scene.is_interface(*hit)) {
+            medium = scene.medium_beyond(*hit, way.last.direction, medium);
+            way.last.pass(hit->element, hit->t);
+        } else {
             const auto* dielectric = std::get_if<DielectricMaterial>(&scene.material(*hit));
             const auto refracted =
                 dielectric ? refract(-way.last.direction, hit->normal, dielectric->ior) : std::nullopt;
@@ -49,17 +51,16 @@ Refracted follow(const Scene& scene, const Ray& start, MediumId medium, Pcg32& r
             }
             ++way.crossings;
             way.transmittance *= 1 - fresnel_dielectric(-dot(way.last.direction, hit->normal), dielectric->ior);
-            beyond = refracted->direction;
+            medium = scene.medium_beyond(*hit, refracted->direction, medium);
+            way.last = way.last.leave(*hit, refracted->direction);
         }
-        medium = scene.medium_beyond(*hit, beyond, medium);
-        way.last = spawn_ray(hit->position, hit->normal, beyond);
     }
     return way;
 }
 
 }  // namespace
 
-std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, MediumId medium, Pcg32& random) {
+std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, const MediumState& medium, Pcg32& random) {
     constexpr int most_tries = 6;
     const bool is_far = distance == infinity;
     const Vec3 target = is_far ? ray.direction : ray.at(distance);

@@ -39,24 +39,21 @@ inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightC
 }
 
 struct ShadowRay {
-    Ray ray;
+    TracedRay ray;
     float length;
     MediumId medium;  ///< that glows at its end; vacuum for other lights
 };
 
-/// From a vertex in a volume, whose normal is zero, or on a surface.
-inline ShadowRay shadow_ray(const LightReceiver& from, const LightSample& light) {
-    if (from.normal == Vec3(0, 0, 0)) {
-        return {{from.position, light.direction}, light.distance, light.medium};
-    }
-    const Ray ray = spawn_ray(from.position, from.normal, light.direction);
-    if (light.distance == infinity) {
-        return {ray, light.distance, light.medium};
-    }
-    // Moving the origin off the surface must not move the far end through the light.
-    const Vec3 rest = from.position + light.direction * light.distance - ray.origin;
-    const float distance = length(rest);
-    return {{ray.origin, rest / distance}, distance, light.medium};
+/// A ray from a vertex at `position` in the light's direction, up to the light.
+inline ShadowRay shadow_ray(const TracedRay& ray, const Vec3& position, const LightSample& light) {
+    // Behind a surface the ray begins a little earlier. It ends short of a light that is a surface.
+    constexpr float rounding = 4e-6f;
+    const float before = dot(position - ray.origin, ray.direction);
+    const Vec3 end = position + light.direction * light.distance;
+    const float margin = light.medium == vacuum && light.distance < infinity
+                             ? rounding * (light.distance + std::abs(end.x) + std::abs(end.y) + std::abs(end.z))
+                             : 0.0f;
+    return {ray, std::max(light.distance - margin, 0.5f * light.distance) + before, light.medium};
 }
 
 /// An estimate of the transmittance, 0 where something blocks the light, and the probability, by channel, that a walk
@@ -68,13 +65,12 @@ struct Passage {
 
 /// From a place in `medium`, and in a stay in a dense one if `slab` is inside, which ends where the medium does.
 template <DistanceDecision Distance>
-Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shadow, MediumId medium, SlabWalk& slab,
+Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shadow, MediumState medium, SlabWalk& slab,
              Pcg32& random) {
     constexpr Passage blocked{Rgb(0.0f), Rgb(0.0f)};
     Passage passage;
-    Ray ray = shadow.ray;
-    const float part = shadow.medium == vacuum ? 1 - 1e-4f : 1.0f;  // short of a light that is a surface
-    float rest = shadow.length == infinity ? longest_segment : shadow.length * part;
+    TracedRay ray = shadow.ray;
+    float rest = std::min(shadow.length, longest_segment);
     if (scene.is_occluded(ray, rest)) {
         return blocked;
     }
@@ -84,25 +80,26 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
             return blocked;
         }
         const float length = hit ? hit->distance : rest;
-        if (medium != vacuum) {
-            passage.transmittance *= estimate_transmittance(scene.medium(medium), ray, length, random);
-            passage.probability *= slab.is_inside() ? Rgb(slab.pass(length))
-                                                    : distance.pass_probability(scene.medium(medium), ray, length);
+        if (medium.id != vacuum) {
+            const Medium& passed = scene.medium(medium.id);
+            passage.transmittance *= estimate_transmittance(passed, ray, length, random);
+            passage.probability *=
+                slab.is_inside() ? Rgb(slab.pass(length)) : distance.pass_probability(passed, ray, length);
             if (is_black(passage.transmittance)) {
                 return passage;
             }
         }
         if (!hit) {
             // A grid may reach farther than the medium that it tells of.
-            return shadow.medium == vacuum || shadow.medium == medium ? passage : blocked;
+            return shadow.medium == vacuum || shadow.medium == medium.id ? passage : blocked;
         }
         rest -= length;
-        const MediumId beyond = scene.medium_beyond(*hit, ray.direction, medium);
-        if (beyond != medium) {
+        const MediumId before = medium.id;
+        medium = scene.medium_beyond(*hit, ray.direction, medium);
+        if (medium.id != before) {
             slab.leave();
         }
-        medium = beyond;
-        ray = spawn_ray(hit->position, hit->normal, ray.direction);
+        ray.pass(hit->element, hit->t);
     }
     return blocked;
 }

@@ -24,7 +24,7 @@ struct LastVertex {
     /// The direction drawn there, in which medium that is, and how often the walk was refracted since, where it met
     /// nothing else.
     Vec3 direction{0, 0, 1};
-    MediumId medium = vacuum;
+    MediumState medium;
     int refractions = 0;
 
     float own_density() const { return density * dot(channels, pass_probability); }

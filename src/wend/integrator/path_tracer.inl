@@ -60,8 +60,8 @@ private:
         const float drawn =
             now_.slab.is_inside() ? now_.slab.draw_distance(sampler_.uniform(), sampler_.random()) : infinity;
         SurfaceAhead ahead(scene_, now_.ray, drawn);
-        if (now_.medium != vacuum) {
-            const Medium& medium = scene_.medium(now_.medium);
+        if (now_.medium.id != vacuum) {
+            const Medium& medium = scene_.medium(now_.medium.id);
             const Flight flight = fly(medium, ahead, drawn);
             if (!is_black(flight.emitted)) {
                 glow(flight.emitted, now_.travelled + mean_value(flight.emitted) / flight.glow);
@@ -91,8 +91,8 @@ private:
         }
         if (scene_.is_interface(hit)) {
             const MediumId from =
-                std::exchange(now_.medium, scene_.medium_beyond(hit, now_.ray.direction, now_.medium));
-            now_.ray = spawn_ray(hit.position, hit.normal, now_.ray.direction);
+                std::exchange(now_.medium, scene_.medium_beyond(hit, now_.ray.direction, now_.medium)).id;
+            now_.ray.pass(hit.element, hit.t);
             now_.lamps_ahead = 0;
             enter_medium(hit, from);
             return ++now_.interfaces < most_interfaces;
@@ -115,7 +115,7 @@ private:
             return flight.flight;
         }
         FlightStart start{
-            now_.ray, length, now_.throughput, weight_to_bound(), {}, now_.depth, met_.in(now_.medium, now_.last)};
+            now_.ray, length, now_.throughput, weight_to_bound(), {}, now_.depth, met_.in(now_.medium.id, now_.last)};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(ahead);
         }
@@ -133,7 +133,7 @@ private:
     Stay* last_stay() { return now_.stay >= 0 ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
     Stay* stay_inside() {
         Stay* const stay = last_stay();
-        return stay && stay->medium == now_.medium ? stay : nullptr;
+        return stay && stay->medium == now_.medium.id ? stay : nullptr;
     }
     /// Light that was weighted against connections from a collision changes less than the walk's density.
     std::optional<StaySlope> slope_of(const MetLight& arriving);
@@ -152,11 +152,16 @@ private:
         return end;
     }
 
+    /// The ray from the vertex at hand in a direction.
+    TracedRay leave(const Vec3& position, const Vec3& w, bool in_volume) const {
+        return in_volume ? TracedRay(Ray{position, w}) : now_.ray.leave(*hit_, w);
+    }
+
     /// The normal on the side that the walk comes from.
     Vec3 faced(const Hit& hit) const { return dot(hit.normal, now_.ray.direction) < 0 ? hit.normal : -hit.normal; }
 
     bool scatter_in(const Medium& medium, float distance) {
-        if (now_.medium == now_.coloured) {
+        if (now_.medium.id == now_.coloured) {
             weigh(now_.relative_albedo);
             if (is_black(now_.throughput)) {
                 return false;
@@ -203,7 +208,7 @@ private:
 
     /// Counts the vertex at hand in the medium at hand; false where the walk ends.
     bool count_vertex() {
-        if (scene_.counts_vertices_in(now_.medium)) {
+        if (scene_.counts_vertices_in(now_.medium.id)) {
             const bool goes_on = has_depth_for(1);
             ++now_.depth;
             return goes_on;
@@ -231,7 +236,7 @@ private:
     template <class F>
     bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
         if (in_volume && now_.slab.is_inside()) {
-            tracer_.subsurface_.aim(now_.medium, position, now_.slab);
+            tracer_.subsurface_.aim(now_.medium.id, position, now_.slab);
             const SlabWalk slab = now_.slab;
             const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
             if constexpr (std::same_as<F, VolumeScattering>) {
@@ -336,7 +341,7 @@ private:
     void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vec3& position);
     template <class F, class Directions>
     Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
-                       const Vec3& position, const Vec3& normal, bool in_volume);
+                       const Vec3& position, bool in_volume);
     /// How a vertex sees a light: where, how bright, with what density of that direction, and what is in between.
     struct Sight {
         Vec3 direction;
@@ -351,8 +356,7 @@ private:
     Connection weigh(const Sight& sight, float often, bool point_like, const Rgb& value, const Directions& directions,
                      bool in_volume) const;
     template <class Directions>
-    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vec3& position,
-                        const Vec3& normal, bool in_volume);
+    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vec3& position, bool in_volume);
     template <class Directions>
     std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
                                                  const Vec3& position);
@@ -360,7 +364,7 @@ private:
     template <class Directions>
     SlabWalk slab_towards(const Vec3& direction, const Directions& directions) const;
     /// Tells the log of a light that no connection reaches.
-    void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, const Vec3& normal, bool in_volume);
+    void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, bool in_volume);
     /// Tells the log of light that smooth surfaces lead to a vertex.
     void hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume);
 

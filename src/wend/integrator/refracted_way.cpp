@@ -13,7 +13,7 @@ constexpr int most_refractions = 8;
 
 /// A ray and how it changes with two angles of the way's first direction (igehy1999).
 struct Beam {
-    Ray ray;
+    TracedRay ray;
     std::array<Vec3, 2> origin_by{Vec3(0, 0, 0), Vec3(0, 0, 0)};
     std::array<Vec3, 2> direction_by;
 
@@ -88,18 +88,18 @@ bool refract_at(const Scene& scene, const Hit& hit, float ior, Beam& beam, Refra
     }
     way.transmitted *= (1 - fresnel_dielectric(cosine * side, ior)) / sqr(index);
     ++way.refractions;
-    beam.ray = spawn_ray(hit.position, hit.normal, refracted->direction);
+    beam.ray = beam.ray.leave(hit, refracted->direction);
     return true;
 }
 
 /// Follows a way along first.n to where it comes closest to the target. Behind so many refractions nothing is traced
 /// any more. Nothing where the way turns back, is totally reflected, or is too long.
 std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& first, const Target& target,
-                            MediumId medium, int refractions) {
+                            MediumState medium, int refractions) {
     Trial trial;
     trial.way.direction = first.n;
     Beam beam;
-    beam.ray = {from, first.n};
+    beam.ray = Ray{from, first.n};
     beam.direction_by = {first.s, first.t};
     for (;;) {
         const std::optional<float> along = target.distance_along(beam.ray);
@@ -113,7 +113,7 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
         const bool is_interface = passes && scene.is_interface(*hit);
         const Bsdf bsdf = passes && !is_interface ? scene.bsdf(*hit) : Bsdf();
         const DielectricBsdf* const dielectric = smooth_dielectric(bsdf);
-        if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium})) {
+        if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium.id})) {
             return std::nullopt;
         }
         if (!is_interface && !dielectric) {
@@ -127,10 +127,10 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
         }
         beam.move(hit->distance, hit->normal);
         if (is_interface) {
-            beam.ray = spawn_ray(hit->position, hit->normal, beam.ray.direction);
+            beam.ray.pass(hit->element, hit->t);
         } else if (!refract_at(scene, *hit, dielectric->ior, beam, trial.way)) {
             return std::nullopt;
-        } else if (scene.counts_vertices_in(medium)) {
+        } else if (scene.counts_vertices_in(medium.id)) {
             ++trial.way.vertices;
         }
         medium = scene.medium_beyond(*hit, beam.ray.direction, medium);
@@ -172,7 +172,7 @@ float density_ratio(const Trial& trial, const Ray& straight, float distance) {
 }  // namespace
 
 std::optional<RefractedWay> find_refracted_way(const Scene& scene, const Ray& straight, float distance,
-                                               MediumId medium) {
+                                               const MediumState& medium) {
     constexpr int most_trials = 12;
     constexpr float least_part = 1.0f / 8, least_gain = 0.25f;
     const bool is_far = distance == infinity;

@@ -51,7 +51,7 @@ private:
 /// chance can ask whether it would have been found. Of several ways it is one. Nothing where no boundary refracts, or
 /// none of the tries gets there.
 std::optional<RefractedWay> find_refracted_way(const Scene& scene, const Ray& straight, float distance,
-                                               MediumId medium);
+                                               const MediumState& medium);
 
 /// Whether connections look for a light behind boundaries: one that rays can meet, and that is not the same from
 /// everywhere, which any ray meets as well.

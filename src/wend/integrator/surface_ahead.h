@@ -12,8 +12,9 @@ namespace wend {
 /// flights through a dense medium do neither.
 class SurfaceAhead {
 public:
-    SurfaceAhead(const Scene& scene, const Ray& ray, float distance)
-        : scene_(scene), ray_(ray), found_(scene.find(ray, distance)) {}
+    /// Looks a little farther than the distance, so that what is behind it is behind it for sure.
+    SurfaceAhead(const Scene& scene, const TracedRay& ray, float distance)
+        : scene_(scene), ray_(ray), found_(scene.find(ray, distance * (1 + 1e-5f))) {}
 
     /// Whether there is one within the distance.
     explicit operator bool() const { return found_.has_value(); }

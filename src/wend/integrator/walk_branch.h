@@ -8,13 +8,14 @@
 #include <wend/integrator/light_met.h>
 #include <wend/integrator/reflection_choices.h>
 #include <wend/integrator/stay_plan.h>
+#include <wend/scene/traced_ray.h>
 
 namespace wend {
 
 /// All that a walk needs to go on from its last vertex. A walk that was split has several.
 struct WalkBranch {
-    Ray ray{};
-    MediumId medium = vacuum;
+    TracedRay ray{};
+    MediumState medium;
     Rgb throughput{1.0f};
     float boost = 1;        ///< see WalkState
     float index_scale = 1;  ///< see WalkState

@@ -34,7 +34,7 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
         }
         // What only connections find is never left out.
         const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
-        take(connect(*chosen, times, f, directions, position, normal, in_volume), {position, normal}, *chosen, times);
+        take(connect(*chosen, times, f, directions, position, in_volume), {position, normal}, *chosen, times);
     }
 }
 
@@ -78,16 +78,16 @@ void PathTracer<Decisions>::Walk::take(const Connection& found, const LightRecei
 template <class Decisions>
 template <class F, class Directions>
 auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
-                                          const Directions& directions, const Vec3& position, const Vec3& normal,
-                                          bool in_volume) -> Connection {
+                                          const Directions& directions, const Vec3& position, bool in_volume)
+    -> Connection {
     const Rgb value = f.evaluate(chosen.light.direction);
     if (is_black(value)) {
         return {};
     }
-    const Sight sight = look_straight(chosen, directions, position, normal, in_volume);
+    const Sight sight = look_straight(chosen, directions, position, in_volume);
     if (is_black(sight.passage.transmittance)) {
         if (log_ && !sight.slab.is_inside()) {
-            hint_at_refracted(chosen, position, normal, in_volume);
+            hint_at_refracted(chosen, position, in_volume);
         }
         return {};
     }
@@ -137,17 +137,18 @@ SlabWalk PathTracer<Decisions>::Walk::slab_towards(const Vec3& direction, const 
 template <class Decisions>
 template <class Directions>
 auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
-                                                const Vec3& position, const Vec3& normal, bool in_volume) -> Sight {
+                                                const Vec3& position, bool in_volume) -> Sight {
     const LightSample& light = chosen.light;
-    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    const MediumState medium =
+        in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
     Sight sight{light.direction,
                 light.distance,
                 light.radiance,
                 chosen.density(),
                 slab_towards(light.direction, directions),
                 {}};
-    sight.passage =
-        pass(scene_, d_.distance, shadow_ray({position, normal}, light), medium, sight.slab, sampler_.random());
+    const ShadowRay shadow = shadow_ray(leave(position, light.direction, in_volume), position, light);
+    sight.passage = pass(scene_, d_.distance, shadow, medium, sight.slab, sampler_.random());
     return sight;
 }
 
@@ -185,15 +186,15 @@ void PathTracer<Decisions>::Walk::hint_at_caustics(const Vec3& position, const V
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vec3& position,
-                                                    const Vec3& normal, bool in_volume) {
+void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vec3& position, bool in_volume) {
     constexpr float often = 0.25f;
     const LightSample& light = chosen.light;
     if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
         return;
     }
-    const MediumId medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
-    const ShadowRay shadow = shadow_ray({position, normal}, light);
+    const MediumState medium =
+        in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    const ShadowRay shadow = shadow_ray(leave(position, light.direction, in_volume), position, light);
     if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;
         log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0, 0, 0,

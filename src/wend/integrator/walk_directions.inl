@@ -69,10 +69,10 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
         return false;
     }
     if (in_volume) {
-        now_.ray = {position, s->direction};
+        now_.ray = Ray{position, s->direction};
     } else {
-        const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium));
-        now_.ray = spawn_ray(position, normal, s->direction);
+        const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium)).id;
+        now_.ray = now_.ray.leave(*hit_, s->direction);
         if (now_.slab.is_inside()) {
             now_.slab.head(s->direction);
         }

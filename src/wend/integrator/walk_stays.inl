@@ -14,9 +14,9 @@ namespace wend {
 
 template <class Decisions>
 void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
-    if (now_.medium != from && now_.medium == hit.surface->interior) {
+    if (now_.medium.id != from && now_.medium.id == hit.surface->interior) {
         if (const auto relative = scene_.relative_albedo(hit)) {
-            now_.coloured = now_.medium;
+            now_.coloured = now_.medium.id;
             now_.relative_albedo = *relative;
         }
     }
@@ -25,8 +25,8 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     }
     update_stay();
     bool guided = now_.slab.is_inside();
-    if (now_.medium != from) {
-        const StayPlan* plan = tracer_.subsurface_.plan(now_.medium, hit.position);
+    if (now_.medium.id != from) {
+        const StayPlan* plan = tracer_.subsurface_.plan(now_.medium.id, hit.position);
         guided = plan && !(sampler_.random().uniform() < plan->unguided_probability);
         now_.is_classical = plan && !guided && plan->is_unguided_classical;
         now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
@@ -35,11 +35,11 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
         if (stays_ && plan) {
             now_.stay = static_cast<int>(stays_->size());
             now_.relative = {};
-            stays_->push_back({.medium = now_.medium, .entry = hit.position, .guided = guided});
+            stays_->push_back({.medium = now_.medium.id, .entry = hit.position, .guided = guided});
         }
     }
     if (guided) {
-        tracer_.subsurface_.enter(now_.medium, hit, now_.ray.direction, channel_probabilities(now_.throughput),
+        tracer_.subsurface_.enter(now_.medium.id, hit, now_.ray.direction, channel_probabilities(now_.throughput),
                                   now_.slab);
     }
 }
@@ -68,7 +68,7 @@ std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& a
 template <class Decisions>
 void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
                                                       const Vec3& position) {
-    if (!has_depth_for(scene_.counts_vertices_in(now_.medium) ? 1 : 0)) {
+    if (!has_depth_for(scene_.counts_vertices_in(now_.medium.id) ? 1 : 0)) {
         return;
     }
     const std::optional<Vec3> w = directions.sample_lamps();
@@ -105,7 +105,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
                 continue;
             }
             const Connection found =
-                connect(*chosen, connections(false), boundary, around, hit->position, hit->normal, false);
+                connect(*chosen, connections(false), boundary, around, hit->position, false);
             const Rgb light = found.scattering * found.light;
             bring(now_.throughput * light, found.slope);
             brought += arriving * light;

@@ -45,6 +45,10 @@ public:
 
     /// The ray through a film point; `lens` is uniform in [0,1)².
     Ray ray(const Vec2& film, const Vec2& lens) const;
+    /// The one in the middle of both.
+    Ray middle() const {
+        return ray({0.5f * static_cast<float>(width_), 0.5f * static_cast<float>(height_)}, {0.5f, 0.5f});
+    }
 
 private:
     Kind kind_;

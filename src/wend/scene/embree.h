@@ -12,24 +12,41 @@
 
 namespace wend {
 
-/// The nearest hit.
-inline void embree_intersect(RTCScene scene, RTCRayHit& query) {
+/// What callbacks are told beside ray and hit: the base of what a query hands them.
 #if WEND_EMBREE == 4
-    rtcIntersect1(scene, &query);
+using EmbreeContext = RTCRayQueryContext;
 #else
-    RTCIntersectContext context;
+using EmbreeContext = RTCIntersectContext;
+#endif
+
+inline void embree_start(EmbreeContext& context) {
+#if WEND_EMBREE == 4
+    rtcInitRayQueryContext(&context);
+#else
     rtcInitIntersectContext(&context);
+#endif
+}
+
+/// The nearest hit.
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query) {
+#if WEND_EMBREE == 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &query, &arguments);
+#else
     rtcIntersect1(scene, &context, &query);
 #endif
 }
 
 /// Any hit: the ray's tfar becomes negative.
-inline void embree_occluded(RTCScene scene, RTCRay& query) {
+inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& query) {
 #if WEND_EMBREE == 4
-    rtcOccluded1(scene, &query);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &query, &arguments);
 #else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     rtcOccluded1(scene, &context, &query);
 #endif
 }

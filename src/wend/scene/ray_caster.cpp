@@ -17,48 +17,17 @@ void bound_quadric(const RTCBoundsFunctionArguments* arguments) {
                             box.max.x + margin.x, box.max.y + margin.y, box.max.z + margin.z, 0};
 }
 
-std::optional<float> intersect_quadric(const void* user, const RTCRay& ray) {
-    const auto& quadric = std::get<Quadric>(static_cast<const Surface*>(user)->shape);
-    const Vec3 origin = quadric.object_from_world.point({ray.org_x, ray.org_y, ray.org_z});
-    const Vec3 direction = quadric.object_from_world.vector({ray.dir_x, ray.dir_y, ray.dir_z});
-    return intersect(quadric, origin, direction, ray.tnear, ray.tfar);
-}
-
-void intersect_quadric_callback(const RTCIntersectFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) {
-        return;
-    }
-    auto* rayhit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    if (const std::optional<float> hit = intersect_quadric(arguments->geometryUserPtr, rayhit->ray)) {
-        rayhit->ray.tfar = *hit;
-        rayhit->hit.u = 0;
-        rayhit->hit.v = 0;
-        rayhit->hit.geomID = arguments->geomID;
-        rayhit->hit.primID = arguments->primID;
-        rayhit->hit.instID[0] = arguments->context->instID[0];
-    }
-}
-
-void occlude_quadric_callback(const RTCOccludedFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) {
-        return;
-    }
-    auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
-    if (intersect_quadric(arguments->geometryUserPtr, *ray)) {
-        ray->tfar = -infinity;
-    }
-}
-
-RTCRay to_embree(const Ray& ray, float distance, unsigned mask) {
+RTCRay to_embree(const TracedRay& ray, float distance, unsigned mask) {
     RTCRay r{};
-    r.org_x = ray.origin.x;
-    r.org_y = ray.origin.y;
-    r.org_z = ray.origin.z;
+    r.org_x = ray.start().x;
+    r.org_y = ray.start().y;
+    r.org_z = ray.start().z;
     r.dir_x = ray.direction.x;
     r.dir_y = ray.direction.y;
     r.dir_z = ray.direction.z;
-    r.tnear = 0;
-    r.tfar = distance;
+    // What lies at the same distance as the last crossing is still to be met.
+    r.tnear = ray.passed() > 0 ? std::nextafter(ray.passed(), 0.0f) : 0.0f;
+    r.tfar = ray.passed() + distance;
     r.mask = mask;
     return r;
 }
@@ -70,6 +39,20 @@ T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
         throw std::bad_alloc();
     }
     return static_cast<T*>(data);
+}
+
+/// What a position and Embree's distance to it may be off by, over the coordinates that they are made of: some of the
+/// spacings of floats, with room to spare (pharr2023, section 6.8).
+constexpr float rounding = 1e-6f;
+
+/// Magnitudes, by coordinate.
+Vec3 largest_of(const Vec3& a, const Vec3& b) {
+    return {std::max(std::abs(a.x), std::abs(b.x)), std::max(std::abs(a.y), std::abs(b.y)),
+            std::max(std::abs(a.z), std::abs(b.z))};
+}
+
+float max_of(const Vec3& v) {
+    return std::max({v.x, v.y, v.z});
 }
 
 struct Triangle {
@@ -92,12 +75,81 @@ Tangents tangents(const Vec3& e1, const Vec3& e2, const Vec2& d1, const Vec2& d2
 
 }  // namespace
 
+struct RayCaster::Query : EmbreeContext {
+    Query(const RayCaster& of, const TracedRay& traced) : caster(of), ray(traced) { embree_start(*this); }
+
+    bool is_ahead(unsigned surface, unsigned primitive, unsigned inst, float t, bool along) const {
+        return ray.is_ahead({surface, primitive, caster.instance(inst)}, t, along, caster.is_passable_[surface] != 0);
+    }
+    /// Where the ray meets a quadric next within its bounds.
+    std::optional<float> next(unsigned surface, const RTCRay& bounds) const {
+        const auto& quadric = std::get<Quadric>(caster.d_.surfaces[surface].shape);
+        const Vec3 origin = quadric.object_from_world.point({bounds.org_x, bounds.org_y, bounds.org_z});
+        const Vec3 direction = quadric.object_from_world.vector({bounds.dir_x, bounds.dir_y, bounds.dir_z});
+        for (const auto& crossing : crossings(quadric, origin, direction)) {
+            if (crossing.t > bounds.tnear && crossing.t < bounds.tfar &&
+                is_ahead(surface, 0, instID[0], crossing.t, crossing.along)) {
+                return crossing.t;
+            }
+        }
+        return std::nullopt;
+    }
+
+    const RayCaster& caster;
+    const TracedRay& ray;
+};
+
+void RayCaster::filter(const RTCFilterFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) {
+        return;
+    }
+    const auto& query = *static_cast<const Query*>(arguments->context);
+    const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+    const bool along = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z > 0;
+    if (!query.is_ahead(hit.geomID, hit.primID, hit.instID[0], ray.tfar, along)) {
+        arguments->valid[0] = 0;
+    }
+}
+
+void RayCaster::intersect_quadric(const RTCIntersectFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) {
+        return;
+    }
+    const auto& query = *static_cast<const Query*>(arguments->context);
+    auto* rayhit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    if (const std::optional<float> hit = query.next(arguments->geomID, rayhit->ray)) {
+        rayhit->ray.tfar = *hit;
+        rayhit->hit.u = 0;
+        rayhit->hit.v = 0;
+        rayhit->hit.geomID = arguments->geomID;
+        rayhit->hit.primID = arguments->primID;
+        rayhit->hit.instID[0] = query.instID[0];
+    }
+}
+
+void RayCaster::occlude_quadric(const RTCOccludedFunctionNArguments* arguments) {
+    if (!arguments->valid[0]) {
+        return;
+    }
+    const auto& query = *static_cast<const Query*>(arguments->context);
+    auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
+    if (query.next(arguments->geomID, *ray)) {
+        ray->tfar = -infinity;
+    }
+}
+
 RayCaster::RayCaster(const SceneDescription& description) : d_(description), device_(rtcNewDevice("isa=avx2")) {
     if (!device_) {
         device_.reset(rtcNewDevice("isa=sse4.2"));
     }
     if (!device_) {
         throw std::runtime_error("Embree cannot start on this processor (it needs SSE 4.2)");
+    }
+    for (const Surface& surface : d_.surfaces) {
+        const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
+        is_passable_.push_back(std::holds_alternative<InterfaceMaterial>(material) ||
+                               std::holds_alternative<DielectricMaterial>(material) || surface.alpha >= 0);
     }
     const auto new_scene = [&](const std::vector<int>& surfaces) {
         SceneHandle scene(rtcNewScene(device_.get()));
@@ -144,13 +196,15 @@ void RayCaster::attach(RTCScene scene, int index) {
         std::copy(mesh->positions.begin(), mesh->positions.end(), vertices);
         auto* indices = new_buffer<Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh->triangle_count());
         std::memcpy(indices, mesh->indices.data(), mesh->triangle_count() * sizeof(Triangle));
+        rtcSetGeometryIntersectFilterFunction(geometry, filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, filter);
     } else {
         geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, 1);
         rtcSetGeometryUserData(geometry, const_cast<Surface*>(&surface));
         rtcSetGeometryBoundsFunction(geometry, bound_quadric, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, intersect_quadric_callback);
-        rtcSetGeometryOccludedFunction(geometry, occlude_quadric_callback);
+        rtcSetGeometryIntersectFunction(geometry, intersect_quadric);
+        rtcSetGeometryOccludedFunction(geometry, occlude_quadric);
     }
     const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
     const bool can_pass = std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
@@ -160,42 +214,54 @@ void RayCaster::attach(RTCScene scene, int index) {
     rtcReleaseGeometry(geometry);
 }
 
-std::optional<RayHit> RayCaster::intersect(const Ray& ray, float distance, Visible visible) const {
-    RTCRayHit query;
-    query.ray = to_embree(ray, distance, visible);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree_intersect(scene_.get(), query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        return std::nullopt;
-    }
-    const int instance = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID
-                             ? -1
-                             : static_cast<int>(query.hit.instID[0] - static_cast<unsigned>(d_.surfaces.size()));
-    return RayHit{query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, instance};
+int RayCaster::instance(unsigned id) const {
+    return id == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(id - static_cast<unsigned>(d_.surfaces.size()));
 }
 
-bool RayCaster::is_occluded(const Ray& ray, float distance) const {
-    RTCRay query = to_embree(ray, distance, opaque);
-    embree_occluded(scene_.get(), query);
-    return query.tfar < 0;
+std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance, Visible visible) const {
+    RTCRayHit found;
+    found.ray = to_embree(ray, distance, visible);
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Query query(*this, ray);
+    embree_intersect(scene_.get(), query, found);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return std::nullopt;
+    }
+    return RayHit{found.ray.tfar - ray.passed(),
+                  found.ray.tfar,
+                  found.hit.u,
+                  found.hit.v,
+                  {found.hit.geomID, found.hit.primID, instance(found.hit.instID[0])}};
+}
+
+bool RayCaster::is_occluded(const TracedRay& ray, float distance) const {
+    RTCRay found = to_embree(ray, distance, opaque);
+    Query query(*this, ray);
+    embree_occluded(scene_.get(), query, found);
+    return found.tfar < 0;
 }
 
 Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     Hit hit;
     hit.distance = raw.distance;
-    hit.surface = &d_.surfaces[raw.surface];
-    hit.primitive = raw.primitive;
-    hit.instance = raw.instance;
-    hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.primitive);
+    hit.t = raw.t;
+    hit.surface = &d_.surfaces[raw.element.surface];
+    hit.element = raw.element;
+    const std::uint32_t primitive = raw.element.primitive;
+    hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(primitive);
+    const Placement* const placement =
+        raw.element.instance >= 0 ? &placements_[static_cast<std::size_t>(raw.element.instance)] : nullptr;
+    Vec3 largest;  // of the coordinates that the position is made of
     Vec3 normal;
     Vec3 shading;
     Tangents t;
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
-        const std::uint32_t* i = &mesh->indices[3 * std::size_t{raw.primitive}];
-        const Vec3& p0 = mesh->positions[i[0]];
-        const Vec3 e1 = mesh->positions[i[1]] - p0;
-        const Vec3 e2 = mesh->positions[i[2]] - p0;
+        const std::uint32_t* i = &mesh->indices[3 * std::size_t{primitive}];
+        const Vec3 &p0 = mesh->positions[i[0]], &p1 = mesh->positions[i[1]], &p2 = mesh->positions[i[2]];
+        const Vec3 e1 = p1 - p0;
+        const Vec3 e2 = p2 - p0;
+        largest = largest_of(largest_of(p0, p1), p2);
         const float w = 1 - raw.u - raw.v;
         hit.position = p0 + e1 * raw.u + e2 * raw.v;
         normal = cross(e1, e2);
@@ -207,23 +273,27 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
             t = tangents(e1, e2, uv1 - uv0, uv2 - uv0);
         }
         if (mesh->normals.empty()) {
-            normal = hit.surface->flip_normal ? -normal : normal;
+            hit.against_winding = hit.surface->flip_normal;
+            normal = hit.against_winding ? -normal : normal;
             shading = normal;
         } else {
             shading = mesh->normals[i[0]] * w + mesh->normals[i[1]] * raw.u + mesh->normals[i[2]] * raw.v;
-            normal = dot(normal, shading) < 0 ? -normal : normal;
+            hit.against_winding = dot(normal, shading) < 0;
+            normal = hit.against_winding ? -normal : normal;
             shading = length_squared(shading) > 0 ? shading : normal;
         }
     } else {
         const auto& quadric = std::get<Quadric>(hit.surface->shape);
         Vec3 p = ray.at(raw.distance);
-        if (raw.instance >= 0) {
-            p = placements_[static_cast<std::size_t>(raw.instance)].object_from_world.point(p);
+        if (placement) {
+            p = placement->object_from_world.point(p);
         }
         const QuadricPoint point = project(quadric, quadric.object_from_world.point(p));
         hit.position = quadric.world_from_object.point(point.position);
+        largest = quadric.world_from_object.magnitude(Vec3(extent(quadric)));
         normal = quadric.object_from_world.transposed_vector(point.normal);
-        normal = hit.surface->flip_normal ? -normal : normal;
+        hit.against_winding = hit.surface->flip_normal;
+        normal = hit.against_winding ? -normal : normal;
         shading = normal;
         const Material& material = d_.materials[static_cast<std::size_t>(hit.surface->material)];
         if (!std::holds_alternative<InterfaceMaterial>(material)) {
@@ -231,13 +301,14 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
         }
         t = {quadric.world_from_object.vector(point.dpdu), length_squared(point.dpdu) > 0};
     }
-    if (raw.instance >= 0) {
-        const Placement& placement = placements_[static_cast<std::size_t>(raw.instance)];
-        hit.position = placement.world_from_object.point(hit.position);
-        normal = placement.object_from_world.transposed_vector(normal);
-        shading = placement.object_from_world.transposed_vector(shading);
-        t.dpdu = placement.world_from_object.vector(t.dpdu);
+    if (placement) {
+        hit.position = placement->world_from_object.point(hit.position);
+        normal = placement->object_from_world.transposed_vector(normal);
+        shading = placement->object_from_world.transposed_vector(shading);
+        t.dpdu = placement->world_from_object.vector(t.dpdu);
+        largest = placement->world_from_object.magnitude(largest);
     }
+    hit.clearance = rounding * max_of(largest);
     hit.normal = normalize(normal);
     const Vec3 n = normalize(shading);
     const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
@@ -253,7 +324,7 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
 
 Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
     const Placement* const placement =
-        hit.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.instance)] : nullptr;
+        hit.element.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.element.instance)] : nullptr;
     const Vec3 moved = placement ? placement->object_from_world.vector(displacement) : displacement;
     Vec3 normal;
     Vec3 change;
@@ -261,7 +332,7 @@ Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
         if (mesh->normals.empty()) {
             return {0, 0, 0};
         }
-        const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.primitive}];
+        const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.element.primitive}];
         const Vec3 &p0 = mesh->positions[i[0]], &n0 = mesh->normals[i[0]];
         const Vec3 e1 = mesh->positions[i[1]] - p0, e2 = mesh->positions[i[2]] - p0;
         const Vec3 d1 = mesh->normals[i[1]] - n0, d2 = mesh->normals[i[2]] - n0;

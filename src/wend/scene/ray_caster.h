@@ -20,8 +20,8 @@ public:
     /// Refers to the description, which must not move nor change.
     explicit RayCaster(const SceneDescription& description);
 
-    std::optional<RayHit> intersect(const Ray& ray, float distance, Visible visible) const;
-    bool is_occluded(const Ray& ray, float distance) const;
+    std::optional<RayHit> intersect(const TracedRay& ray, float distance, Visible visible) const;
+    bool is_occluded(const TracedRay& ray, float distance) const;
 
     /// The hit's place, normals and parameters in the world.
     Hit complete(const RayHit& raw, const Ray& ray) const;
@@ -37,9 +37,18 @@ private:
     using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
     using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 
+    /// A query's ray, for the callbacks.
+    struct Query;
+    static void filter(const RTCFilterFunctionNArguments* arguments);
+    static void intersect_quadric(const RTCIntersectFunctionNArguments* arguments);
+    static void occlude_quadric(const RTCOccludedFunctionNArguments* arguments);
+
     void attach(RTCScene scene, int surface);
+    /// The scene's index of Embree's instance.
+    int instance(unsigned id) const;
 
     const SceneDescription& d_;
+    std::vector<char> is_passable_;  ///< by surface: rays may go on behind it
     Device device_;
     std::vector<SceneHandle> objects_;
     SceneHandle scene_;

@@ -2,22 +2,11 @@
 #include <wend/scene/ray_caster.h>
 #include <wend/scene/scene.h>
 
+#include <algorithm>
 #include <bit>
 
 namespace wend {
 namespace {
-
-/// Moves a coordinate by a distance that scales with its own precision (waechter2019).
-float nudge(float p, float n) {
-    constexpr float near_origin = 1.0f / 32;
-    constexpr float float_scale = 1.0f / 65536;
-    constexpr float int_scale = 256;
-    if (std::abs(p) < near_origin) {
-        return p + float_scale * n;
-    }
-    const int offset = static_cast<int>(int_scale * n);
-    return std::bit_cast<float>(std::bit_cast<int>(p) + (p < 0 ? -offset : offset));
-}
 
 /// Whether a partly transparent surface is there for this ray.
 bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
@@ -33,13 +22,10 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
 
 }  // namespace
 
-Ray spawn_ray(const Vec3& position, const Vec3& normal, const Vec3& w) {
-    const Vec3 n = dot(normal, w) >= 0 ? normal : -normal;
-    return {{nudge(position.x, n.x), nudge(position.y, n.y), nudge(position.z, n.z)}, w};
-}
-
 Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     caster_ = std::make_unique<RayCaster>(d_);
+    regions_ = MediumRegions(d_);
+    camera_medium_ = medium_of_camera();
     lights_ = d_.lights;
     add_glowing_media();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
@@ -64,6 +50,35 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
 
 Scene::~Scene() = default;
 
+MediumState Scene::medium_of_camera() const {
+    MediumState state(d_.camera_medium);
+    if (regions_.is_empty()) {
+        return state;
+    }
+    // A region whose boundary a ray crosses outwards first is one that the ray started in.
+    constexpr int most_crossings = 10000;
+    TracedRay ray(d_.camera.middle());
+    std::vector<int> met;
+    for (int i = 0; i < most_crossings; ++i) {
+        const auto found = caster_->intersect(ray, infinity, RayCaster::everything);
+        if (!found) {
+            break;
+        }
+        const Surface& surface = d_.surfaces[found->element.surface];
+        const int region = surface.bounds_medium() ? regions_.region(found->element) : MediumRegions::none;
+        if (region != MediumRegions::none && std::find(met.begin(), met.end(), region) == met.end()) {
+            met.push_back(region);
+            if (dot(caster_->complete(*found, ray).normal, ray.direction) > 0) {
+                regions_.cross(state, surface, found->element, true);
+            }
+        }
+        ray.pass(found->element, found->t);
+    }
+    // The scene has the last word on what is around the camera.
+    state.id = d_.camera_medium;
+    return state;
+}
+
 void Scene::add_glowing_media() {
     std::vector<bool> is_used(d_.media.size(), false);
     const auto use = [&](MediumId id) {
@@ -86,24 +101,21 @@ void Scene::add_glowing_media() {
     }
 }
 
-std::optional<RayHit> Scene::find(const Ray& ray, float distance) const {
-    Ray rest = ray;
-    float passed = 0;
+std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
+    TracedRay rest = ray;
     for (;;) {
+        const float passed = rest.passed() - ray.passed();
         auto found = caster_->intersect(rest, distance - passed, RayCaster::everything);
-        if (!found || d_.surfaces[found->surface].alpha < 0) {
-            if (found) {
-                found->distance += passed;
-            }
+        if (!found) {
             return found;
         }
-        const Hit hit = caster_->complete(*found, rest);
-        if (is_there(hit, rest, d_.textures)) {
+        const bool is_met = d_.surfaces[found->element.surface].alpha < 0 ||
+                            is_there(caster_->complete(*found, rest), rest, d_.textures);
+        if (is_met) {
             found->distance += passed;
             return found;
         }
-        passed += hit.distance;
-        rest = spawn_ray(hit.position, hit.normal, ray.direction);
+        rest.pass(found->element, found->t);
     }
 }
 
@@ -123,7 +135,7 @@ Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {
     return caster_->normal_change(hit, displacement);
 }
 
-bool Scene::is_occluded(const Ray& ray, float distance) const {
+bool Scene::is_occluded(const TracedRay& ray, float distance) const {
     return caster_->is_occluded(ray, distance);
 }
 
@@ -131,7 +143,7 @@ bool Scene::blocks(const Hit& hit, const Ray& ray) const {
     return !is_interface(hit) && is_there(hit, ray, d_.textures);
 }
 
-std::optional<Hit> Scene::intersect_interface(const Ray& ray, float distance) const {
+std::optional<Hit> Scene::intersect_interface(const TracedRay& ray, float distance) const {
     const auto raw = caster_->intersect(ray, distance, RayCaster::interfaces);
     if (!raw) {
         return std::nullopt;

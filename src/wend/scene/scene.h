@@ -9,8 +9,10 @@
 #include <wend/scene/light.h>
 #include <wend/scene/light_sampler.h>
 #include <wend/scene/material.h>
+#include <wend/scene/media_at.h>
 #include <wend/scene/shape.h>
 #include <wend/scene/texture.h>
+#include <wend/scene/traced_ray.h>
 
 #include <cstdint>
 #include <memory>
@@ -18,10 +20,6 @@
 #include <vector>
 
 namespace wend {
-
-/// Index of a medium in the scene's list; `vacuum` is none.
-using MediumId = int;
-inline constexpr MediumId vacuum = -1;
 
 /// A shape with what it is made of.
 struct Surface {
@@ -65,24 +63,25 @@ struct SceneDescription {
 
 /// Where a ray meets a surface, as far as is known once it has been found.
 struct RayHit {
-    float distance;
+    float distance;  ///< from where the ray has come to
+    float t;         ///< from where it is traced from
     float u, v;
-    unsigned surface;
-    unsigned primitive;
-    int instance;  ///< -1: not an instance
+    SurfaceElement element;
 };
 
 /// Where a ray meets a surface.
 struct Hit {
-    float distance = 0;
+    float distance = 0;  ///< from where the ray has come to
+    float t = 0;         ///< from where it is traced from
     Vec3 position;
     Vec3 normal;    ///< geometric, unit length, towards the exterior
     Frame shading;  ///< z: interpolated normal on the geometric normal's side; x along dp/du
     Vec2 uv;        ///< surface parameters; not computed for interfaces
     const Surface* surface = nullptr;
-    std::uint32_t primitive = 0;
-    int instance = -1;  ///< index in the scene's list; -1: placed once
-    int light = -1;     ///< area light, if any
+    SurfaceElement element;
+    bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
+    float clearance = 0;           ///< by how much rounding may have moved the position
+    int light = -1;                ///< area light, if any
 };
 
 /// Embree's structures over the scene's surfaces.
@@ -97,13 +96,13 @@ public:
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
-    /// The nearest surface, interfaces included, within `distance`. Partly transparent surfaces are passed with their
-    /// probability, decided by a hash of the ray, so that the answer is a function of the arguments.
-    std::optional<RayHit> find(const Ray& ray, float distance = infinity) const;
+    /// The nearest surface ahead, interfaces included, within `distance`. Partly transparent surfaces are passed with
+    /// their probability, decided by a hash of the ray, so that the answer is a function of the arguments.
+    std::optional<RayHit> find(const TracedRay& ray, float distance = infinity) const;
     /// The place, normals and parameters, of what find() found on that ray.
     Hit complete(const RayHit& found, const Ray& ray) const;
     /// Both at once.
-    std::optional<Hit> intersect(const Ray& ray, float distance = infinity) const {
+    std::optional<Hit> intersect(const TracedRay& ray, float distance = infinity) const {
         const auto found = find(ray, distance);
         return found ? std::optional(complete(*found, ray)) : std::nullopt;
     }
@@ -111,9 +110,9 @@ public:
     /// order.
     Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
     /// Whether anything opaque (no interface) lies within `distance`.
-    bool is_occluded(const Ray& ray, float distance) const;
-    /// The nearest interface or partly transparent surface within `distance`; opaque ones are not seen.
-    std::optional<Hit> intersect_interface(const Ray& ray, float distance) const;
+    bool is_occluded(const TracedRay& ray, float distance) const;
+    /// The nearest interface or partly transparent surface ahead within `distance`; opaque ones are not seen.
+    std::optional<Hit> intersect_interface(const TracedRay& ray, float distance) const;
     /// Whether a surface found by intersect_interface() blocks this ray.
     bool blocks(const Hit& hit, const Ray& ray) const;
     /// Whether intersect_interface() can return anything.
@@ -127,12 +126,12 @@ public:
     /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
     /// does not say.
     std::optional<Rgb> relative_albedo(const Hit& hit) const;
-    /// The medium on the side of the surface that `w` points to, given the one the walk is in.
-    MediumId medium_beyond(const Hit& hit, const Vec3& w, MediumId current) const {
-        if (!hit.surface->bounds_medium()) {
-            return current;
+    /// Where a walk that was in `current` is on the side of the surface that `w` points to.
+    MediumState medium_beyond(const Hit& hit, const Vec3& w, MediumState current) const {
+        if (hit.surface->bounds_medium()) {
+            regions_.cross(current, *hit.surface, hit.element, dot(w, hit.normal) < 0);
         }
-        return dot(w, hit.normal) > 0 ? hit.surface->exterior : hit.surface->interior;
+        return current;
     }
 
     const Medium& medium(MediumId id) const { return d_.media[static_cast<std::size_t>(id)]; }
@@ -145,7 +144,8 @@ public:
     /// What the scene was built from.
     const SceneDescription& description() const { return d_; }
     const Camera& camera() const { return d_.camera; }
-    MediumId camera_medium() const { return d_.camera_medium; }
+    /// Where walks begin.
+    const MediumState& camera_medium() const { return camera_medium_; }
     /// Those of the description, and then the media that glow.
     const std::vector<Light>& lights() const { return lights_; }
     /// The light that a medium is, as an index of lights(); -1: none.
@@ -159,9 +159,12 @@ public:
 
 private:
     void add_glowing_media();
+    MediumState medium_of_camera() const;
 
     SceneDescription d_;
     std::unique_ptr<RayCaster> caster_;
+    MediumRegions regions_;
+    MediumState camera_medium_;
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<Light> lights_;
     std::vector<int> glow_lights_;  ///< by medium
@@ -170,8 +173,5 @@ private:
     Box3 bounds_;
     bool has_interfaces_ = false;
 };
-
-/// A ray from a surface point into direction w, moved off the surface by no more than rounding requires (waechter2019).
-Ray spawn_ray(const Vec3& position, const Vec3& normal, const Vec3& w);
 
 }  // namespace wend

@@ -22,14 +22,15 @@ bool is_kept(const Sphere& s, const Vec3& p) {
     return !((s.z_min > -s.radius && z < s.z_min) || (s.z_max < s.radius && z > s.z_max) || azimuth(p) > s.phi_max);
 }
 
-std::optional<float> intersect_shape(const Sphere& s, const Vec3& o, const Vec3& d, float t_min, float t_max) {
+QuadricCrossings crossings_of(const Sphere& s, const Vec3& o, const Vec3& d) {
+    QuadricCrossings found;
     // The quadratic about the point of the ray nearest to the centre: no cancellation for far origins (haines2019).
     const float a = length_squared(d);
     const float b = -dot(o, d);
     const Vec3 nearest = o + d * (b / a);
     const float discriminant = s.radius * s.radius - length_squared(nearest);
     if (!(discriminant >= 0)) {
-        return std::nullopt;
+        return found;
     }
     const float c = length_squared(o) - s.radius * s.radius;
     const float q = b + std::copysign(std::sqrt(a * discriminant), b);
@@ -39,27 +40,25 @@ std::optional<float> intersect_shape(const Sphere& s, const Vec3& o, const Vec3&
         std::swap(t0, t1);
     }
     for (const float t : {t0, t1}) {
-        if (t > t_min && t < t_max && is_kept(s, o + d * t)) {
-            return t;
+        if (is_kept(s, o + d * t)) {
+            found.add(t, t == t1);
         }
     }
-    return std::nullopt;
+    return found;
 }
 
-std::optional<float> intersect_shape(const Disk& s, const Vec3& o, const Vec3& d, float t_min, float t_max) {
+QuadricCrossings crossings_of(const Disk& s, const Vec3& o, const Vec3& d) {
+    QuadricCrossings found;
     if (d.z == 0) {
-        return std::nullopt;
+        return found;
     }
     const float t = (s.height - o.z) / d.z;
-    if (!(t > t_min && t < t_max)) {
-        return std::nullopt;
-    }
     const Vec3 p = o + d * t;
     const float r2 = p.x * p.x + p.y * p.y;
-    if (r2 > sqr(s.radius) || r2 < sqr(s.inner_radius)) {
-        return std::nullopt;
+    if (r2 <= sqr(s.radius) && r2 >= sqr(s.inner_radius) && azimuth(p) <= s.phi_max) {
+        found.add(t, d.z > 0);
     }
-    return azimuth(p) > s.phi_max ? std::nullopt : std::optional(t);
+    return found;
 }
 
 Vec2 parameters_of(const Sphere& s, const Vec3& p) {
@@ -91,10 +90,13 @@ Box3 object_bounds(const Disk& s) {
 
 }  // namespace
 
-std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
-                               float t_max) {
-    return std::visit([&](const auto& s) { return intersect_shape(s, origin, direction, t_min, t_max); },
-                      quadric.shape);
+QuadricCrossings crossings(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
+    return std::visit([&](const auto& s) { return crossings_of(s, origin, direction); }, quadric.shape);
+}
+
+float extent(const Quadric& quadric) {
+    const Box3 box = std::visit([](const auto& s) { return object_bounds(s); }, quadric.shape);
+    return std::max({-box.min.x, -box.min.y, -box.min.z, box.max.x, box.max.y, box.max.z});
 }
 
 Vec2 parameters(const Quadric& quadric, const Vec3& p) {

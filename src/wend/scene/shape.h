@@ -4,6 +4,8 @@
 #include <wend/core/transform.h>
 #include <wend/core/vector.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -53,9 +55,22 @@ struct Quadric {
         : shape(std::move(s)), world_from_object(to_world), object_from_world(to_world.inverse()) {}
 };
 
-/// Distance to the nearest hit in (t_min, t_max), if any. `origin` and `direction` (any length) are in object space.
-std::optional<float> intersect(const Quadric& quadric, const Vec3& origin, const Vec3& direction, float t_min,
-                               float t_max);
+/// Where a line meets a quadric: at most twice.
+struct QuadricCrossings {
+    struct Crossing {
+        float t;
+        bool along;  ///< the normal is along the line
+    };
+    std::array<Crossing, 2> at;
+    int count = 0;
+
+    void add(float t, bool along) { at[static_cast<std::size_t>(count++)] = {t, along}; }
+    const Crossing* begin() const { return at.data(); }
+    const Crossing* end() const { return at.data() + count; }
+};
+
+/// In their order along the line, behind its origin too. `origin` and `direction` (any length) are in object space.
+QuadricCrossings crossings(const Quadric& quadric, const Vec3& origin, const Vec3& direction);
 
 /// Surface parameters in [0,1]² of a point on the quadric (object space).
 Vec2 parameters(const Quadric& quadric, const Vec3& p);
@@ -69,6 +84,9 @@ struct QuadricPoint {
     float normal_slope;  ///< where the point moves along the surface, the normal changes by so many times as much
 };
 QuadricPoint project(const Quadric& quadric, const Vec3& p);
+
+/// The largest coordinate of any of its points, at most, in object space.
+float extent(const Quadric& quadric);
 
 /// Bounds in the world.
 Box3 bounds(const Quadric& quadric);
