@@ -21,7 +21,7 @@ std::optional<Glimpse> look(const SceneDescription& description, const Vec3& fro
     const Scene scene{SceneDescription(description)};
     Pcg32 random(1);
     const Vec3 way = at - from;
-    return glimpse(scene, {from, normalize(way)}, length(way), medium, random);
+    return glimpse(scene, {from, normalize(way)}, length(way), MediumState(medium), random);
 }
 
 /// Under a triangle of a lamp in the plane y = 4, and what lies between.
@@ -110,7 +110,7 @@ TEST(Glimpse, FindsDistantLightBehindAPrism) {
     const Scene scene{std::move(s)};
     Pcg32 random(1);
     const Vec3 target = normalize(Vec3(0.1f, 1, 0.3f));
-    const auto seen = glimpse(scene, {{0, 0, 0}, target}, infinity, vacuum, random);
+    const auto seen = glimpse(scene, {{0, 0, 0}, target}, infinity, {}, random);
     ASSERT_TRUE(seen);
     const auto in = refract(-seen->direction, {0, -1, 0}, ior);
     ASSERT_TRUE(in);

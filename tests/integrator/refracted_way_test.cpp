@@ -112,7 +112,7 @@ Scene under_lamp(const std::function<void(SceneDescription&)>& add_boundaries) {
 }
 
 std::optional<RefractedWay> way_to(const Scene& scene, const Vec3& point, MediumId medium = vacuum) {
-    return find_refracted_way(scene, {eye, normalize(point - eye)}, length(point - eye), medium);
+    return find_refracted_way(scene, {eye, normalize(point - eye)}, length(point - eye), MediumState(medium));
 }
 
 Vec3 point_on_lamp(const Vec2& u) {
@@ -134,7 +134,7 @@ Followed follow(const Scene& scene, TracedRay ray) {
             return {ray.direction, hit.has_value(), !hit.has_value()};
         }
         if (scene.is_interface(*hit)) {
-            ray.pass(hit->element, hit->t);
+            ray.pass(*hit);
             continue;
         }
         const Vec3& w = ray.direction;
@@ -231,7 +231,7 @@ TEST_P(RefractedWays, HaveTheDensitiesOfTheirDirections) {
 TEST_P(RefractedWays, HaveTheDensitiesOfTheirDirectionsToLightsAtInfinity) {
     const Scene scene = under_lamp(GetParam().add);
     const Vec3 target = normalize(Vec3(-0.2f, 1, 0.25f));
-    const auto way_into = [&](const Vec3& w) { return find_refracted_way(scene, {eye, w}, infinity, vacuum); };
+    const auto way_into = [&](const Vec3& w) { return find_refracted_way(scene, {eye, w}, infinity, {}); };
     const auto middle = way_into(target);
     ASSERT_TRUE(middle);
     EXPECT_EQ(middle->refractions, GetParam().refractions);

@@ -35,8 +35,8 @@ Quadric ball(const Vec3& centre, float radius) {
 }
 
 bool is_in(const Box3& bounds, const Vec3& p) {
-    return p.x > bounds.min.x && p.x < bounds.max.x && p.y > bounds.min.y && p.y < bounds.max.y &&
-           p.z > bounds.min.z && p.z < bounds.max.z;
+    return p.x > bounds.min.x && p.x < bounds.max.x && p.y > bounds.min.y && p.y < bounds.max.y && p.z > bounds.min.z &&
+           p.z < bounds.max.z;
 }
 
 bool is_in_ball(const Vec3& centre, float radius, const Vec3& p) {
@@ -93,7 +93,9 @@ std::vector<Arrangement> arrangements() {
              add(s, box(left), a);
              add(s, box(right), b);
          },
-         [](const Vec3& p) { return is_in(left, p) ? a : is_in(right, p) ? b : vacuum; }},
+         [](const Vec3& p) { return is_in(left, p)    ? a
+                                    : is_in(right, p) ? b
+                                                      : vacuum; }},
         {"OverlapOfOneMedium",
          [](auto& s) {
              add(s, ball({-0.3f, 0, 0}, 0.7f), a);
@@ -115,19 +117,27 @@ std::vector<Arrangement> arrangements() {
              add(s, box(middle), b, a);
              add(s, ball({0, 0, 0}, 1), a);
          },
-         [](const Vec3& p) { return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum; }, false},
+         [](const Vec3& p) {
+             return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+         },
+         false},
         {"NestedAndNotSaid",
          [](auto& s) {
              add(s, ball({0, 0, 0}, 1), a);
              add(s, box(middle), b);
          },
-         [](const Vec3& p) { return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum; }},
+         [](const Vec3& p) {
+             return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+         }},
         {"ABubble",
          [](auto& s) {
              add(s, ball({0, 0, 0}, 1), a);
              add(s, box(middle), vacuum, a);
          },
-         [](const Vec3& p) { return is_in(middle, p) ? vacuum : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum; }, false},
+         [](const Vec3& p) {
+             return is_in(middle, p) ? vacuum : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+         },
+         false},
         {"TwoThatTouchInAThird",
          [](auto& s) {
              add(s, ball({0, 0, 0}, 3), c);
@@ -174,7 +184,7 @@ TEST_P(MediaAt, AreThoseOfThePlace) {
                 ASSERT_EQ(state.id, arrangement.medium(ray.at(0.5f * hit->distance)));
             }
             state = scene.medium_beyond(*hit, ray.direction, state);
-            ray.pass(hit->element, hit->t);
+            ray.pass(*hit);
         }
         ASSERT_EQ(state.id, vacuum);
     }
@@ -200,7 +210,7 @@ TEST(MediaAt, AWalkMayBeginInSeveralRegions) {
             const Vec3 p = ray.at(0.5f * hit->distance);
             ASSERT_EQ(state.id, is_in_ball({0.3f, 0, 0}, 0.6f, p) ? b : a);
             state = scene.medium_beyond(*hit, ray.direction, state);
-            ray.pass(hit->element, hit->t);
+            ray.pass(*hit);
         }
         ASSERT_EQ(state.id, vacuum);
     }

@@ -26,10 +26,11 @@ float chord(const Scene& scene, MediumId medium, TracedRay ray, float farthest) 
         const std::optional<Hit> hit = scene.intersect(ray, farthest);
         sum += hit ? hit->distance : farthest;
         if (!hit || !scene.is_interface(*hit) ||
-            (hit->surface->bounds_medium() && scene.medium_beyond(*hit, ray.direction, MediumState(medium)).id != medium)) {
+            (hit->surface->bounds_medium() &&
+             scene.medium_beyond(*hit, ray.direction, MediumState(medium)).id != medium)) {
             break;
         }
-        ray.pass(hit->element, hit->t);
+        ray.pass(*hit);
     }
     return std::min(sum, farthest);
 }

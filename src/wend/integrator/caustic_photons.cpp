@@ -55,7 +55,7 @@ public:
                 return std::abs(travelled_ - distance) < 1e-3f * distance;
             }
             medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
-            ray_.pass(hit_->element, hit_->t);
+            ray_.pass(*hit_);
         }
         return false;
     }
@@ -66,7 +66,7 @@ public:
         for (int met = 0; hit_ && met < most_interfaces && boundaries < most_boundaries; ++met) {
             if (scene_.is_interface(*hit_)) {
                 medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
-                ray_.pass(hit_->element, hit_->t);
+                ray_.pass(*hit_);
             } else {
                 SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
                 if (f.reflects_or_refracts()) {

@@ -29,8 +29,8 @@ Refracted follow(const Scene& scene, const Ray& start, MediumState medium, Pcg32
     for (int met = 0; met < most_interfaces_met; ++met) {
         const std::optional<Hit> hit = scene.intersect(way.last);
         if (medium.id != vacuum) {
-            way.transmittance *=
-                estimate_transmittance(scene.medium(medium.id), way.last, hit ? hit->distance : longest_segment, random);
+            way.transmittance *= estimate_transmittance(scene.medium(medium.id), way.last,
+                                                        hit ? hit->distance : longest_segment, random);
         }
         if (!(max_value(way.transmittance) > least_transmittance)) {
             return way;
@@ -41,7 +41,7 @@ Refracted follow(const Scene& scene, const Ray& start, MediumState medium, Pcg32
         }
         if (scene.is_interface(*hit)) {
             medium = scene.medium_beyond(*hit, way.last.direction, medium);
-            way.last.pass(hit->element, hit->t);
+            way.last.pass(*hit);
         } else {
             const auto* dielectric = std::get_if<DielectricMaterial>(&scene.material(*hit));
             const auto refracted =
@@ -60,7 +60,8 @@ Refracted follow(const Scene& scene, const Ray& start, MediumState medium, Pcg32
 
 }  // namespace
 
-std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, const MediumState& medium, Pcg32& random) {
+std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, const MediumState& medium,
+                               Pcg32& random) {
     constexpr int most_tries = 6;
     const bool is_far = distance == infinity;
     const Vec3 target = is_far ? ray.direction : ray.at(distance);

@@ -99,7 +99,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
         if (medium.id != before) {
             slab.leave();
         }
-        ray.pass(hit->element, hit->t);
+        ray.pass(*hit);
     }
     return blocked;
 }

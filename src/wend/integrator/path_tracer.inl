@@ -92,7 +92,7 @@ private:
         if (scene_.is_interface(hit)) {
             const MediumId from =
                 std::exchange(now_.medium, scene_.medium_beyond(hit, now_.ray.direction, now_.medium)).id;
-            now_.ray.pass(hit.element, hit.t);
+            now_.ray.pass(hit);
             now_.lamps_ahead = 0;
             enter_medium(hit, from);
             return ++now_.interfaces < most_interfaces;

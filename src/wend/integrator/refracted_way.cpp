@@ -127,7 +127,7 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
         }
         beam.move(hit->distance, hit->normal);
         if (is_interface) {
-            beam.ray.pass(hit->element, hit->t);
+            beam.ray.pass(*hit);
         } else if (!refract_at(scene, *hit, dielectric->ior, beam, trial.way)) {
             return std::nullopt;
         } else if (scene.counts_vertices_in(medium.id)) {

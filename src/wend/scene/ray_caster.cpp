@@ -79,7 +79,7 @@ struct RayCaster::Query : EmbreeContext {
     Query(const RayCaster& of, const TracedRay& traced) : caster(of), ray(traced) { embree_start(*this); }
 
     bool is_ahead(unsigned surface, unsigned primitive, unsigned inst, float t, bool along) const {
-        return ray.is_ahead({surface, primitive, caster.instance(inst)}, t, along, caster.is_passable_[surface] != 0);
+        return ray.is_ahead({surface, primitive, caster.instance(inst)}, t, along);
     }
     /// Where the ray meets a quadric next within its bounds.
     std::optional<float> next(unsigned surface, const RTCRay& bounds) const {
@@ -145,11 +145,6 @@ RayCaster::RayCaster(const SceneDescription& description) : d_(description), dev
     }
     if (!device_) {
         throw std::runtime_error("Embree cannot start on this processor (it needs SSE 4.2)");
-    }
-    for (const Surface& surface : d_.surfaces) {
-        const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
-        is_passable_.push_back(std::holds_alternative<InterfaceMaterial>(material) ||
-                               std::holds_alternative<DielectricMaterial>(material) || surface.alpha >= 0);
     }
     const auto new_scene = [&](const std::vector<int>& surfaces) {
         SceneHandle scene(rtcNewScene(device_.get()));

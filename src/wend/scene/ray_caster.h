@@ -48,7 +48,6 @@ private:
     int instance(unsigned id) const;
 
     const SceneDescription& d_;
-    std::vector<char> is_passable_;  ///< by surface: rays may go on behind it
     Device device_;
     std::vector<SceneHandle> objects_;
     SceneHandle scene_;

@@ -64,15 +64,15 @@ MediumState Scene::medium_of_camera() const {
         if (!found) {
             break;
         }
-        const Surface& surface = d_.surfaces[found->element.surface];
-        const int region = surface.bounds_medium() ? regions_.region(found->element) : MediumRegions::none;
+        const Hit hit = caster_->complete(*found, ray);
+        const int region = hit.surface->bounds_medium() ? regions_.region(hit.element) : MediumRegions::none;
         if (region != MediumRegions::none && std::find(met.begin(), met.end(), region) == met.end()) {
             met.push_back(region);
-            if (dot(caster_->complete(*found, ray).normal, ray.direction) > 0) {
-                regions_.cross(state, surface, found->element, true);
+            if (dot(hit.normal, ray.direction) > 0) {
+                regions_.cross(state, *hit.surface, hit.element, true);
             }
         }
-        ray.pass(found->element, found->t);
+        ray.pass(hit);
     }
     // The scene has the last word on what is around the camera.
     state.id = d_.camera_medium;
@@ -109,13 +109,15 @@ std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
         if (!found) {
             return found;
         }
-        const bool is_met = d_.surfaces[found->element.surface].alpha < 0 ||
-                            is_there(caster_->complete(*found, rest), rest, d_.textures);
-        if (is_met) {
-            found->distance += passed;
-            return found;
+        if (d_.surfaces[found->element.surface].alpha >= 0) {
+            const Hit hit = caster_->complete(*found, rest);
+            if (!is_there(hit, rest, d_.textures)) {
+                rest.pass(hit);
+                continue;
+            }
         }
-        rest.pass(found->element, found->t);
+        found->distance += passed;
+        return found;
     }
 }
 

@@ -15,21 +15,42 @@ bool is_on_sphere(const Surface& surface) {
     return quadric && std::holds_alternative<Sphere>(quadric->shape);
 }
 
+/// Whether the normal by the surface's winding is along w.
+bool is_along(const Hit& hit, const Vec3& w) {
+    return (dot(w, hit.normal) > 0) != hit.against_winding;
+}
+
 }  // namespace
+
+void TracedRay::add(const Crossing& crossing) {
+    std::move_backward(crossings_.begin(), crossings_.end() - 1, crossings_.end());
+    crossings_[0] = crossing;
+    count_ = std::min<std::uint32_t>(count_ + 1, crossings_.size());
+}
+
+void TracedRay::pass(const Hit& met) {
+    passed_ = met.t;
+    origin = start_ + direction * passed_;
+    add({met.element, met.t, is_along(met, direction)});
+}
 
 TracedRay TracedRay::leave(const Hit& hit, const Vec3& w) const {
     TracedRay ray(hit, w, (dot(direction, hit.normal) < 0) != (dot(w, hit.normal) < 0));
-    // What was left in the same place, a moment ago, still lies there.
-    if (hit.t < zone_) {
-        ray.left_[1] = left_[0];
-        ray.left_[2] = left_[1];
+    const Crossing own = ray.crossings_[0];
+    ray.count_ = 0;
+    for (const Crossing* crossing = end(); crossing-- != begin();) {
+        const bool is_here = crossing->t == before ? hit.t < zone_ : crossing->t > hit.t - ray.zone_;
+        if (is_here) {
+            ray.add({crossing->met, before, crossing->along});
+        }
     }
+    ray.add(own);
     return ray;
 }
 
 TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_(reflected) {
     const float cosine = dot(w, hit.normal);
-    const bool along = (cosine > 0) != hit.against_winding;
+    const bool along = is_along(hit, w);
     const float behind = 2 * hit.clearance / std::max(std::abs(cosine), least_cosine);
     start_ = hit.position + hit.normal * (cosine > 0 ? hit.clearance : -hit.clearance) - w * behind;
     origin = start_;
@@ -37,7 +58,7 @@ TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_
     own_ = hit.element;
     own_again_ = !along && is_on_sphere(*hit.surface);
     zone_ = 2 * behind;
-    left_[0] = {hit.element.surface, hit.element.instance, along, reflected};
+    add({hit.element, before, along});
 }
 
 }  // namespace wend
