@@ -17,6 +17,23 @@ void bound_quadric(const RTCBoundsFunctionArguments* arguments) {
                             box.max.x + margin.x, box.max.y + margin.y, box.max.z + margin.z, 0};
 }
 
+/// Embree refuses, by an assertion, origins and directions beyond 1.844e18 and what is not a number, also in the spaces
+/// of instances. The rest of the range is for rounding.
+constexpr float embree_reach = 1e18f;
+
+/// The largest coordinate that a map makes of coordinates up to 1.
+float largest_image(const Transform& map) {
+    double largest = 1;
+    for (int row = 0; row < 3; ++row) {
+        double sum = 0;
+        for (int column = 0; column < 4; ++column) {
+            sum += std::abs(map.element(row, column));
+        }
+        largest = std::max(largest, sum);
+    }
+    return static_cast<float>(largest);
+}
+
 RTCRay to_embree(const TracedRay& ray, float distance, unsigned mask) {
     RTCRay r{};
     r.org_x = ray.start().x;
@@ -139,7 +156,8 @@ void RayCaster::occlude_quadric(const RTCOccludedFunctionNArguments* arguments) 
     }
 }
 
-RayCaster::RayCaster(const SceneDescription& description) : d_(description), device_(rtcNewDevice("isa=avx2")) {
+RayCaster::RayCaster(const SceneDescription& description)
+    : d_(description), device_(rtcNewDevice("isa=avx2")), reach_(embree_reach) {
     if (!device_) {
         device_.reset(rtcNewDevice("isa=sse4.2"));
     }
@@ -174,7 +192,9 @@ RayCaster::RayCaster(const SceneDescription& description) : d_(description), dev
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(d_.surfaces.size() + placements_.size()));
         rtcReleaseGeometry(geometry);
-        placements_.push_back({AffineMap(instance.world_from_object), AffineMap(instance.world_from_object.inverse())});
+        const Transform object_from_world = instance.world_from_object.inverse();
+        placements_.push_back({AffineMap(instance.world_from_object), AffineMap(object_from_world)});
+        reach_ = std::min(reach_, embree_reach / largest_image(object_from_world));
     }
     rtcCommitScene(scene_.get());
     if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
@@ -213,7 +233,17 @@ int RayCaster::instance(unsigned id) const {
     return id == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(id - static_cast<unsigned>(d_.surfaces.size()));
 }
 
+bool RayCaster::reaches_scene(const TracedRay& ray, float distance) const {
+    const auto is_near = [this](const Vec3& v) {
+        return std::abs(v.x) <= reach_ && std::abs(v.y) <= reach_ && std::abs(v.z) <= reach_;
+    };
+    return is_near(ray.start()) && is_near(ray.direction) && distance >= 0;
+}
+
 std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance, Visible visible) const {
+    if (!reaches_scene(ray, distance)) {
+        return std::nullopt;
+    }
     RTCRayHit found;
     found.ray = to_embree(ray, distance, visible);
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -231,6 +261,9 @@ std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance,
 }
 
 bool RayCaster::is_occluded(const TracedRay& ray, float distance) const {
+    if (!reaches_scene(ray, distance)) {
+        return false;
+    }
     RTCRay found = to_embree(ray, distance, opaque);
     Query query(*this, ray);
     embree_occluded(scene_.get(), query, found);

@@ -44,6 +44,8 @@ private:
     static void occlude_quadric(const RTCOccludedFunctionNArguments* arguments);
 
     void attach(RTCScene scene, int surface);
+    /// A ray from further than Embree reckons, or of what is not a number, leaves the scene: it hits nothing.
+    bool reaches_scene(const TracedRay& ray, float distance) const;
     /// The scene's index of Embree's instance.
     int instance(unsigned id) const;
 
@@ -56,6 +58,7 @@ private:
         AffineMap object_from_world;
     };
     std::vector<Placement> placements_;
+    float reach_;  ///< largest coordinate of a ray's origin
 };
 
 }  // namespace wend
