@@ -80,7 +80,8 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
                  "10000 * 10000 * 10000");
     EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ 1 ] \"integer nx\" -1 \"integer ny\" -1"),
                  "-1 * -1 * 1");
-    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ -1 ]"), "negative or not finite");
+    EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ -1 ]"),
+                 "voxel (0, 0, 0) holds -1: values must be finite and not negative");
     EXPECT_PRED2(contains, message("uniformgrid", "\"float density\" [ 1 ] \"point3 p1\" [ 1 0 1 ]"), "is empty");
     EXPECT_PRED2(contains,
                  message("uniformgrid", "\"float density\" [ 1 ] \"float temperature\" [ 1 ] \"rgb Le\" [ 1 1 1 ]"),

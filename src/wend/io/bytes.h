@@ -34,6 +34,7 @@ public:
         take(place);
     }
     bool empty() const { return at_ == all_.size(); }
+    std::size_t left() const { return all_.size() - at_; }
 
 private:
     std::string_view all_;

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <unordered_map>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -76,10 +78,8 @@ void unblosc(const PackedGrid& grid, char* to, const Place& place) {
     }
 }
 
-nanovdb::HostBuffer unpack(const PackedGrid& grid, const Place& place) {
-    // No codec packs better than this; what claims to be larger is damaged, and memory must not be taken for it.
-    constexpr std::uint64_t best_ratio = 2048;
-    if (grid.unpacked_size / best_ratio > grid.bytes.size()) {
+nanovdb::HostBuffer unpack(const PackedGrid& grid, std::size_t most_memory, const Place& place) {
+    if (grid.unpacked_size > most_memory) {
         throw InputError(place, fmt::format("grid `{}` has an impossible size", grid.name));
     }
     nanovdb::HostBuffer buffer = nanovdb::HostBuffer::create(grid.unpacked_size);
@@ -171,20 +171,87 @@ private:
     std::size_t count_[3] = {0, 0, 0};
 };
 
+VoxelBox cube(const nanovdb::Coord& first, int extent) {
+    const Vec3i low(first[0], first[1], first[2]);
+    return {low, low + Vec3i(extent - 1)};
+}
+
+/// The leaves below a node, and the tiles of another value than 0. Where they are follows from the way to them, as a
+/// look-up has it, and not from what the nodes say.
+template <class Node>
+void add_filled(const Node& node, const nanovdb::Coord& first, std::vector<VoxelBox>& filled) {
+    using Child = typename Node::ChildNodeType;
+    for (std::uint32_t i = 0; i < Node::SIZE; ++i) {
+        const nanovdb::Coord at = first + (Node::OffsetToLocalCoord(i) << Child::TOTAL);
+        if (!node.data()->mChildMask.isOn(i)) {
+            if (node.data()->mTable[i].value != 0) {
+                filled.push_back(cube(at, Child::DIM));
+            }
+        } else if constexpr (Child::LEVEL == 0) {
+            filled.push_back(cube(at, Child::DIM));
+        } else {
+            add_filled(*node.data()->getChild(i), at, filled);
+        }
+    }
+}
+
+template <class T>
+std::vector<VoxelBox> filled_boxes(const nanovdb::NanoTree<T>& tree) {
+    std::vector<VoxelBox> filled;
+    const auto& root = *tree.root().data();
+    for (std::uint32_t i = 0; i < root.mTableSize; ++i) {
+        const auto& tile = *root.tile(i);
+        if (tile.isChild()) {
+            add_filled(*root.getChild(&tile), tile.origin(), filled);
+        } else if (tile.value != 0) {
+            filled.push_back(cube(tile.origin(), nanovdb::NanoUpper<T>::DIM));
+        }
+    }
+    return filled;
+}
+
+/// Looks values up. The library's accessor searches through all tiles of the root for each one that lies in none of the
+/// nodes, and tiles may be any number.
+template <class T>
+class RootTiles {
+public:
+    RootTiles(const nanovdb::NanoRoot<T>& root, const std::string& name, const Place& place) : root_(*root.data()) {
+        for (std::uint32_t i = 0; i < root_.mTableSize; ++i) {
+            const auto* tile = root_.tile(i);
+            if (!tiles_.emplace(tile->key, tile).second) {
+                throw InputError(place, fmt::format("grid `{}` is damaged", name));
+            }
+        }
+    }
+
+    float value(const nanovdb::Coord& at) const {
+        const auto found = tiles_.find(root_.CoordToKey(at));
+        if (found == tiles_.end()) {
+            return root_.mBackground;
+        }
+        return found->second->isChild() ? root_.getChild(found->second)->getValue(at) : found->second->value;
+    }
+
+private:
+    using Root = std::remove_cvref_t<decltype(*std::declval<const nanovdb::NanoRoot<T>>().data())>;
+
+    const Root& root_;
+    std::unordered_map<typename Root::KeyT, const typename Root::Tile*> tiles_;
+};
+
 template <class T>
 Volume volume_of_type(const nanovdb::HostBuffer& buffer, const std::string& name, const std::filesystem::path& file) {
     const Place place{file.string()};
     const nanovdb::NanoGrid<T>& grid = GridCheck<T>(buffer, name, place).checked();
-    const auto accessor = grid.getAccessor();
+    const RootTiles<T> tiles(grid.tree().root(), name, place);
     const nanovdb::CoordBBox box = grid.tree().bbox();
     VoxelTree tree;
-    tree.first = {box.min()[0], box.min()[1], box.min()[2]};
-    tree.last = {box.max()[0], box.max()[1], box.max()[2]};
-    tree.value = [&](int x, int y, int z) { return accessor.getValue(nanovdb::Coord(x, y, z)); };
-    tree.block_occupied = [&](const Vec3i& voxel) {
-        const nanovdb::Coord at(voxel.x, voxel.y, voxel.z);
-        return accessor.probeLeaf(at) || accessor.getValue(at) != 0;
-    };
+    tree.active = {{box.min()[0], box.min()[1], box.min()[2]}, {box.max()[0], box.max()[1], box.max()[2]}};
+    tree.filled = filled_boxes(grid.tree());
+    if (grid.tree().background() != 0) {
+        tree.filled.push_back(tree.active);
+    }
+    tree.value = [&](int x, int y, int z) { return tiles.value({x, y, z}); };
     tree.to_world = [&](const Imath::V3d& p) {
         const auto q = grid.map().applyMap(nanovdb::Vec3d(p.x, p.y, p.z));
         return Imath::V3d(q[0], q[1], q[2]);
@@ -203,7 +270,7 @@ std::optional<Volume> read_nanovdb(const std::filesystem::path& file, const std:
     if (grid == grids.end()) {
         return {};
     }
-    const nanovdb::HostBuffer buffer = unpack(*grid, place);
+    const nanovdb::HostBuffer buffer = unpack(*grid, most_memory(file), place);
     switch (grid->type) {
         case nanovdb::GridType::Float:
             return volume_of_type<float>(buffer, grid_name, file);

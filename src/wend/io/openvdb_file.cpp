@@ -1,74 +1,79 @@
 #include <wend/core/error.h>
-#include <wend/io/bytes.h>
 #include <wend/io/gzip.h>
 #include <wend/io/openvdb_file.h>
+#include <wend/io/openvdb_layout.h>
 #include <wend/io/voxel_blocks.h>
 
 #include <fmt/format.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <array>
+#include <istream>
+#include <streambuf>
 
 namespace wend {
 namespace {
 
-/// Walks over the layout of a file. The library does not notice the end of a truncated one, but goes on with numbers of
-/// no meaning, for minutes and gigabytes; this finds out before.
-void check_whole(const std::filesystem::path& file) {
-    constexpr std::uint32_t oldest_version = openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
-    constexpr std::size_t library_version_bytes = 8, has_offsets_bytes = 1, uuid_bytes = 36;
-    const Place place{file.string()};
-    const std::string content = read_file(file, Grid::default_max_bytes);
-    Bytes bytes(content, place);
-    const auto take_text = [&bytes] { return bytes.take(bytes.take<std::uint32_t>()); };
+/// Two texts, one after the other, as a stream.
+class TwoTexts : public std::streambuf {
+public:
+    TwoTexts(std::string_view first, std::string_view second) : texts_{first, second} {}
 
-    bytes.take<std::int64_t>();  // the magic number
-    const auto version = bytes.take<std::uint32_t>();
-    if (version < oldest_version || version > openvdb::OPENVDB_FILE_VERSION) {
-        throw InputError(place, fmt::format("its version {} is not among those that are known, {} to {}", version,
-                                            oldest_version, openvdb::OPENVDB_FILE_VERSION));
-    }
-    bytes.take(library_version_bytes + has_offsets_bytes + uuid_bytes);
-    const auto metadata = bytes.take<std::uint32_t>();
-    for (std::uint32_t i = 0; i < metadata; ++i) {
-        take_text();  // name
-        take_text();  // type
-        take_text();  // value
-    }
-    const auto grids = bytes.take<std::uint32_t>();
-    for (std::uint32_t i = 0; i < grids; ++i) {
-        take_text();  // name
-        take_text();  // type
-        take_text();  // the grid it is an instance of
-        const auto begin = bytes.take<std::uint64_t>(), values = bytes.take<std::uint64_t>();
-        const auto end = bytes.take<std::uint64_t>();
-        if (begin > values || values > end) {
-            throw InputError(place, "the file is damaged");
+protected:
+    int_type underflow() override {
+        while (next_ < texts_.size()) {
+            const std::string_view text = texts_[next_++];
+            char* const begin = const_cast<char*>(text.data());  // is only read from
+            setg(begin, begin, begin + text.size());
+            if (!text.empty()) {
+                return traits_type::to_int_type(text.front());
+            }
         }
-        bytes.seek(end);
+        return traits_type::eof();
     }
+
+private:
+    std::array<std::string_view, 2> texts_;
+    std::size_t next_ = 0;
+};
+
+Vec3i to_vec3i(const openvdb::Coord& c) {
+    return {c[0], c[1], c[2]};
 }
 
-/// The file, open. Values are read at once: the library would otherwise map the file and meet its damage later.
-std::unique_ptr<openvdb::io::File> open(const std::filesystem::path& file) {
-    check_whole(file);
-    openvdb::initialize();
-    auto opened = std::make_unique<openvdb::io::File>(file.string());
-    constexpr bool delay_load = false;
-    opened->open(delay_load);
-    return opened;
+VoxelBox to_box(const openvdb::CoordBBox& box) {
+    return {to_vec3i(box.min()), to_vec3i(box.max())};
+}
+
+/// The leaves, and the tiles of another value than 0.
+template <class Tree>
+std::vector<VoxelBox> filled_boxes(const Tree& tree) {
+    std::vector<VoxelBox> filled;
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+        filled.push_back(to_box(leaf->getNodeBoundingBox()));
+    }
+    auto tile = tree.cbeginValueAll();
+    tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        if (*tile != 0) {
+            filled.push_back(to_box(tile.getBoundingBox()));
+        }
+    }
+    return filled;
 }
 
 template <class GridType>
 Volume volume_of_type(const GridType& grid, const std::string& name, const std::filesystem::path& file) {
     const auto accessor = grid.getConstAccessor();
-    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     VoxelTree tree;
-    tree.first = {box.min()[0], box.min()[1], box.min()[2]};
-    tree.last = {box.max()[0], box.max()[1], box.max()[2]};
+    tree.active = to_box(grid.evalActiveVoxelBoundingBox());
+    tree.filled = filled_boxes(grid.tree());
+    if (grid.background() != 0) {
+        tree.filled.push_back(tree.active);
+    }
     tree.value = [&](int x, int y, int z) { return static_cast<float>(accessor.getValue({x, y, z})); };
-    tree.block_occupied = [&](const Vec3i& voxel) {
-        const openvdb::Coord at(voxel.x, voxel.y, voxel.z);
-        return accessor.probeConstLeaf(at) || accessor.getValue(at) != 0;
-    };
     tree.to_world = [&](const Imath::V3d& p) {
         const openvdb::Vec3d q = grid.indexToWorld(openvdb::Vec3d(p.x, p.y, p.z));
         return Imath::V3d(q[0], q[1], q[2]);
@@ -76,32 +81,43 @@ Volume volume_of_type(const GridType& grid, const std::string& name, const std::
     return volume_of(tree, name, file);
 }
 
+/// What the library makes of a grid that was found to be whole.
+openvdb::GridBase::ConstPtr read_checked(const OpenVdbLayout::Checked& checked) {
+    openvdb::initialize();
+    TwoTexts buffer(checked.header, checked.tree);
+    std::istream stream(&buffer);
+    constexpr bool delay_load = false;
+    const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, delay_load).getGrids();
+    return grids->at(0);
+}
+
 }  // namespace
 
 std::optional<Volume> read_openvdb(const std::filesystem::path& file, const std::string& grid_name) {
-    const auto opened = open(file);
-    if (!opened->hasGrid(grid_name)) {
+    const Place place{file.string()};
+    const std::string content = read_file(file, Grid::default_max_bytes);
+    const OpenVdbLayout layout(content, place);
+    const auto found = std::find_if(layout.grids().begin(), layout.grids().end(),
+                                    [&](const OpenVdbGrid& grid) { return grid.name == grid_name; });
+    if (found == layout.grids().end()) {
         return {};
     }
-    const openvdb::GridBase::ConstPtr grid = opened->readGrid(grid_name);
-    if (!grid->transform().isLinear()) {
-        throw InputError(Place{file.string()}, fmt::format("grid `{}`: its map to the world is not affine", grid_name));
+    if (!is_scalar(*found)) {
+        throw InputError(place, fmt::format("grid `{}` does not hold scalars, but is a {}", grid_name, found->type));
     }
+    const openvdb::GridBase::ConstPtr grid = read_checked(layout.check(*found, most_memory(file)));
     if (const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid)) {
         return volume_of_type(*floats, grid_name, file);
     }
-    if (const auto doubles = openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid)) {
-        return volume_of_type(*doubles, grid_name, file);
-    }
-    throw InputError(Place{file.string()},
-                     fmt::format("grid `{}` does not hold scalars but {}", grid_name, grid->valueType()));
+    return volume_of_type(*openvdb::gridConstPtrCast<openvdb::DoubleGrid>(grid), grid_name, file);
 }
 
 std::vector<std::string> openvdb_names(const std::filesystem::path& file) {
-    const auto opened = open(file);
+    const std::string content = read_file(file, Grid::default_max_bytes);
+    const OpenVdbLayout layout(content, Place{file.string()});
     std::vector<std::string> names;
-    for (auto name = opened->beginName(); name != opened->endName(); ++name) {
-        names.push_back(name.gridName());
+    for (const OpenVdbGrid& grid : layout.grids()) {
+        names.push_back(grid.name);
     }
     return names;
 }

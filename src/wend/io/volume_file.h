@@ -15,11 +15,15 @@ struct Volume {
     std::string name;
     Grid grid;
     Transform world_from_index;
+    /// What is to be said about the values; empty if nothing.
+    std::string warning;
 };
 
 /// Reads the grid of that name ("density", "temperature"), in single, double, half or quantized precision. Throws
 /// InputError naming the file when it is missing or broken, has no such grid (the message lists those it has), or the
-/// grid is not of scalars, is too large, or holds a value that is negative or not finite.
+/// grid is not of scalars, is too large, or holds a value that is not finite or too far below 0 (NegativeValues).
+/// Memory stays below most_memory() (voxel_blocks.h) for the voxels, as much for the library's tree, and the file's
+/// size.
 Volume read_volume(const std::filesystem::path& file, const std::string& grid_name);
 
 /// The same for a grid that a file may lack.

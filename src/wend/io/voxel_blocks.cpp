@@ -1,24 +1,37 @@
 #include <wend/core/error.h>
+#include <wend/io/negative_values.h>
 #include <wend/io/voxel_blocks.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace wend {
 namespace {
 
-bool any_block_occupied(const VoxelTree& tree, const Vec3i& first, const Vec3i& last) {
-    constexpr int block = 8;
-    const Vec3i start(first.x & -block, first.y & -block, first.z & -block);
-    for (int z = start.z; z <= last.z; z += block) {
-        for (int y = start.y; y <= last.y; y += block) {
-            for (int x = start.x; x <= last.x; x += block) {
-                if (tree.block_occupied({x, y, z})) {
-                    return true;
-                }
-            }
+VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+    VoxelBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.first[axis] = std::max(a.first[axis], b.first[axis]);
+        box.last[axis] = std::min(a.last[axis], b.last[axis]);
+    }
+    return box;
+}
+
+/// Where the active voxels are, but for those of value 0 that cannot change what is interpolated: a tile of these may
+/// be anywhere.
+VoxelBox active_box(const VoxelTree& tree) {
+    constexpr int lowest = std::numeric_limits<int>::min(), highest = std::numeric_limits<int>::max();
+    VoxelBox filled{Vec3i(highest), Vec3i(lowest)};
+    for (const VoxelBox& box : tree.filled) {
+        const VoxelBox part = common(box, tree.active);
+        for (int axis = 0; axis < 3 && !part.is_empty(); ++axis) {
+            filled.first[axis] = std::min(filled.first[axis], std::max(part.first[axis], lowest + 1) - 1);
+            filled.last[axis] = std::max(filled.last[axis], std::min(part.last[axis], highest - 1) + 1);
         }
     }
-    return false;
+    return common(filled, tree.active);
 }
 
 /// The matrix of an affine map, found by applying it.
@@ -44,23 +57,34 @@ Transform affine(const std::function<Imath::V3d(const Imath::V3d&)>& map) {
 Volume volume_of(const VoxelTree& tree, const std::string& name, const std::filesystem::path& file) {
     try {
         // Where no voxel is active the box is inside out, and the field is 0 everywhere.
-        const bool empty = tree.last.x < tree.first.x || tree.last.y < tree.first.y || tree.last.z < tree.first.z;
-        for (int axis = 0; axis < 3 && !empty; ++axis) {
-            if (tree.first[axis] < -Grid::max_coordinate || tree.last[axis] >= Grid::max_coordinate) {
+        const VoxelBox box = active_box(tree);
+        if (box.is_empty()) {
+            return {name, {}, affine(tree.to_world), {}};
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (box.first[axis] < -Grid::max_coordinate || box.last[axis] >= Grid::max_coordinate) {
                 throw InputError(fmt::format("voxel coordinates go from {} to {}, but must stay within {}",
-                                             tree.first[axis], tree.last[axis], Grid::max_coordinate));
+                                             box.first[axis], box.last[axis], Grid::max_coordinate));
             }
         }
-        const auto occupied = [&tree](const Vec3i& first, const Vec3i& last) {
-            return any_block_occupied(tree, first, last);
-        };
-        Grid grid = empty ? Grid() : Grid(tree.first, tree.last - tree.first + Vec3i(1), occupied, tree.value);
-        return {name, std::move(grid), affine(tree.to_world)};
+        NegativeValues negative;
+        const auto value = [&](int x, int y, int z) { return negative.raise(tree.value(x, y, z), {x, y, z}); };
+        Grid grid(box.first, box.last - box.first + Vec3i(1), tree.filled, value, most_memory(file));
+        const std::string warning = negative.warning(grid.max_value());
+        return {name, std::move(grid), affine(tree.to_world),
+                warning.empty() ? "" : fmt::format("{}: grid `{}`: {}", file.string(), name, warning)};
     } catch (const InputError& error) {
         throw InputError(Place{file.string()}, fmt::format("grid `{}`: {}", name, error.what()));
     } catch (const std::domain_error& error) {
         throw InputError(Place{file.string()}, fmt::format("grid `{}`: its map to the world: {}", name, error.what()));
     }
+}
+
+std::size_t most_memory(const std::filesystem::path& file) {
+    constexpr std::size_t base = std::size_t{512} << 20, per_byte = 256;
+    const std::uintmax_t size = std::filesystem::file_size(file);
+    return static_cast<std::size_t>(std::min<std::uintmax_t>(
+        base + std::min<std::uintmax_t>(size, Grid::default_max_bytes) * per_byte, Grid::default_max_bytes));
 }
 
 }  // namespace wend

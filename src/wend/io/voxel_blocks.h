@@ -1,5 +1,4 @@
-// What the tree-shaped volume formats have in common: values in aligned blocks of 8³ voxels. Other rooms use
-// volume_file.h.
+// What the tree-shaped volume formats have in common. Other rooms use volume_file.h.
 #pragma once
 
 #include <wend/core/transform.h>
@@ -7,14 +6,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace wend {
 
 /// Access to a tree of voxels.
 struct VoxelTree {
-    Vec3i first, last;  ///< bounding box of the active voxels, inclusive
-    /// Whether the aligned block of 8³ voxels around this one may hold anything but zeros.
-    std::function<bool(const Vec3i& voxel)> block_occupied;
+    /// Bounding box of the active voxels.
+    VoxelBox active;
+    /// The nodes that may hold anything but zeros.
+    std::vector<VoxelBox> filled;
     Grid::Value value;
     /// Index space to world.
     std::function<Imath::V3d(const Imath::V3d&)> to_world;
@@ -22,5 +23,9 @@ struct VoxelTree {
 
 /// Copies a tree. Throws InputError naming the file and the grid when the values, the size or the map are unusable.
 Volume volume_of(const VoxelTree& tree, const std::string& name, const std::filesystem::path& file);
+
+/// What the voxels of a file may take: 512 MiB, and 256 bytes for each of the file's, which packs a leaf of one value
+/// into a hundred; never more than Grid::default_max_bytes. A few tiles can stand for any number of voxels.
+std::size_t most_memory(const std::filesystem::path& file);
 
 }  // namespace wend

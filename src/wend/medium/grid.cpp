@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -51,8 +52,7 @@ struct Breakpoints {
 
 }  // namespace
 
-Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, const Value& value, std::size_t max_bytes)
-    : first_(first), size_(size) {
+Grid::Grid(const Vec3i& first, const Vec3i& size, std::size_t max_bytes) : first_(first), size_(size) {
     check_extent(first, size);
     const Vec3i last = first + size - Vec3i(1);
     const Vec3i cell_count = size + Vec3i(1);
@@ -62,40 +62,86 @@ Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, cons
     extent_ = Vec3(cell_count);
 
     // The table of bricks is dense: it alone must not exceed a fair part of the memory.
-    const std::size_t max_bricks =
-        std::min<std::size_t>(max_bytes / 8 / sizeof(std::int32_t), std::numeric_limits<std::int32_t>::max());
+    constexpr std::size_t longest_table = std::size_t{1} << 28;
+    const std::size_t max_bricks = std::min(max_bytes / 8 / sizeof(std::int32_t), longest_table);
     if (static_cast<double>(bricks_count_.x) * bricks_count_.y * bricks_count_.z > static_cast<double>(max_bricks)) {
         throw_too_large(size, max_bytes);
     }
+    bricks_.resize(table_size());
+}
 
-    struct Brick {
-        int number;
-        Vec3i first;
-    };
-    std::vector<Brick> bricks;
+Grid::Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, const Value& value, std::size_t max_bytes)
+    : Grid(first, size, max_bytes) {
+    const Vec3i last = first + size - Vec3i(1);
+    std::vector<int> bricks;
     const std::size_t max_occupied = max_bytes / (sizeof(float) * brick_values);
-    Vec3i b;
-    for (b.z = 0; b.z < bricks_count_.z; ++b.z) {
-        for (b.y = 0; b.y < bricks_count_.y; ++b.y) {
-            for (b.x = 0; b.x < bricks_count_.x; ++b.x) {
-                const Vec3i low = first - Vec3i(1) + b * cells, high = low + Vec3i(cells);
-                const Vec3i from(std::max(low.x, first.x), std::max(low.y, first.y), std::max(low.z, first.z));
-                const Vec3i to(std::min(high.x, last.x), std::min(high.y, last.y), std::min(high.z, last.z));
-                if (from.x <= to.x && from.y <= to.y && from.z <= to.z && occupied(from, to)) {
-                    if (bricks.size() == max_occupied) {
-                        throw_too_large(size, max_bytes);
-                    }
-                    bricks.push_back({brick_number(b.x, b.y, b.z), low});
+    for (int number = 0; number < static_cast<int>(table_size()); ++number) {
+        const Vec3i low = first_of_brick(number), high = low + Vec3i(cells);
+        const Vec3i from(std::max(low.x, first.x), std::max(low.y, first.y), std::max(low.z, first.z));
+        const Vec3i to(std::min(high.x, last.x), std::min(high.y, last.y), std::min(high.z, last.z));
+        if (!VoxelBox{from, to}.is_empty() && occupied(from, to)) {
+            if (bricks.size() == max_occupied) {
+                throw_too_large(size, max_bytes);
+            }
+            bricks.push_back(number);
+        }
+    }
+    add_bricks(bricks, value);
+}
+
+Grid::Grid(const Vec3i& first, const Vec3i& size, std::span<const VoxelBox> filled, const Value& value,
+           std::size_t max_bytes)
+    : Grid(first, size, max_bytes) {
+    const std::size_t max_occupied = max_bytes / (sizeof(float) * brick_values);
+    constexpr std::size_t word = 64;
+    std::vector<std::uint64_t> marked(table_size() / word + 1);
+    std::size_t count = 0;
+    for (const VoxelBox& box : filled) {
+        Vec3i from, to;
+        for (int axis = 0; axis < 3; ++axis) {
+            // Bricks share their outermost samples with their neighbours.
+            const std::int64_t origin = std::int64_t{first[axis]} - 1;
+            const std::int64_t low = std::max(box.first[axis], first[axis]) - origin;
+            const std::int64_t high = std::min<std::int64_t>(box.last[axis], first[axis] + size[axis] - 1) - origin;
+            from[axis] = static_cast<int>((low - 1) / cells);
+            to[axis] =
+                high < low ? -1 : static_cast<int>(std::min<std::int64_t>(high / cells, bricks_count_[axis] - 1));
+        }
+        for (int z = from.z; z <= to.z; ++z) {
+            for (int y = from.y; y <= to.y; ++y) {
+                for (int x = from.x; x <= to.x; ++x) {
+                    const auto number = static_cast<std::size_t>(brick_number(x, y, z));
+                    const std::uint64_t mark = std::uint64_t{1} << (number % word);
+                    count += (marked[number / word] & mark) == 0;
+                    marked[number / word] |= mark;
                 }
+            }
+            if (count > max_occupied) {
+                throw_too_large(size, max_bytes);
             }
         }
     }
+    std::vector<int> bricks;
+    bricks.reserve(count);
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        for (std::uint64_t rest = marked[i]; rest != 0; rest &= rest - 1) {
+            bricks.push_back(static_cast<int>(i * word) + std::countr_zero(rest));
+        }
+    }
+    add_bricks(bricks, value);
+}
 
-    bricks_.assign(static_cast<std::size_t>(bricks_count_.x) * bricks_count_.y * bricks_count_.z, -1);
-    brick_ranges_.reserve(bricks.size());
-    values_.reserve(bricks.size() * brick_values);
-    for (const Brick& brick : bricks) {
-        add_brick(brick.number, brick.first, value);
+Vec3i Grid::first_of_brick(int number) const {
+    const Vec3i brick(number % bricks_count_.x, number / bricks_count_.x % bricks_count_.y,
+                      number / bricks_count_.x / bricks_count_.y);
+    return first_ - Vec3i(1) + brick * cells;
+}
+
+void Grid::add_bricks(std::span<const int> numbers, const Value& value) {
+    brick_ranges_.reserve(numbers.size());
+    values_.reserve(numbers.size() * brick_values);
+    for (const int number : numbers) {
+        add_brick(number, first_of_brick(number), value);
     }
 }
 
@@ -123,9 +169,24 @@ void Grid::add_brick(int number, const Vec3i& first, const Value& value) {
         values_.resize(offset);
         return;
     }
-    bricks_[number] = static_cast<std::int32_t>(brick_ranges_.size());
     brick_ranges_.push_back(range);
+    bricks_[number] = static_cast<std::int32_t>(brick_ranges_.size());
     max_ = std::max(max_, range.max);
+}
+
+std::array<float, 8> Grid::corners(const Vec3i& voxel) const {
+    const Vec3i q = voxel - first_ + Vec3i(1);
+    std::array<float, 8> values{};
+    const bool inside = q.x >= 0 && q.y >= 0 && q.z >= 0 && q.x <= size_.x && q.y <= size_.y && q.z <= size_.z;
+    const std::int32_t brick = inside ? bricks_[brick_number(q.x / cells, q.y / cells, q.z / cells)] : 0;
+    if (brick == 0) {
+        return values;
+    }
+    const float* const low = brick_samples(brick) + (q.z % cells * stride + q.y % cells) * stride + q.x % cells;
+    for (int i = 0; i < 8; ++i) {
+        values[static_cast<std::size_t>(i)] = low[((i >> 2) * stride + (i >> 1) % 2) * stride + i % 2];
+    }
+    return values;
 }
 
 std::size_t Grid::bytes() const {
@@ -163,11 +224,11 @@ Grid::Range Grid::range(const Box3& box) const {
     };
     const auto include_brick = [&](const Vec3i& b) {
         const std::int32_t brick = bricks_[brick_number(b.x, b.y, b.z)];
-        if (brick < 0) {
+        if (brick == 0) {
             include(0, 0);
             return;
         }
-        const Range& whole = brick_ranges_[brick];
+        const Range& whole = brick_ranges_[brick - 1];
         if (whole.min >= range.min && whole.max <= range.max) {
             return;
         }

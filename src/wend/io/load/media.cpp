@@ -1,6 +1,7 @@
 #include <wend/io/load/cloud.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/media.h>
+#include <wend/io/negative_values.h>
 #include <wend/io/volume_file.h>
 
 #include <fmt/format.h>
@@ -99,32 +100,24 @@ Vec3i load_size(const pbrt::ParameterSet& p, std::size_t count, std::string_view
 }
 
 /// Values in the order of the file, x fastest.
-std::shared_ptr<const Grid> make_grid(const std::vector<float>& values, const Vec3i& size, const Place& place,
-                                      std::string_view name) {
-    if (!std::all_of(values.begin(), values.end(), [](float v) { return v >= 0 && std::isfinite(v); })) {
-        throw InputError(place, fmt::format("\"{}\" holds a value that is negative or not finite", name));
-    }
-    if (std::max({size.x, size.y, size.z}) > Grid::max_coordinate) {
-        throw InputError(place, fmt::format("a grid may have {} voxels a side at most", Grid::max_coordinate));
-    }
+std::shared_ptr<const Grid> make_grid(LoadContext& context, const std::vector<float>& values, const Vec3i& size,
+                                      const Place& place, std::string_view name) {
+    NegativeValues negative;
     const auto at = [&](int x, int y, int z) {
-        return values[(static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y)) *
-                          static_cast<std::size_t>(size.x) +
-                      static_cast<std::size_t>(x)];
+        const std::size_t row =
+            static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y);
+        return negative.raise(values[row * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x)], {x, y, z});
     };
-    const auto occupied = [&](const Vec3i& first, const Vec3i& last) {
-        for (int z = first.z; z <= std::min(last.z, size.z - 1); ++z) {
-            for (int y = first.y; y <= std::min(last.y, size.y - 1); ++y) {
-                for (int x = first.x; x <= std::min(last.x, size.x - 1); ++x) {
-                    if (at(x, y, z) > 0) {
-                        return true;
-                    }
-                }
-            }
+    const VoxelBox all{Vec3i(0), size - Vec3i(1)};
+    try {
+        auto grid = std::make_shared<const Grid>(Vec3i(0), size, std::span(&all, 1), at);
+        if (const std::string warning = negative.warning(grid->max_value()); !warning.empty()) {
+            context.warnings.add(place, fmt::format("\"{}\": {}", name, warning));
         }
-        return false;
-    };
-    return std::make_shared<const Grid>(Vec3i(0, 0, 0), size, occupied, at);
+        return grid;
+    } catch (const InputError& error) {
+        throw InputError(place, fmt::format("\"{}\": {}", name, error.what()));
+    }
 }
 
 /// A medium that glows by its temperature. `scale` multiplies the black body.
@@ -151,7 +144,7 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
                                                  const Transform& index_from_world) {
     const auto grid_of = [&](const std::vector<float>& values, std::string_view name) {
         load_size(p, values.size(), name);
-        return make_grid(values, size, p.place_of(name), name);
+        return make_grid(context, values, size, p.place_of(name), name);
     };
     const std::string_view scales_name = emission_scale_name(p);
     const std::vector<float> scales = p.get_floats(scales_name);
@@ -190,8 +183,8 @@ Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity)
     const Vec3i size = load_size(p, density.size(), "density");
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
     const Coefficients c = load_coefficients(context, p);
-    return GridMedium(make_grid(density, size, p.place_of("density"), "density"), index_from_world, all_cells(size),
-                      c.absorption, c.scattering, load_phase(context, p),
+    return GridMedium(make_grid(context, density, size, p.place_of("density"), "density"), index_from_world,
+                      all_cells(size), c.absorption, c.scattering, load_phase(context, p),
                       load_grid_emission(context, p, size, index_from_world));
 }
 
@@ -203,6 +196,12 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
         std::vector<Rgb> values;
         for (const pbrt::RgbColour& colour : p.get_rgbs(name)) {
             values.push_back(reduce_colour(context, colour, SpectrumKind::unbounded, p.place_of(name)));
+            if (const Rgb& value = values.back(); !is_finite(value) || !(min_value(value) >= 0)) {
+                throw InputError(p.place_of(name),
+                                 fmt::format("\"{}\": voxel {} holds ({}, {}, {}): values must be finite and not "
+                                             "negative",
+                                             name, values.size() - 1, value.r, value.g, value.b));
+            }
         }
         return values;
     };
@@ -231,6 +230,9 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
         total_scattering += at(scattering, i);
         total += density[i];
     }
+    if (!std::isfinite(total)) {
+        throw InputError(entity.place, "the coefficients of the \"rgbgrid\" are too large");
+    }
     const float scale = non_negative_float(p, "scale", 1) / (total > 0 ? total : 1.0f);
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
     std::shared_ptr<GridEmission> emission;
@@ -246,10 +248,10 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
         }
         emission = std::make_shared<GridEmission>();
         emission->radiance = sum * (emission_scale / (total_strength > 0 ? total_strength : 1.0f));
-        emission->field = make_grid(strength, size, p.place_of("Le"), "Le");
+        emission->field = make_grid(context, strength, size, p.place_of("Le"), "Le");
         emission->field_from_world = AffineMap(index_from_world);
     }
-    return GridMedium(make_grid(density, size, entity.place, "sigma_a"), index_from_world, all_cells(size),
+    return GridMedium(make_grid(context, density, size, entity.place, "sigma_a"), index_from_world, all_cells(size),
                       total_absorption * scale, total_scattering * scale, load_phase(context, p), std::move(emission));
 }
 
@@ -261,6 +263,11 @@ Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) 
     std::optional<Volume> temperature = try_read_volume(file, p.get_string("temperaturename", "temperature"));
     std::shared_ptr<GridEmission> emission;
     const float scale = non_negative_float(p, emission_scale_name(p), 1);
+    for (const Volume* volume : {&density, temperature ? &*temperature : nullptr}) {
+        if (volume && !volume->warning.empty()) {
+            context.warnings.add(p.place_of("filename"), volume->warning);
+        }
+    }
     if (temperature) {
         emission = make_glow(p, std::make_shared<const Grid>(std::move(temperature->grid)),
                              temperature->world_from_index.inverse() * medium_from_world, scale);
