@@ -1,4 +1,5 @@
 #include <wend/decision/channels.h>
+#include <wend/decision/dense_flight.h>
 #include <wend/decision/distance.h>
 #include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>
@@ -67,6 +68,9 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
         if (!(cell.maximum > 0)) {
             return true;
+        }
+        if (is_too_dense(cell, extinction, t_out - t_in)) {
+            return !fly_densely(medium, start, t_in, t_out, probability, flight, random);
         }
         const float rate = std::max(largest * cell.maximum, looks);
         const float majorant = rate / largest;

@@ -1,6 +1,7 @@
 #include <wend/decision/guided_tracking.h>
 
 #include <wend/decision/channels.h>
+#include <wend/decision/dense_flight.h>
 #include <wend/medium/tentative_collisions.h>
 
 #include <algorithm>
@@ -93,6 +94,12 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
     for (int i = 0; i < count_; ++i) {
         const Piece& piece = pieces_[i];
         const float length = piece.t_out - piece.t_in;
+        if (is_too_dense(piece.density, extinction, length)) {
+            if (fly_densely(medium_, start_, piece.t_in, piece.t_out, channels, flight, random)) {
+                return flight;
+            }
+            continue;
+        }
         const float foretold = expected(piece, length);
         const float bright = albedo_ * piece.in_scattered;
         // Collisions should come at this many times the rate of the medium; tentative ones come twice as often, so that

@@ -1,3 +1,4 @@
+#include <wend/medium/dense_cells.h>
 #include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>
 
@@ -34,7 +35,22 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
         return true;
     };
     TentativeCollisions collisions(random);
+    const auto cross_exactly = [&](float t_in, float t_out) {
+        double depth = 0;
+        walk_voxels(medium.density(), index_ray.origin, index_ray.direction, t_in, t_out,
+                    [&depth](const VoxelPassage& passage) {
+                        depth += passage.depth();
+                        return true;
+                    });
+        estimate *= transmitted(extinction, depth);
+        return survives();
+    };
+    constexpr double countable = 1e30;
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        const double most = double{largest} * (t_out - t_in);
+        if (most * (cell.maximum - cell.minimum) > most_tentative_collisions || most * cell.maximum > countable) {
+            return cross_exactly(t_in, t_out);
+        }
         if (cell.minimum > 0) {
             const float control = -largest * cell.minimum * (t_out - t_in);
             estimate *= grey ? Rgb(std::exp(control)) : exp(relative * control);

@@ -12,6 +12,12 @@ inline Rgb transmittance(const HomogeneousMedium& medium, float distance) {
     return {std::exp(-tau.r), std::exp(-tau.g), std::exp(-tau.b)};
 }
 
+/// Through an integral of density, in double precision: what absorbs nothing passes all, however dense it is.
+inline Rgb transmitted(const Rgb& extinction, double depth) {
+    const auto channel = [depth](float e) { return static_cast<float>(std::exp(-double{e} * depth)); };
+    return {channel(extinction.r), channel(extinction.g), channel(extinction.b)};
+}
+
 /// The light that the medium emits towards the start of a segment, in radiance: its expected value, which has no
 /// variance.
 inline Rgb emitted_along(const HomogeneousMedium& medium, float distance) {
@@ -29,7 +35,8 @@ inline Rgb emitted_along(const HomogeneousMedium& medium, float distance) {
 
 /// Residual ratio tracking (novak2014) from 0 to `distance` along the ray: in each cell of the majorant grid the
 /// smallest density is the control, whose transmittance is exact, and only the residual is estimated. Estimates that
-/// have become small are ended by roulette, so that a dense medium costs no more than a few mean free paths.
+/// have become small are ended by roulette, so that a dense medium costs no more than a few mean free paths. Cells in
+/// which that would still be many steps are crossed voxel by voxel, exactly.
 Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random);
 
 inline Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float distance, Pcg32& random) {
