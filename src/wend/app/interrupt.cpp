@@ -1,22 +1,24 @@
 #include <wend/app/interrupt.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace wend {
 namespace {
 
 // A signal handler can reach nothing but an object of static storage.
-volatile std::sig_atomic_t interrupted = 0;
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void remember_interrupt(int signal) {
-    interrupted = 1;
+    interrupted = true;
     std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-    interrupted = 0;
+    interrupted = false;
     std::signal(SIGINT, remember_interrupt);
     std::signal(SIGTERM, remember_interrupt);
 }
@@ -27,7 +29,11 @@ InterruptGuard::~InterruptGuard() {
 }
 
 bool InterruptGuard::requested() const {
-    return interrupted != 0;
+    return interrupted;
+}
+
+const std::atomic<bool>& InterruptGuard::flag() const {
+    return interrupted;
 }
 
 }  // namespace wend

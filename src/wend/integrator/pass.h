@@ -6,6 +6,7 @@
 #include <wend/integrator/render.h>
 #include <wend/integrator/subsurface.h>
 
+#include <atomic>
 #include <utility>
 #include <vector>
 
@@ -53,21 +54,22 @@ class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
          const SubsurfaceGuides& subsurface, const LightChoices& lights, const ReflectionChoices& reflections,
-         const CausticPhotons& caustics, const PassPlan& plan)
-        : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth),
+         const CausticPhotons& caustics, const PassPlan& plan, const std::atomic<bool>& stop)
+        : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth, &stop),
           subsurface_(subsurface),
           caustics_(caustics),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
-          plan_(plan) {}
+          plan_(plan),
+          stop_(stop) {}
 
     void run(Tile& tile) const {
         guide::PathLog log;
         std::vector<Stay> stays;
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
-                for (int i = 0; i < plan_.count; ++i) {
+                for (int i = 0; i < plan_.count && !stop_; ++i) {
                     sample({x, y}, plan_.first + i, tile, log, stays);
                 }
             }
@@ -89,6 +91,9 @@ private:
                           {is_recorded && plan_.record ? &log : nullptr, plan_.record_stays ? &stays : nullptr,
                            is_recorded && plan_.record_lights ? &tile.lights : nullptr,
                            is_recorded && plan_.record_reflections ? &tile.reflections : nullptr, &caustics_});
+        if (stop_) {
+            return;  // the walk may be a part of one
+        }
         for (const Stay& stay : std::exchange(stays, {})) {
             subsurface_.count(stay, tile.stays);
         }
@@ -130,6 +135,7 @@ private:
     Film& film_;
     const RenderSettings& settings_;
     const PassPlan& plan_;
+    const std::atomic<bool>& stop_;
 };
 
 }  // namespace wend

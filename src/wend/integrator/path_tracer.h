@@ -14,6 +14,7 @@
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 
+#include <atomic>
 #include <cstdint>
 
 namespace wend {
@@ -74,15 +75,18 @@ struct WalkLessons {
 template <class Decisions>
 class PathTracer {
 public:
-    /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to.
+    /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to. Walks end as they are
+    /// once `stop` is true, which may be null.
     PathTracer(const Scene& scene, const Decisions& decisions, const SubsurfaceGuides& subsurface,
-               const LightChoices& lights, const ReflectionChoices& reflections, int max_depth)
+               const LightChoices& lights, const ReflectionChoices& reflections, int max_depth,
+               const std::atomic<bool>* stop = nullptr)
         : scene_(scene),
           decisions_(decisions),
           subsurface_(subsurface),
           lights_(lights),
           reflections_(reflections),
-          max_depth_(max_depth) {}
+          max_depth_(max_depth),
+          stop_(stop) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
     /// none.
@@ -97,6 +101,7 @@ private:
     const LightChoices& lights_;
     const ReflectionChoices& reflections_;
     int max_depth_;
+    const std::atomic<bool>* stop_;
 };
 
 }  // namespace wend

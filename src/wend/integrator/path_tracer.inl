@@ -41,10 +41,10 @@ public:
         now_.ray = start;
         now_.medium = scene_.camera_medium();
         do {
-            while (step()) {
+            while (!is_stopped() && step()) {
             }
             update_stay();
-        } while (take_up_pending());
+        } while (!is_stopped() && take_up_pending());
         if (reflections_) {
             boundaries_.finish(*reflections_);
         }
@@ -53,6 +53,8 @@ public:
     }
 
 private:
+    bool is_stopped() const { return tracer_.stop_ && tracer_.stop_->load(std::memory_order_relaxed); }
+
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;

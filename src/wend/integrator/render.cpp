@@ -8,12 +8,17 @@
 #include <wend/integrator/path_tracer.inl>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace wend {
@@ -49,13 +54,45 @@ void check_rejected(const WalkCounts& counts) {
     }
 }
 
+/// Looks, beside the walks, at what may stop them, so that they look at one flag and no clock.
+class Watch {
+public:
+    /// `asked` may be null.
+    explicit Watch(const std::atomic<bool>* asked)
+        : asked_(asked), thread_([this](const std::stop_token& ends) { run(ends); }) {}
+
+    const std::atomic<bool>& stop() const { return stop_; }
+    void stop_at(Clock::time_point time) {
+        const std::scoped_lock lock(mutex_);
+        end_ = time;
+    }
+
+private:
+    void run(const std::stop_token& ends) {
+        constexpr std::chrono::milliseconds rest(50);
+        std::unique_lock lock(mutex_);
+        while (!ends.stop_requested() && !stop_) {
+            stop_ = (asked_ && *asked_) || (end_ && Clock::now() > *end_);
+            wake_.wait_for(lock, ends, rest, [] { return false; });
+        }
+    }
+
+    const std::atomic<bool>* asked_;
+    std::atomic<bool> stop_ = false;
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::optional<Clock::time_point> end_;
+    std::jthread thread_;  ///< last: it uses all the others
+};
+
 /// A render between its passes: what walks are guided by, and what the last pass told.
 class Rendering {
 public:
-    Rendering(const Scene& scene, Film& film, const RenderSettings& settings)
+    Rendering(const Scene& scene, Film& film, const RenderSettings& settings, const std::atomic<bool>& stop)
         : scene_(scene),
           film_(film),
           settings_(settings),
+          stop_(stop),
           tiles_(tiles_of(film.crop())),
           fields_(settings.fields
                       ? *settings.fields
@@ -72,6 +109,9 @@ public:
             send_photons(plan);
         }
         walk(plan);
+        if (stop_) {
+            return;
+        }
         statistics.samples += count;
         statistics.passes.push_back(count);
         if (plan.record) {
@@ -137,7 +177,8 @@ private:
     void walk(const PassPlan& plan) {
         const Preset& preset = settings_.preset;
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene_, film_, settings_, decisions, subsurface_, lights_, reflections_, caustics_, plan);
+            const Pass one(scene_, film_, settings_, decisions, subsurface_, lights_, reflections_, caustics_, plan,
+                           stop_);
             parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i]); });
         };
         if (preset.is_classical()) {
@@ -208,6 +249,7 @@ private:
     const Scene& scene_;
     Film& film_;
     const RenderSettings& settings_;
+    const std::atomic<bool>& stop_;
     std::vector<Tile> tiles_;
     GuidingFields fields_;
     SubsurfaceGuides subsurface_;
@@ -225,13 +267,23 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
     const Clock::time_point start = Clock::now();
     RenderStatistics statistics;
     const Schedule schedule(settings);
-    Rendering rendering(scene, film, settings);
+    Watch watch(settings.stop);
+    Rendering rendering(scene, film, settings, watch.stop());
     for (int pass = 0;; ++pass) {
         const int count = schedule.next(pass, statistics.samples, seconds_since(start));
         if (count <= 0) {
             break;
         }
+        if (settings.seconds > 0 && settings.passes.empty()) {
+            constexpr double excess = 1, first_pass = 10;
+            const double most = (settings.seconds + excess) * (statistics.samples == 0 ? first_pass : 1);
+            watch.stop_at(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most)));
+        }
         rendering.pass(count, statistics);
+        if (watch.stop()) {
+            statistics.interrupted = true;
+            break;
+        }
         const double elapsed = seconds_since(start);
         if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,
                                        film.relative_noise()})) {

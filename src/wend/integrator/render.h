@@ -9,6 +9,7 @@
 #include <wend/integrator/training.h>
 #include <wend/sampling/sampler.h>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -41,6 +42,8 @@ struct RenderSettings {
     int max_depth = 5;
     Filter filter = Filter::box();
     float exposure = 1;  ///< multiplies all radiances
+    /// Not null: once true, walks end where they are, are forgotten, and the render with them.
+    const std::atomic<bool>* stop = nullptr;
 };
 
 /// How far a render is.
@@ -62,9 +65,11 @@ struct RenderStatistics {
     std::shared_ptr<const GuidingFields> fields;  ///< what was learned; null if nothing was guided
 };
 
-/// Renders into the film. `keep_going` is called between passes, with the film complete up to there; false ends the
-/// render. Throws std::runtime_error if more than one sample in 10^4 (and more than ten) was not a finite number: that
-/// is a mistake, not chance.
+/// Renders into the film. A pass that is stopped leaves its finished samples there, which do not count as a pass. A
+/// time to spend stops a pass that would exceed it by a second, but the first one only if it takes ten times as long.
+/// `keep_going` is called between passes, with the film complete up to there; false ends the render. Throws
+/// std::runtime_error if more than one sample in 10^4 (and more than ten) was not a finite number: that is a mistake,
+/// not chance.
 RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
                         const std::function<bool(const RenderProgress&)>& keep_going = {});
 
