@@ -68,6 +68,7 @@ Reference make_reference(const Session& session, const CompareOptions& options, 
 void compare_scene(const CompareOptions& options, const Streams& streams) {
     const std::vector<WayOfSampling> ways = ways_to_compare(options);
     const std::filesystem::path scene = options.scene.file;
+    require_distinct({options.scene.file, options.reference}, {options.common.json});
     std::optional<Reference> reference = options.reference.empty()
                                              ? read_reference_pair(scene.parent_path() / scene.stem())
                                              : read_reference(options.reference);

@@ -241,6 +241,8 @@ void show_field(const FieldOptions& options, const Streams& streams) {
     if (!options.at.empty()) {
         require_writable_picture(options.picture);
     }
+    require_distinct({options.file, options.records},
+                     {options.vtk, options.at.empty() ? "" : options.picture, options.common.json});
     const GuidingFields fields = read_fields(options.file);
     const std::optional<RecordSamples> samples =
         options.records.empty() ? std::nullopt : std::optional(read_records(options.records));

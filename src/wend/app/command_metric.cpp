@@ -22,6 +22,9 @@ struct MetricOptions {
 };
 
 void print_metrics(const MetricOptions& options, const Streams& streams) {
+    std::vector<std::string> inputs = options.images;
+    inputs.push_back(options.reference);
+    require_distinct(inputs, {options.common.json});
     const Reference reference = read_reference(options.reference);
     const Image average = reference.average();
     nlohmann::json rows = nlohmann::json::array();

@@ -85,6 +85,8 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
             require_writable(file);
         }
     }
+    const std::vector<std::string> inputs{options.scene.file, options.load_field};
+    require_distinct(inputs, {options.output, options.common.json, options.save_field, options.save_records});
     std::shared_ptr<const GuidingFields> fields;
     if (!options.load_field.empty()) {
         fields = std::make_shared<const GuidingFields>(read_fields(options.load_field));
@@ -92,6 +94,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     const Session session(options.scene, options.common, streams);
     const std::filesystem::path output =
         options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
+    require_distinct(inputs, {output.string(), options.common.json, options.save_field, options.save_records});
 
     RenderSettings settings = session.settings();
     settings.preset = preset;
@@ -107,6 +110,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
 
     Film film = session.new_film();
     const InterruptGuard interrupt;
+    settings.stop = &interrupt.flag();
     RenderStatistics statistics;
     {
         ProgressBar bar(streams.err, !options.common.quiet,
@@ -126,6 +130,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     }
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
+    if (statistics.samples == 0) {
+        streams.err << "warning: the render was stopped before all pixels had a sample: the others are black\n";
+    }
     if (statistics.counts.rejected > 0) {
         streams.err << "warning: " << statistics.counts.rejected
                     << " samples were not finite numbers and count as black\n";

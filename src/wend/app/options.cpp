@@ -1,16 +1,29 @@
 #include <wend/app/options.h>
 #include <wend/core/error.h>
+#include <wend/core/parallel.h>
 #include <wend/io/atomic_file.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 
 namespace wend {
 
 namespace {
+
+/// What is wrong with a number of threads; empty: nothing.
+std::string threads_problem(const std::string& text) {
+    int threads = 0;
+    if (!CLI::detail::lexical_cast(text, threads) || threads < 0 || threads > 4096) {
+        return "'" + text + "' is not a number of threads from 0 (all) to 4096";
+    }
+    const int startable = startable_threads(threads);
+    return startable < threads ? "the system starts no more than " + std::to_string(startable) + " threads" : "";
+}
 
 /// What is wrong with a name after --json; empty: nothing.
 std::string json_target_problem(const std::string& name) {
@@ -32,7 +45,7 @@ void CommonOptions::add_to(CLI::App& command) {
     command.add_option("--seed", seed, "seed of the random numbers (default: the scene's if there is one, or 0)")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--threads", threads, "number of threads (0: all); the result does not depend on it")
-        ->check(CLI::Range(0, 4096));
+        ->check(threads_problem);
     command.add_flag("--quiet", quiet, "no progress and no notes");
 }
 
@@ -80,6 +93,31 @@ std::pair<int, int> parse_resolution(const std::string& text) {
         }
     }
     throw InputError("--resolution " + text + ": expected WIDTHxHEIGHT with positive numbers, such as 320x180");
+}
+
+void require_distinct(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+    const auto file_of = [](const std::string& name) {
+        std::error_code error;
+        return std::filesystem::weakly_canonical(behind_links(std::filesystem::absolute(name)), error);
+    };
+    std::set<std::filesystem::path> read, written;
+    for (const std::string& name : inputs) {
+        if (!name.empty()) {
+            read.insert(file_of(name));
+        }
+    }
+    for (const std::string& name : outputs) {
+        if (name.empty() || name == "-" || is_device(name)) {
+            continue;
+        }
+        const std::filesystem::path file = file_of(name);
+        if (read.contains(file)) {
+            throw InputError(Place{name}, "would be written over, but is read from");
+        }
+        if (!written.insert(file).second) {
+            throw InputError(Place{name}, "would be written twice: choose another name for one of the outputs");
+        }
+    }
 }
 
 std::vector<std::string> split_list(const std::string& text) {

@@ -50,6 +50,10 @@ std::string seconds_problem(const std::string& text);
 /// "320x180" and the like. Throws InputError.
 std::pair<int, int> parse_resolution(const std::string& text);
 
+/// Throws InputError if two of the outputs are the same file, or one is an input. Empty names, "-" and devices are
+/// none.
+void require_distinct(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
 /// Splits at commas.
 std::vector<std::string> split_list(const std::string& text);
 

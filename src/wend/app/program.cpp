@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <ostream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,12 @@ InputError unknown_subcommand(const CLI::App& program) {
                       ": expected one of " + names + " (--help says more)");
 }
 
+void require_written(std::ostream& out) {
+    if (!out.flush()) {
+        throw std::runtime_error("cannot write to the standard output");
+    }
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
@@ -53,13 +60,18 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
             if (e.get_exit_code() != 0 && program.get_subcommands().empty()) {
                 throw unknown_subcommand(program);
             }
-            return program.exit(e, out, err) == 0 ? 0 : 2;
+            if (program.exit(e, out, err) != 0) {
+                return 2;
+            }
+            require_written(out);
+            return 0;
         }
         for (const auto& [command, action] : actions) {
             if (command->parsed()) {
                 action(streams);
             }
         }
+        require_written(out);
         return 0;
     } catch (const InputError& e) {
         err << e.what() << '\n';

@@ -6,11 +6,35 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <latch>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace wend {
 
 int hardware_threads() {
     return std::max(1, tbb::info::default_concurrency());
+}
+
+int startable_threads(int wanted) {
+    if (wanted <= hardware_threads()) {
+        return wanted;
+    }
+    std::latch all_tried(1);
+    std::vector<std::thread> threads;
+    try {
+        for (int i = 0; i < wanted; ++i) {
+            threads.emplace_back([&all_tried] { all_tried.wait(); });
+        }
+    } catch (const std::system_error&) {
+        // No more of them: what there are is the answer.
+    }
+    all_tried.count_down();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    return static_cast<int>(threads.size());
 }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {

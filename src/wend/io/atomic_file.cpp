@@ -2,6 +2,8 @@
 #include <wend/io/atomic_file.h>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -9,6 +11,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -23,19 +26,75 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     return temporary;
 }
 
+/// Gives the temporary the mode and, where that is allowed, the owner of what it replaces.
+void take_over_mode(const std::filesystem::path& temporary, const std::filesystem::path& target) {
+    struct stat status;
+    if (::stat(target.c_str(), &status) == 0) {
+        static_cast<void>(::chown(temporary.c_str(), status.st_uid, status.st_gid) == 0);
+        ::chmod(temporary.c_str(), status.st_mode & 07777);
+    }
+}
+
+void copy_into(const std::filesystem::path& device, const std::filesystem::path& file) {
+    errno = 0;
+    std::ifstream from(file, std::ios::binary);
+    std::ofstream to(device, std::ios::binary);
+    to << from.rdbuf();
+    to.close();
+    if (!to) {
+        throw std::runtime_error(device.string() + ": cannot write: " + std::strerror(errno));
+    }
+}
+
+/// A file of which only its own name is known, removed in the end.
+class Temporary {
+public:
+    explicit Temporary(std::filesystem::path path) : path_(std::move(path)) {}
+    ~Temporary() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
 }  // namespace
+
+bool is_device(const std::filesystem::path& target) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(target, error);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
+}
+
+std::filesystem::path behind_links(const std::filesystem::path& target) {
+    constexpr int most_links = 40;
+    std::filesystem::path path = target;
+    std::error_code error;
+    for (int i = 0; i < most_links && std::filesystem::is_symlink(path, error); ++i) {
+        path = path.parent_path() / std::filesystem::read_symlink(path, error);
+    }
+    return path;
+}
 
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
-    const std::filesystem::path temporary = temporary_beside(target);
-    try {
-        write(temporary);
-        std::filesystem::rename(temporary, target);
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw;
+    if (is_device(target)) {
+        const Temporary temporary(temporary_beside(std::filesystem::temp_directory_path() / target.filename()));
+        write(temporary.path());
+        copy_into(target, temporary.path());
+        return;
     }
+    const std::filesystem::path file = behind_links(target);
+    const Temporary temporary(temporary_beside(file));
+    write(temporary.path());
+    take_over_mode(temporary.path(), file);
+    std::filesystem::rename(temporary.path(), file);
 }
 
 void write_atomically(const std::filesystem::path& target, std::string_view content) {
@@ -55,17 +114,21 @@ void require_writable(const std::filesystem::path& target) {
     if (std::filesystem::is_directory(target, error)) {
         throw InputError(Place{target.string()}, "cannot be written: it is a folder");
     }
-    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    if (is_device(target)) {
+        if (::access(target.c_str(), W_OK) != 0) {
+            throw InputError(Place{target.string()}, std::string("cannot be written: ") + std::strerror(errno));
+        }
+        return;
+    }
+    const std::filesystem::path file = behind_links(target);
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (!std::filesystem::is_directory(folder, error)) {
         throw InputError(Place{target.string()}, "cannot be written: there is no folder " + folder.string());
     }
-    const std::filesystem::path temporary = temporary_beside(target);
+    const Temporary temporary(temporary_beside(file));
     errno = 0;
-    const bool opened = std::ofstream(temporary, std::ios::binary).is_open();
-    const int reason = errno;
-    std::filesystem::remove(temporary, error);
-    if (!opened) {
-        throw InputError(Place{target.string()}, std::string("cannot be written: ") + std::strerror(reason));
+    if (!std::ofstream(temporary.path(), std::ios::binary).is_open()) {
+        throw InputError(Place{target.string()}, std::string("cannot be written: ") + std::strerror(errno));
     }
 }
 

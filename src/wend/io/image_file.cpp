@@ -36,6 +36,9 @@ std::optional<PictureKind> kind_of(const std::filesystem::path& file) {
     if (extension == ".jpg" || extension == ".jpeg") {
         return PictureKind::jpeg;
     }
+    if (is_device(file)) {
+        return PictureKind::exr;
+    }
     return std::nullopt;
 }
 

@@ -21,9 +21,10 @@ Image read_image(const std::filesystem::path& file, ColourEncoding encoding = Co
 /// EXR.
 Picture read_picture(const std::filesystem::path& file);
 
-/// Writes by extension: .exr (32-bit float, all layers as `layer.channel`, metadata as string attributes), .png and
-/// .jpg (beauty in sRGB, clamped to [0,1]). The file appears whole or not at all: it is written beside and renamed.
-/// Throws InputError for an unknown extension, std::runtime_error when the disk refuses.
+/// Writes by extension (a device without one takes OpenEXR): .exr (32-bit float, all layers as `layer.channel`,
+/// metadata as string attributes), .png and .jpg (beauty in sRGB, clamped to [0,1]). The file appears whole or not at
+/// all: it is written beside and renamed. Throws InputError for an unknown extension, std::runtime_error when the disk
+/// refuses.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
 
 /// Writes the colours and the metadata alone, as references are kept: OpenEXR in half floats, or in 32-bit floats where
