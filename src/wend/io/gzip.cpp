@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 
@@ -30,7 +31,10 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) 
     }
     // The size on disk is only a first guess: it is smaller than the content of a compressed file.
     const auto size = std::filesystem::file_size(file, ignored);
-    std::size_t block = std::clamp<std::size_t>(ignored ? 0 : size + 1, 1u << 16, 1u << 30);
+    constexpr std::uintmax_t base = std::uintmax_t{256} << 20, best_ratio = 64;
+    const std::uintmax_t stored = ignored ? 0 : size;
+    max_bytes = std::min<std::uintmax_t>(max_bytes, base + best_ratio * std::min<std::uintmax_t>(stored, max_bytes));
+    std::size_t block = std::clamp<std::size_t>(stored + 1, 1u << 16, 1u << 30);
     std::string bytes;
     while (true) {
         const std::size_t before = bytes.size();
@@ -50,7 +54,8 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) 
         if (static_cast<std::size_t>(count) < block) {
             return bytes;
         }
-        block = std::clamp<std::size_t>(bytes.size(), 1u << 16, 1u << 30);
+        // Up to one byte too many, by which that is told.
+        block = std::min(std::clamp<std::size_t>(bytes.size(), 1u << 16, 1u << 30), max_bytes + 1 - bytes.size());
     }
 }
 

@@ -1,10 +1,9 @@
 #include <wend/io/atomic_file.h>
 #include <wend/io/bytes.h>
+#include <wend/io/gzip.h>
 #include <wend/io/parts_file.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 namespace wend {
 
@@ -21,11 +20,7 @@ void write_parts(const std::filesystem::path& file, std::string_view signature, 
 PartsFile::PartsFile(const std::filesystem::path& file, std::string_view signature, std::size_t count,
                      const std::string& what)
     : place_{file.string(), 0, 0} {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw InputError(place_, "cannot be read");
-    }
-    content_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    content_ = read_file(file);
     if (!std::string_view(content_).starts_with(signature)) {
         throw InputError(place_, "is no file of " + what);
     }

@@ -2,6 +2,7 @@
 #include <wend/io/gzip.h>
 #include <wend/io/image_size.h>
 #include <wend/io/jpeg_check.h>
+#include <wend/io/png_check.h>
 #include <wend/io/stb_file.h>
 
 #define STB_IMAGE_STATIC
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -32,7 +34,7 @@
 namespace wend {
 namespace {
 
-/// Feeds stb, which takes missing bytes for zeros, and notices when it asks for more than there is.
+/// Feeds stb, and notices when it asks for more than there is.
 class Source {
 public:
     explicit Source(const std::string& bytes) : bytes_(bytes) {}
@@ -47,6 +49,12 @@ public:
         // stb's first read fills its buffer. It refills that for the sake of one byte; other reads want all they ask
         // for.
         ran_out_ = ran_out_ || (data == buffer_ ? count == 0 : count < size);
+        if (data == buffer_ && count == 0) {
+            // Told that there is nothing, stb would go on with zeros for ever, which as runs of no length lead nowhere.
+            // Line breaks end whatever it looks for: words, runs, segments.
+            std::memset(data, '\n', static_cast<std::size_t>(size));
+            return size;
+        }
         return count;
     }
     void skip(int count) {
@@ -135,7 +143,8 @@ void append(void* text, void* data, int size) {
 
 Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding) {
     const Place place{file.string()};
-    const std::string bytes = read_file(file);
+    std::string bytes = read_file(file);
+    prepare_png(bytes, place);
     if (!huffman_tables_fit(bytes)) {
         throw InputError(place, "the picture is damaged: a Huffman table is too large");
     }
@@ -145,7 +154,8 @@ Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding)
         throw InputError(place, source.ran_out() ? "the picture is truncated"
                                                  : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP or HDR)");
     }
-    check_image_size(width, height, bytes.size(), place);
+    // A BMP whose rows come from the top says so by a negative height.
+    check_image_size(width, bytes.starts_with("BM") ? std::abs(std::int64_t{height}) : height, bytes.size(), place);
     if (Source probe(bytes); stbi_is_hdr_from_callbacks(&callbacks, &probe)) {
         return load(bytes, place, stbi_loadf_from_callbacks, [](float v) { return v; });
     }

@@ -1,4 +1,5 @@
 #include <wend/io/load/camera_film.h>
+#include <wend/io/load/reach.h>
 
 #include <fmt/format.h>
 
@@ -171,7 +172,9 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
     }
     static_cast<void>(shutter_time(camera));
     context.warnings.add_unused("Camera", camera);
-    return Camera(kind, camera.camera_from_world.inverse(), resolution.x, resolution.y);
+    const Transform world_from_camera = camera.camera_from_world.inverse();
+    require_near(camera.place, "the camera stands", world_from_camera.point({0, 0, 0}));
+    return Camera(kind, world_from_camera, resolution.x, resolution.y);
 }
 
 float shutter_time(const pbrt::CameraEntity& camera) {

@@ -31,6 +31,8 @@ private:
 struct LoadContext {
     std::filesystem::path base_directory;
     Warnings warnings;
+    /// Triangles that subdivision led to so far.
+    double subdivided = 0;
 };
 
 /// The existing file that a string parameter names. Throws InputError at the parameter if there is none, at the

@@ -1,5 +1,6 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/lights.h>
+#include <wend/io/load/reach.h>
 
 #include <fmt/format.h>
 
@@ -43,7 +44,9 @@ PointLight load_point(LoadContext& context, const pbrt::LightEntity& light, cons
     if (const float power = load_target(p, "power"); power > 0) {
         intensity *= power * inv_4pi;
     }
-    return {light.world_from_light.point(p.get_point3("from", {0, 0, 0})), intensity};
+    const Vec3 position = light.world_from_light.point(p.get_point3("from", {0, 0, 0}));
+    require_near(light.place, fmt::format("LightSource \"{}\" stands", light.type), position);
+    return {position, intensity};
 }
 
 /// Lights whose intensity depends on the direction shine as on their axis, or on average, into all directions.

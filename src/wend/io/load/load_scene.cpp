@@ -4,6 +4,7 @@
 #include <wend/io/load/load_scene.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/reach.h>
 #include <wend/io/load/shapes.h>
 #include <wend/io/pbrt/parser.h>
 
@@ -41,10 +42,12 @@ public:
             area_lights_.push_back(load_area_light(context_, textures_, light));
         }
         scene_.objects.resize(description_.objects.size());
+        object_boxes_.resize(description_.objects.size());
         for (pbrt::ShapeEntity& shape : description_.shapes) {
             add_shape(shape);
         }
         for (const pbrt::ObjectInstance& instance : description_.instances) {
+            require_near(instance.place, object_boxes_[instance.object], instance.world_from_instance);
             scene_.instances.push_back({static_cast<int>(instance.object), instance.world_from_instance});
         }
         warn_of_boundaries(context_, scene_, places_, medium_names());
@@ -67,6 +70,11 @@ private:
         std::optional<Shape> shape = load_shape(context_, entity);
         if (!shape) {
             return;
+        }
+        const Box3 box =
+            require_near(entity.place, fmt::format("Shape \"{}\" reaches to a point", entity.type), *shape);
+        if (entity.object) {
+            object_boxes_[*entity.object].extendBy(box);
         }
         Surface surface{std::move(*shape)};
         surface.material = static_cast<int>(entity.material);
@@ -106,6 +114,7 @@ private:
     std::vector<std::optional<MediumId>> inside_;  ///< by material
     std::vector<AreaLight> area_lights_;
     std::vector<Place> places_;  ///< of the scene's surfaces
+    std::vector<Box3> object_boxes_;
 };
 
 }  // namespace

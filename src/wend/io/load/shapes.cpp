@@ -141,15 +141,17 @@ Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     return place(shape, std::move(mesh));
 }
 
-Shape load_subdivision_surface(LoadContext&, pbrt::ShapeEntity& shape) {
+Shape load_subdivision_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
     const int levels = shape.parameters.get_int("levels", 3);
     const pbrt::Location levels_place = shape.parameters.place_of("levels");
     const TriangleMeshData control = take_faces(shape, 3);
-    constexpr double most_triangles = 1 << 24;
+    // Refining takes a quarter of a kilobyte for each.
+    constexpr double most_triangles = 1 << 21;
     const double triangles = static_cast<double>(control.indices.size() / 3) * std::pow(4.0, levels);
-    if (levels < 0 || triangles > most_triangles) {
-        throw InputError(levels_place, fmt::format("\"levels\" is {}: it must not be negative, and lead to {:.0f} "
-                                                   "triangles at most",
+    context.subdivided += triangles;
+    if (levels < 0 || !(context.subdivided <= most_triangles)) {
+        throw InputError(levels_place, fmt::format("\"levels\" is {}: it must not be negative, and all \"loopsubdiv\" "
+                                                   "together lead to {:.0f} triangles at most",
                                                    levels, most_triangles));
     }
     std::optional<TriangleMeshData> limit = subdivide(control.positions, control.indices, levels);
@@ -241,7 +243,13 @@ std::optional<Shape> load_shape(LoadContext& context, pbrt::ShapeEntity& shape) 
         {"trianglemesh", load_triangle_mesh}};
     for (const Loader& loader : loaders) {
         if (loader.type == shape.type) {
-            return loader.load(context, shape);
+            Shape loaded = loader.load(context, shape);
+            if (const auto* mesh = std::get_if<TriangleMesh>(&loaded); mesh && mesh->indices.empty()) {
+                context.warnings.add(shape.place,
+                                     fmt::format("Shape \"{}\" has no triangles: it is left out", shape.type));
+                return std::nullopt;
+            }
+            return loaded;
         }
     }
     if (shape.type == "curve") {

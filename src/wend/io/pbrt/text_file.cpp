@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -39,6 +40,8 @@ std::string read_text_file(const std::filesystem::path& file, const Place& place
     if (!unknown_size && size < longest_text) {
         text.reserve(size + chunk);
     }
+    constexpr std::uintmax_t base = std::uintmax_t{256} << 20, best_ratio = 64;
+    const std::uintmax_t most = base + best_ratio * std::min<std::uintmax_t>(unknown_size ? 0 : size, longest_text);
     while (true) {
         const std::size_t used = text.size();
         text.resize(used + chunk);
@@ -49,6 +52,9 @@ std::string read_text_file(const std::filesystem::path& file, const Place& place
         text.resize(used + static_cast<std::size_t>(count));
         if (text.size() >= longest_text) {
             fail(file, place, "the text is 2 GiB or more; keep large meshes in PLY files");
+        }
+        if (text.size() > most) {
+            fail(file, place, fmt::format("it does not end within {} MiB", most >> 20));
         }
         if (count == 0) {
             break;

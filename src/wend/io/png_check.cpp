@@ -1,0 +1,115 @@
+#include <wend/io/png_check.h>
+
+#include <zlib.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace wend {
+namespace {
+
+constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+constexpr std::size_t empty_chunk = 12;  // bytes of its length, type and checksum
+
+std::uint32_t big_endian(std::string_view bytes) {
+    std::uint32_t value = 0;
+    for (const char byte : bytes.substr(0, 4)) {
+        value = value << 8 | static_cast<unsigned char>(byte);
+    }
+    return value;
+}
+
+struct Chunk {
+    std::size_t begin;
+    std::string_view type, data;
+
+    std::size_t end() const { return begin + empty_chunk + data.size(); }
+};
+
+/// The chunk at a place; none where the file ends before.
+std::optional<Chunk> chunk_at(std::string_view file, std::size_t begin) {
+    if (begin > file.size() || file.size() - begin < empty_chunk) {
+        return std::nullopt;
+    }
+    const std::uint32_t size = big_endian(file.substr(begin));
+    if (file.size() - begin - empty_chunk < size) {
+        return std::nullopt;
+    }
+    return Chunk{begin, file.substr(begin + 4, 4), file.substr(begin + 8, size)};
+}
+
+/// The most bytes that the rows unpack to. Interlaced ones come in seven pictures, with a byte before each row.
+std::uint64_t unpacked_size(std::string_view header) {
+    constexpr std::array<int, 7> samples{1, 0, 3, 1, 2, 0, 4};
+    const std::uint64_t width = big_endian(header), height = big_endian(header.substr(4));
+    const auto depth = static_cast<unsigned char>(header[8]), kind = static_cast<unsigned char>(header[9]);
+    const std::uint64_t bits = kind < samples.size() ? static_cast<std::uint64_t>(samples[kind] * depth) : 0;
+    return height * (width * bits / 8 + 2) * (header[12] == 0 ? 1 : 2) + 16;
+}
+
+/// Unpacks what chunks hold together, and keeps none of it.
+class Unpacking {
+public:
+    Unpacking() : status_(inflateInit(&stream_)) {}
+    ~Unpacking() { inflateEnd(&stream_); }
+    Unpacking(const Unpacking&) = delete;
+    Unpacking& operator=(const Unpacking&) = delete;
+
+    /// Whether it is whole so far, and that many bytes at most.
+    bool goes_on(std::string_view data, std::uint64_t most) {
+        std::array<Bytef, 1 << 15> unpacked;
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));  // is only read from
+        stream_.avail_in = static_cast<uInt>(data.size());
+        do {
+            stream_.next_out = unpacked.data();
+            stream_.avail_out = unpacked.size();
+            if (status_ == Z_OK) {
+                status_ = inflate(&stream_, Z_NO_FLUSH);
+                status_ = status_ == Z_BUF_ERROR ? Z_OK : status_;
+            }
+        } while (status_ == Z_OK && stream_.avail_out == 0 && stream_.total_out <= most);
+        return (status_ == Z_OK || status_ == Z_STREAM_END) && stream_.total_out <= most;
+    }
+
+private:
+    z_stream stream_{};
+    int status_;
+};
+
+}  // namespace
+
+void prepare_png(std::string& file, const Place& place) {
+    if (!file.starts_with(signature)) {
+        return;
+    }
+    std::uint64_t most = 0;
+    Unpacking unpacking;
+    std::vector<std::size_t> empty;
+    for (auto chunk = chunk_at(file, signature.size()); chunk; chunk = chunk_at(file, chunk->end())) {
+        if (chunk->type == "IHDR" && chunk->data.size() == 13) {
+            most = unpacked_size(chunk->data);
+        } else if (chunk->type == "IDAT" && chunk->data.empty()) {
+            empty.push_back(chunk->begin);
+        } else if (chunk->type == "IDAT" && !unpacking.goes_on(chunk->data, most)) {
+            throw InputError(place, "the picture is damaged: its pixels are not what the header says");
+        } else if (chunk->type == "CgBI") {
+            throw InputError(place, "the picture is a PNG file as only iPhones have it");
+        }
+    }
+    if (!empty.empty()) {
+        std::string kept;
+        std::size_t from = 0;
+        for (const std::size_t begin : empty) {
+            kept.append(file, from, begin - from);
+            from = begin + empty_chunk;
+        }
+        kept.append(file, from);
+        file = std::move(kept);
+    }
+}
+
+}  // namespace wend
