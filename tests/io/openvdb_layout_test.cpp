@@ -224,7 +224,7 @@ void expect_read(const typename GridType::Ptr& grid, const Volume& volume) {
 TEST_F(OpenVdb, EveryKindOfFileIsRead) {
     using namespace openvdb::io;
     for (const bool half : {false, true}) {
-        for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
+        for (const std::uint32_t compression : {0u, 1u, 3u, 6u}) {
             const auto floats = lumps<openvdb::FloatGrid>(half);
             expect_read<openvdb::FloatGrid>(floats, read_volume(store(floats, compression), "density"));
             const auto doubles = lumps<openvdb::DoubleGrid>(half);
@@ -237,7 +237,7 @@ TEST_F(OpenVdb, NoDamageIsFatal) {
     for (const std::uint32_t compression : {0u, 3u, 6u}) {
         const std::string whole = read_file(store(lumps<openvdb::FloatGrid>(false), compression));
         Pcg32 random(compression);
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 30; ++i) {
             std::string broken = whole;
             // The masks of an upper node are most of the file: the beginning deserves its share.
             const std::size_t range = i % 2 ? broken.size() : 700;

@@ -15,6 +15,14 @@ namespace wend {
 
 namespace {
 
+/// What is wrong with a seed; empty: nothing. CLI11 takes what is too large for the largest number.
+std::string seed_problem(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data(), end, seed);
+    return error == std::errc() && read == end ? "" : "'" + text + "' is not a whole number from 0 to 2^64 - 1";
+}
+
 /// What is wrong with a number of threads; empty: nothing.
 std::string threads_problem(const std::string& text) {
     int threads = 0;
@@ -43,7 +51,7 @@ void CommonOptions::add_to(CLI::App& command) {
     command.add_option("--json", json, "write the results as JSON to this file ('-': standard output)")
         ->check(json_target_problem);
     command.add_option("--seed", seed, "seed of the random numbers (default: the scene's if there is one, or 0)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(seed_problem);
     command.add_option("--threads", threads, "number of threads (0: all); the result does not depend on it")
         ->check(threads_problem);
     command.add_flag("--quiet", quiet, "no progress and no notes");

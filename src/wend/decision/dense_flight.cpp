@@ -42,9 +42,11 @@ bool fly_densely(const GridMedium& medium, const FlightStart& start, float t_in,
         const DepthSample at = sample_depth(extinction, probability, most, random);
         const auto t = static_cast<float>(passage.find(at.depth));
         const Vec3 here = start.ray.at(t);
+        // The flight has come so far as one of the mixture of channels does.
+        const double reached = double{dot(probability, transmitted(extinction, depth))};
         pick_up(flight,
                 before * transmitted(extinction, depth + at.depth) * medium.absorption() * medium.emission()->at(here) *
-                    static_cast<float>(start.keeps(here) / at.density),
+                    static_cast<float>(start.keeps(here) / (reached * at.density)),
                 t);
     };
     const auto cross = [&](const VoxelPassage& passage) {

@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <string_view>
@@ -45,6 +47,37 @@ void insert_colours(Imf::FrameBuffer& frame, const Rgb& first, const Imath::Box2
     frame.insert("R", float_slice(&first.r, window, 3));
     frame.insert("G", float_slice(&first.g, window, 3));
     frame.insert("B", float_slice(&first.b, window, 3));
+}
+
+/// The library takes memory for what an attribute says that it holds: this compares that with the file's size.
+void check_attributes(const std::filesystem::path& file, const Place& place) {
+    constexpr std::streamoff bytes_before_header = 8;
+    constexpr std::size_t longest_name = 255;
+    std::ifstream stream(file, std::ios::binary);
+    stream.seekg(bytes_before_header);
+    auto left = static_cast<std::int64_t>(std::filesystem::file_size(file)) - bytes_before_header;
+    const auto take_name = [&] {
+        std::string name;
+        for (int c = stream.get(); c > 0 && name.size() <= longest_name; c = stream.get()) {
+            name += static_cast<char>(c);
+        }
+        left -= static_cast<std::int64_t>(name.size()) + 1;
+        if (name.size() > longest_name) {
+            throw InputError(place, "the picture is damaged: an attribute's name does not end");
+        }
+        return name;
+    };
+    while (!take_name().empty()) {
+        take_name();  // type
+        std::int32_t size = 0;
+        stream.read(reinterpret_cast<char*>(&size), sizeof size);
+        left -= sizeof size;
+        if (!stream || size < 0 || size > left) {
+            throw InputError(place, "the picture is truncated");
+        }
+        stream.seekg(size, std::ios::cur);
+        left -= size;
+    }
 }
 
 /// Looks at the header alone: opening the file for reading already takes memory in proportion to its declared size.
@@ -75,6 +108,7 @@ void check_size(Imf::IStream& stream, const Place& place) {
 void with_file(const std::filesystem::path& file, const std::function<void(Imf::InputFile&)>& body) {
     const Place place{file.string()};
     try {
+        check_attributes(file, place);
         Imf::StdIFStream stream(file.c_str());
         check_size(stream, place);
         Imf::InputFile input(stream);

@@ -89,7 +89,14 @@ void prepare_png(std::string& file, const Place& place) {
     std::uint64_t most = 0;
     Unpacking unpacking;
     std::vector<std::size_t> empty;
-    for (auto chunk = chunk_at(file, signature.size()); chunk; chunk = chunk_at(file, chunk->end())) {
+    for (auto chunk = chunk_at(file, signature.size());; chunk = chunk_at(file, chunk->end())) {
+        if (!chunk) {
+            // stb takes memory for what a chunk says that it holds.
+            throw InputError(place, "the picture is truncated");
+        }
+        if (chunk->type == "IEND") {
+            break;
+        }
         if (chunk->type == "IHDR" && chunk->data.size() == 13) {
             most = unpacked_size(chunk->data);
         } else if (chunk->type == "IDAT" && chunk->data.empty()) {

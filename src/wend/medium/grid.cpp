@@ -61,10 +61,9 @@ Grid::Grid(const Vec3i& first, const Vec3i& size, std::size_t max_bytes) : first
     origin_ = bounds_.min;
     extent_ = Vec3(cell_count);
 
-    // The table of bricks is dense: it alone must not exceed a fair part of the memory.
-    constexpr std::size_t longest_table = std::size_t{1} << 28;
-    const std::size_t max_bricks = std::min(max_bytes / 8 / sizeof(std::int32_t), longest_table);
-    if (static_cast<double>(bricks_count_.x) * bricks_count_.y * bricks_count_.z > static_cast<double>(max_bricks)) {
+    // The table of bricks takes memory by pages, where there is something; looking through it takes a second.
+    constexpr double longest_table = 1 << 28;
+    if (static_cast<double>(bricks_count_.x) * bricks_count_.y * bricks_count_.z > longest_table) {
         throw_too_large(size, max_bytes);
     }
     bricks_.resize(table_size());

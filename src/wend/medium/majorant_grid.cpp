@@ -34,7 +34,7 @@ MajorantGrid::MajorantGrid(const Grid& grid, const Box3& box, float cell_size) :
     WEND_EXPECT(cell_size > 0 && !box.isEmpty());
     const Vec3 extent = box.max - box.min;
     // A grid of little in a large box has coarser cells, so that they take no more memory than it, or little.
-    const double most_cells = std::max(0x1p22, static_cast<double>(grid.stored_voxels()));
+    const double most_cells = std::max(0x1p23, 0.25 * static_cast<double>(grid.stored_voxels()));
     const double cells = static_cast<double>(extent.x / cell_size) * (extent.y / cell_size) * (extent.z / cell_size);
     if (cells > most_cells) {
         cell_size *= static_cast<float>(std::cbrt(cells / most_cells));

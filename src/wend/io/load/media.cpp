@@ -297,6 +297,22 @@ Medium load_cloud(LoadContext& context, const pbrt::MediumEntity& entity) {
                       absorption, scattering, load_phase(context, p));
 }
 
+/// Throws InputError where products of the medium's numbers would leave the range of floats.
+void require_countable(const pbrt::MediumEntity& entity, const Medium& medium) {
+    constexpr double densest = 1e18;
+    double most = 0;
+    if (const auto* grid = std::get_if<GridMedium>(&medium)) {
+        most = double{max_value(grid->extinction())} * grid->density().max_value();
+    } else {
+        most = max_value(std::get<HomogeneousMedium>(medium).extinction());
+    }
+    if (!(most <= densest)) {
+        throw InputError(entity.place,
+                         fmt::format("the medium \"{}\" has an extinction of {:g} per unit, but {:g} is the most",
+                                     entity.name, most, densest));
+    }
+}
+
 }  // namespace
 
 Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium) {
@@ -319,6 +335,7 @@ Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium) {
         refuse_type("Medium", medium, {"cloud", "homogeneous", "nanovdb", "rgbgrid", "uniformgrid"});
     };
     Medium result = load();
+    require_countable(medium, result);
     context.warnings.add_unused("Medium", medium);
     return result;
 }
