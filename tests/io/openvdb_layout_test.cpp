@@ -165,7 +165,7 @@ openvdb::FloatGrid::Ptr far_tile(float value) {
     grid->setName("density");
     grid->tree().setValue({0, 0, 0}, 1.0f);
     grid->tree().setValue({3, 2, 1}, 2.0f);
-    grid->tree().addTile(1, {3968, 3968, 3968}, value, true);
+    grid->tree().addTile(2, {3968, 3968, 3968}, value, true);
     return grid;
 }
 
@@ -199,7 +199,7 @@ typename GridType::Ptr lumps(bool half) {
         const auto at = [&random] { return static_cast<int>(random.next() % 80) - 40; };
         grid->tree().setValue({at(), at(), at()}, static_cast<float>(1 + random.next() % 8) / 8);
     }
-    grid->tree().addTile(1, {128, 0, 0}, 0.25f, true);
+    grid->tree().addTile(2, {128, 0, 0}, 0.25f, true);
     return grid;
 }
 

@@ -54,7 +54,9 @@ void check_attributes(const std::filesystem::path& file, const Place& place) {
     constexpr std::streamoff bytes_before_header = 8;
     constexpr std::size_t longest_name = 255;
     std::ifstream stream(file, std::ios::binary);
-    stream.seekg(bytes_before_header);
+    std::uint32_t start[2] = {0, 0};  // the magic number and the version, with flags
+    stream.read(reinterpret_cast<char*>(start), bytes_before_header);
+    constexpr std::uint32_t many_parts = 0x1000;
     auto left = static_cast<std::int64_t>(std::filesystem::file_size(file)) - bytes_before_header;
     const auto take_name = [&] {
         std::string name;
@@ -67,7 +69,15 @@ void check_attributes(const std::filesystem::path& file, const Place& place) {
         }
         return name;
     };
-    while (!take_name().empty()) {
+    // Each of many parts has a header, and an empty one ends them.
+    int attributes = 0;
+    for (bool ends = false; !ends;) {
+        if (take_name().empty()) {
+            ends = (start[1] & many_parts) == 0 || attributes == 0;
+            attributes = 0;
+            continue;
+        }
+        ++attributes;
         take_name();  // type
         std::int32_t size = 0;
         stream.read(reinterpret_cast<char*>(&size), sizeof size);
