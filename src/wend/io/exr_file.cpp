@@ -16,8 +16,10 @@
 #include <half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -49,6 +51,66 @@ void insert_colours(Imf::FrameBuffer& frame, const Rgb& first, const Imath::Box2
     frame.insert("B", float_slice(&first.b, window, 3));
 }
 
+/// Whether an attribute holds what its type says: the library reads that, and goes on behind it whatever the size is.
+bool is_of_its_size(std::string_view type, std::string_view value) {
+    constexpr std::array<std::pair<std::string_view, std::size_t>, 24> sizes{{{"box2f", 16},
+                                                                              {"box2i", 16},
+                                                                              {"chromaticities", 32},
+                                                                              {"compression", 1},
+                                                                              {"deepImageState", 1},
+                                                                              {"double", 8},
+                                                                              {"envmap", 1},
+                                                                              {"float", 4},
+                                                                              {"int", 4},
+                                                                              {"keycode", 28},
+                                                                              {"lineOrder", 1},
+                                                                              {"m33d", 72},
+                                                                              {"m33f", 36},
+                                                                              {"m44d", 128},
+                                                                              {"m44f", 64},
+                                                                              {"rational", 8},
+                                                                              {"tiledesc", 9},
+                                                                              {"timecode", 8},
+                                                                              {"v2d", 16},
+                                                                              {"v2f", 8},
+                                                                              {"v2i", 8},
+                                                                              {"v3d", 24},
+                                                                              {"v3f", 12},
+                                                                              {"v3i", 12}}};
+    for (const auto& [known, size] : sizes) {
+        if (type == known) {
+            return value.size() == size;
+        }
+    }
+    const auto number = [&value](std::size_t at) {
+        std::uint32_t n = 0;
+        std::memcpy(&n, value.data() + at, sizeof n);
+        return std::uint64_t{n};
+    };
+    if (type == "preview") {
+        return value.size() >= 8 && number(0) < (1u << 16) && number(4) < (1u << 16) &&
+               value.size() == 8 + 4 * number(0) * number(4);
+    }
+    if (type == "stringvector") {
+        while (value.size() >= sizeof(std::uint32_t) && number(0) <= value.size() - sizeof(std::uint32_t)) {
+            value.remove_prefix(sizeof(std::uint32_t) + number(0));
+        }
+        return value.empty();
+    }
+    if (type == "chlist") {
+        constexpr std::size_t channel = 16;
+        while (!value.empty() && value.front() != 0) {
+            const std::size_t name = value.find('\0');
+            if (name == std::string_view::npos || value.size() - name - 1 < channel) {
+                return false;
+            }
+            value.remove_prefix(name + 1 + channel);
+        }
+        return value.size() == 1;
+    }
+    return true;
+}
+
 /// The library takes memory for what an attribute says that it holds: this compares that with the file's size.
 void check_attributes(const std::filesystem::path& file, const Place& place) {
     constexpr std::streamoff bytes_before_header = 8;
@@ -78,15 +140,19 @@ void check_attributes(const std::filesystem::path& file, const Place& place) {
             continue;
         }
         ++attributes;
-        take_name();  // type
+        const std::string type = take_name();
         std::int32_t size = 0;
         stream.read(reinterpret_cast<char*>(&size), sizeof size);
         left -= sizeof size;
         if (!stream || size < 0 || size > left) {
             throw InputError(place, "the picture is truncated");
         }
-        stream.seekg(size, std::ios::cur);
+        std::string value(static_cast<std::size_t>(size), '\0');
+        stream.read(value.data(), size);
         left -= size;
+        if (!is_of_its_size(type, value)) {
+            throw InputError(place, "the picture is damaged: an attribute is not of its size");
+        }
     }
 }
 
