@@ -28,7 +28,7 @@ TEST(FarRays, LeaveTheScene) {
         expect_met(scene, {{0, 0, 1}, {0, 0, -far}}, false);
     }
     expect_met(scene, {{0, 0, 1}, {0, nan, -1}}, false);
-    EXPECT_FALSE(scene.find({{0, 0, 1}, {0, 0, -1}}, nan));
+    EXPECT_FALSE(scene.find(Ray{{0, 0, 1}, {0, 0, -1}}, nan));
 }
 
 TEST(FarRays, LeaveTheSceneOfATinyInstance) {
