@@ -245,9 +245,9 @@ public:
         field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
         for (Field::Node& node : field.nodes_) {
             node.plane = in.take_finite<float>();
-            const auto kind = in.take<std::uint8_t>();
-            node.axis = kind & 3u;
-            node.alike = kind >> 2 & 1u;
+            const auto bits = in.take<std::uint8_t>();
+            node.axis = bits & 3u;
+            node.alike = bits >> 2 & 1u;
             node.child = in.take<std::uint32_t>() & Field::largest_child;
         }
         constexpr std::size_t least_region = 9 * sizeof(float);
