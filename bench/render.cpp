@@ -22,7 +22,7 @@ struct Loaded {
     Scene scene;
 };
 
-const Loaded& scene_named(const std::string& name) {
+const Loaded& scene_named(const char* name) {
     static std::map<std::string, std::unique_ptr<Loaded>> scenes;
     auto& entry = scenes[name];
     if (!entry) {
@@ -61,7 +61,7 @@ void walks(benchmark::State& state, const char* name) {
     for (auto _ : state) {
         Sampler sampler(SamplerKind::sobol, 1, i % 1000, i / 1000);
         ++i;
-        const WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler);
+        WalkResult result = tracer.trace(camera_ray(loaded, sampler), 0, sampler);
         segments += result.sample.segments;
         benchmark::DoNotOptimize(result);
     }
