@@ -1,5 +1,5 @@
-#include <tests/scene/small_scene.h>
 #include <tests/sampling/verdicts.h>
+#include <tests/scene/small_scene.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/core/frame.h>
 #include <wend/core/ray.h>

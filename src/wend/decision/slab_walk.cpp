@@ -1,3 +1,4 @@
+#include <wend/core/contracts.h>
 #include <wend/decision/slab_walk.h>
 #include <wend/medium/transmittance.h>
 #include <wend/numeric/fast_exp.h>
@@ -198,6 +199,7 @@ std::optional<DirectionSample> SlabWalk::Directions::sample(float u, const Vec2&
     s.direction = w;
     s.value = Rgb(phase.evaluate(dot(before_, w)));
     s.density = density(w);
+    WEND_ENSURE(s.density > 0);
     return s;
 }
 

@@ -1,5 +1,6 @@
 #include <wend/io/load/boundaries.h>
 #include <wend/scene/boundary_faults.h>
+#include <wend/scene/medium_faults.h>
 
 #include <fmt/format.h>
 
@@ -31,10 +32,35 @@ std::string describe(const BoundaryFault& fault, const std::string& medium) {
     return {};
 }
 
+std::string in_quotes(const std::vector<std::string>& names, MediumId id) {
+    const std::string& name = id == vacuum ? std::string() : names[static_cast<std::size_t>(id)];
+    return id == vacuum ? "\"\"" : name.empty() ? "a medium without a name" : fmt::format("\"{}\"", name);
+}
+
+std::string describe(const MediumFault& fault, const std::vector<std::string>& names) {
+    const std::string medium = in_quotes(names, fault.medium), around = in_quotes(names, fault.around);
+    switch (fault.kind) {
+        case MediumFault::Kind::camera:
+            return fmt::format(
+                "the camera is in {} as the surfaces around it tell, but the scene does not say so: walks begin "
+                "outside of it (MediumInterface \"\" {} before Camera puts them there)",
+                medium, medium);
+        case MediumFault::Kind::nested:
+            return fmt::format(
+                "this boundary of {} lies within {} but does not name it: {} is taken to go on around it "
+                "(MediumInterface {} {} says so)",
+                medium, around, around, medium, around);
+        case MediumFault::Kind::overlap:
+            return fmt::format("this boundary of {} lies partly within {}: where both are, the smaller is taken",
+                               medium, around);
+    }
+    return {};
+}
+
 }  // namespace
 
 void warn_of_boundaries(LoadContext& context, const SceneDescription& scene, const std::vector<Place>& places,
-                        const std::vector<std::string>& names) {
+                        const std::vector<std::string>& names, const Place& camera) {
     const std::vector<BoundaryFault> faults = boundary_faults(scene);
     for (std::size_t i = 0; i < std::min(faults.size(), most_warnings); ++i) {
         const BoundaryFault& fault = faults[i];
@@ -44,6 +70,10 @@ void warn_of_boundaries(LoadContext& context, const SceneDescription& scene, con
             text += fmt::format("; {} more like this are not listed", faults.size() - most_warnings);
         }
         context.warnings.add(places[static_cast<std::size_t>(fault.surface)], text);
+    }
+    for (const MediumFault& fault : medium_faults(scene)) {
+        const Place& place = fault.surface < 0 ? camera : places[static_cast<std::size_t>(fault.surface)];
+        context.warnings.add(place, describe(fault, names));
     }
 }
 

@@ -50,7 +50,7 @@ public:
             require_near(instance.place, object_boxes_[instance.object], instance.world_from_instance);
             scene_.instances.push_back({static_cast<int>(instance.object), instance.world_from_instance});
         }
-        warn_of_boundaries(context_, scene_, places_, medium_names());
+        warn_of_boundaries(context_, scene_, places_, medium_names(), description_.camera.place);
     }
 
 private:
