@@ -78,18 +78,24 @@ INSTANTIATE_TEST_SUITE_P(Presets, Reproducible,
                          testing::Values("classical", "scatter", "distance", "direction", "full", "roulette",
                                          "splitting"));
 
-TEST(Reproducible, TheListOfPassesRepeatsATimedRun) {
+TEST(Reproducible, TheListOfPassesRepeatsARunThatWasStopped) {
     const Scene scene(foggy_room());
     RenderSettings settings;
     settings.preset = parse_preset("direction");
-    settings.seconds = 0.6;
-    Film timed({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-    const RenderStatistics first = render(scene, timed, settings);
+    settings.seconds = 1e9;
+    Film stopped({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    int samples = 0;
+    const RenderStatistics first = render(scene, stopped, settings, [&](const RenderProgress& progress) {
+        samples = progress.samples;
+        return samples < 40;
+    });
+    EXPECT_TRUE(first.interrupted);
+    EXPECT_EQ(first.samples, samples) << "no pass begins after the stop";
     settings.passes = first.passes;
     settings.seconds = 0;
     Film repeated({resolution, resolution}, {{0, 0}, {resolution, resolution}});
     render(scene, repeated, settings);
-    EXPECT_EQ(timed.beauty().pixels, repeated.beauty().pixels);
+    EXPECT_EQ(stopped.beauty().pixels, repeated.beauty().pixels);
 }
 
 /// Independent renders of the same picture: mean and its standard error, block by block and for the whole.

@@ -1,0 +1,166 @@
+// Scenes of tests/cases: what was reported to other renderers, each with its right mean, rendered as anybody would.
+#include "program_support.h"
+#include "tests/support/paths.h"
+
+#include <wend/integrator/render.h>
+#include <wend/io/load/load_scene.h>
+
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace wend {
+namespace {
+
+struct Expected {
+    double mean[3] = {0, 0, 0};
+    double tolerance[3] = {0, 0, 0};
+};
+
+/// What the head of a scene says: "# Right mean: R G B within T %", or a T for each channel.
+Expected read_expected(const std::string& scene) {
+    static const std::regex line("# Right mean: (.*) within (.*) %\n");
+    std::smatch found;
+    Expected expected;
+    if (!std::regex_search(scene, found, line)) {
+        ADD_FAILURE() << "the scene does not say its right mean";
+        return expected;
+    }
+    std::istringstream means(found[1]), tolerances(found[2]);
+    double percent = 0;
+    for (int c = 0; c < 3; ++c) {
+        means >> expected.mean[c];
+        if (double next = 0; tolerances >> next) {
+            percent = next;
+        }
+        expected.tolerance[c] = percent / 100 * expected.mean[c];
+    }
+    EXPECT_TRUE(means) << found[1];
+    return expected;
+}
+
+struct Seen {
+    double mean[3] = {0, 0, 0};
+    double standard_error[3] = {0, 0, 0};
+};
+
+Seen mean_of(const Picture& picture) {
+    const auto variance =
+        std::find_if(picture.layers.begin(), picture.layers.end(), [](const Layer& l) { return l.name == "variance"; });
+    Seen seen;
+    const auto pixels = static_cast<double>(picture.image.pixels.size());
+    for (int c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < picture.image.pixels.size(); ++i) {
+            seen.mean[c] += picture.image.pixels[i][c] / pixels;
+            seen.standard_error[c] += variance->values[3 * i + static_cast<std::size_t>(c)];
+        }
+        seen.standard_error[c] = std::sqrt(seen.standard_error[c]) / pixels;
+    }
+    return seen;
+}
+
+/// Renders with what the scene and the defaults of `wend render` say; the samples are those of the scene.
+void expect_right_mean(const std::filesystem::path& file) {
+    const Expected expected = read_expected(test::read_text(file));
+    LoadedScene loaded = load_scene(file);
+    Film film(loaded.resolution, loaded.crop);
+    RenderSettings settings;
+    settings.preset = parse_preset("full");
+    settings.subsurface = parse_subsurface("auto");
+    settings.samples = loaded.samples;
+    settings.seed = 1;
+    settings.sampler = loaded.sampler;
+    settings.max_depth = loaded.max_depth;
+    settings.filter = loaded.filter;
+    settings.exposure = loaded.exposure;
+    ASSERT_EQ(settings.sampler, SamplerKind::independent) << "or else the variance layer is an overestimate";
+    const Scene scene(std::move(loaded.scene));
+    const RenderStatistics statistics = render(scene, film, settings);
+    EXPECT_EQ(statistics.counts.rejected, 0u);
+    const Seen seen = mean_of(film.picture());
+    constexpr double rounding = 1e-6;
+    for (int c = 0; c < 3; ++c) {
+        SCOPED_TRACE("channel " + std::to_string(c) + ", standard error " + std::to_string(seen.standard_error[c]));
+        EXPECT_NEAR(seen.mean[c], expected.mean[c], expected.tolerance[c] + rounding);
+        EXPECT_LE(3 * seen.standard_error[c], expected.tolerance[c] + rounding) << "too few samples to tell";
+    }
+}
+
+std::vector<std::string> cases() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "tests" / "cases")) {
+        if (entry.path().extension() == ".pbrt") {
+            names.push_back(entry.path().stem().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class PublicCase : public testing::TestWithParam<std::string> {};
+
+TEST_P(PublicCase, HasItsRightMean) {
+    expect_right_mean(test::source_dir() / "tests" / "cases" / (GetParam() + ".pbrt"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Slow, PublicCase, testing::ValuesIn(cases()), [](const auto& parameter) {
+    std::string name = parameter.param;
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    return name;
+});
+
+/// openvdb issue 1840 (rotated transforms), unreal-vdb issue 78 (negative scale in a file's transform).
+TEST(PublicCases, AVolumeThatItsFileMirrorsAndTurns) {
+    const test::ScratchFolder folder;
+    // Index x >= 0 holds 3, x < 0 holds .5. The file mirrors x and turns it to the world's -y.
+    openvdb::initialize();
+    const auto grid = openvdb::FloatGrid::create(0.0f);
+    grid->setName("density");
+    auto voxels = grid->getAccessor();
+    for (int x = -8; x < 8; ++x) {
+        for (int y = -8; y < 8; ++y) {
+            for (int z = -8; z < 8; ++z) {
+                voxels.setValue({x, y, z}, x < 0 ? 0.5f : 3.0f);
+            }
+        }
+    }
+    constexpr double size = 0.125;
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(
+        openvdb::Mat4d(0., -size, 0., 0., -size, 0., 0., 0., 0., 0., size, 0., 0., 0., 0., 1.)));  // row vectors
+    openvdb::io::File(folder.file("ramp.vdb")).write({grid});
+
+    const auto scene_from = [&](double y0, double y1, const std::string& right) {
+        std::ostringstream text;
+        text << "# Right mean: " << right << " %\n"
+             << R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12
+PixelFilter "box"
+Sampler "independent" "integer pixelsamples" 1024
+Integrator "volpath" "integer maxdepth" 100
+LookAt 0 0 -8  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -0.3 0.3 )"
+             << y0 << ' ' << y1 << R"( ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+MakeNamedMedium "m" "string type" "nanovdb" "string filename" "ramp.vdb" "rgb sigma_a" [ 0.2 0.5 1 ] "rgb sigma_s" [ 0 0 0 ]
+Material "interface"
+MediumInterface "m" ""
+Shape "sphere" "float radius" 3
+)";
+        return folder.write("ramp.pbrt", text.str());
+    };
+    // Beer-Lambert over 15.5 voxels: the bounds of the file, from the least index to the largest plus one, cut half a
+    // voxel of the field's border on one side.
+    expect_right_mean(scene_from(-0.8, -0.2, "0.3127 0.0547 0.0030 within 2 2 10"));
+    expect_right_mean(scene_from(0.2, 0.8, "0.8239 0.6161 0.3796 within 1"));
+}
+
+}  // namespace
+}  // namespace wend
