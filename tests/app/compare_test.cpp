@@ -31,7 +31,7 @@ protected:
 TEST_F(Compare, RendersAReferenceWhereThereIsNoneAndKeepsIt) {
     const auto first = compare({"--sampling", "classical", "--out", folder_.file("report")});
     ASSERT_EQ(first.status, 0) << first.err;
-    EXPECT_NE(first.err.find("two halves of 0.2 s"), std::string::npos) << first.err;
+    EXPECT_NE(first.err.find("two halves of 0.16 s"), std::string::npos) << first.err;
     const Picture a = read_picture(folder_.file("report/room.ref-a.exr"));
     const Picture b = read_picture(folder_.file("report/room.ref-b.exr"));
     EXPECT_TRUE(a.layers.empty());
