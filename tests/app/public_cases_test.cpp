@@ -86,15 +86,27 @@ void expect_right_mean(const std::filesystem::path& file) {
     }
 }
 
-std::vector<std::string> cases() {
+bool takes_seconds(const std::string& name) {
+    return name.starts_with("scale_") || name == "camera_in_dense_glass_furnace" || name.starts_with("dense_box_");
+}
+
+std::vector<std::string> cases(bool slow) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "tests" / "cases")) {
-        if (entry.path().extension() == ".pbrt") {
-            names.push_back(entry.path().stem().string());
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".pbrt" && takes_seconds(name) == slow) {
+            names.push_back(name);
         }
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& parameter) {
+    std::string name = parameter.param;
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    return name;
 }
 
 class PublicCase : public testing::TestWithParam<std::string> {};
@@ -103,12 +115,8 @@ TEST_P(PublicCase, HasItsRightMean) {
     expect_right_mean(test::source_dir() / "tests" / "cases" / (GetParam() + ".pbrt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Slow, PublicCase, testing::ValuesIn(cases()), [](const auto& parameter) {
-    std::string name = parameter.param;
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, PublicCase, testing::ValuesIn(cases(false)), test_name);
+INSTANTIATE_TEST_SUITE_P(SlowScenes, PublicCase, testing::ValuesIn(cases(true)), test_name);
 
 /// openvdb issue 1840 (rotated transforms), unreal-vdb issue 78 (negative scale in a file's transform).
 TEST(PublicCases, AVolumeThatItsFileMirrorsAndTurns) {
