@@ -32,7 +32,8 @@ struct Ended {
 /// `wend ARGUMENTS...` in a folder, its messages caught in a file of another.
 Ended run_limited(const std::vector<std::string>& arguments, const fs::path& folder,
                   const test::ScratchFolder& scratch) {
-    std::vector<char*> argv{const_cast<char*>(WEND_PROGRAM)};
+    const std::string program = test::wend_program();
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
     }
@@ -44,7 +45,7 @@ Ended run_limited(const std::vector<std::string>& arguments, const fs::path& fol
         const int file = open(messages.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (setrlimit(RLIMIT_CPU, &seconds) == 0 && chdir(folder.c_str()) == 0 && dup2(file, 1) == 1 &&
             dup2(file, 2) == 2) {
-            execv(WEND_PROGRAM, argv.data());
+            execv(program.c_str(), argv.data());
         }
         _exit(127);
     }

@@ -9,12 +9,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 namespace wend::test {
 namespace {
@@ -72,62 +72,92 @@ ProgramResult run_wend(const std::vector<std::string>& arguments) {
     return result;
 }
 
+std::string wend_program() {
+    return WEND_PROGRAM;
+}
+
 WendProcess::WendProcess(const std::vector<std::string>& arguments, const ScratchFolder& folder)
-    : out_(folder.path() / "stdout.txt"), err_(folder.path() / "stderr.txt") {
+    : terminal_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)), out_(folder.path() / "stdout.txt") {
+    if (terminal_ < 0 || grantpt(terminal_) != 0 || unlockpt(terminal_) != 0) {
+        throw std::runtime_error("there is no pseudo-terminal");
+    }
     std::vector<const char*> argv = with_program_name(arguments);
     argv.push_back(nullptr);
     posix_spawn_file_actions_t streams;
     posix_spawn_file_actions_init(&streams);
     posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, ptsname(terminal_), O_RDWR | O_NOCTTY, 0);
     const int failed =
         posix_spawn(&pid_, WEND_PROGRAM, &streams, nullptr, const_cast<char* const*>(argv.data()), environ);
     posix_spawn_file_actions_destroy(&streams);
     if (failed != 0) {
+        close(terminal_);
         throw std::runtime_error("the program does not start: " WEND_PROGRAM);
     }
 }
 
 WendProcess::~WendProcess() {
-    if (!ended_) {
+    if (pid_ > 0) {
         signal(SIGKILL);
-        wait(10);
+        wait();
     }
+    close(terminal_);
 }
 
 void WendProcess::signal(int number) const {
     kill(pid_, number);
 }
 
-ProgramResult WendProcess::wait(double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    int status = 0;
-    while (!ended_ && std::chrono::steady_clock::now() < end) {
-        ended_ = waitpid(pid_, &status, WNOHANG) == pid_;
-        if (!ended_) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+bool WendProcess::read_terminal() {
+    char text[1024];
+    ssize_t size = 0;
+    do {
+        size = read(terminal_, text, sizeof text);
+    } while (size < 0 && errno == EINTR);
+    // Where the other side is closed, a terminal answers with an error.
+    err_.append(text, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    return size > 0;
+}
+
+bool WendProcess::wait_for_progress() {
+    seen_ = err_.size();
+    while (err_.find("\r", seen_) == std::string::npos) {
+        if (!read_terminal()) {
+            return false;
         }
     }
+    return true;
+}
+
+ProgramResult WendProcess::wait() {
+    while (read_terminal()) {
+    }
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
     ProgramResult result;
-    result.status = !ended_ ? -1000 : WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     result.out = read_text(out_);
-    result.err = read_text(err_);
+    result.err = err_;
     return result;
 }
 
-bool WendProcess::wait_for_handler(int number) const {
-    const std::string status = "/proc/" + std::to_string(pid_) + "/status";
-    const std::string key = "SigCgt:";
-    for (int attempt = 0; attempt < 1000; ++attempt) {
-        const std::string text = read_text(status);
-        const std::size_t caught = text.find(key);
-        if (caught != std::string::npos &&
-            (std::stoull(text.substr(caught + key.size()), nullptr, 16) >> (number - 1) & 1) != 0) {
-            return true;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+ResourceLimit::ResourceLimit(int resource, std::uint64_t limit) : resource_(resource) {
+    getrlimit(resource_, &old_);
+    const rlimit lowered{std::min<rlim_t>(limit, old_.rlim_max), old_.rlim_max};
+    if (setrlimit(resource_, &lowered) != 0) {
+        throw std::runtime_error("a resource cannot be limited");
     }
-    return false;
+}
+
+ResourceLimit::~ResourceLimit() {
+    setrlimit(resource_, &old_);
+}
+
+ResourceLimit ten_more_seconds_of_work() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return {RLIMIT_CPU, static_cast<std::uint64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 12};
 }
 
 std::string read_text(const std::filesystem::path& file) {

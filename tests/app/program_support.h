@@ -1,9 +1,11 @@
 // Running the wend program from tests: inside this process, or as a child that signals can reach.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -44,8 +46,11 @@ struct ProgramResult {
 /// Runs `wend ARGUMENTS...` inside this process.
 ProgramResult run_wend(const std::vector<std::string>& arguments);
 
-/// `wend ARGUMENTS...` as a process of its own, its streams caught in files of the folder. Killed at the end if it
-/// still runs.
+/// The program's file.
+std::string wend_program();
+
+/// `wend ARGUMENTS...` as a process of its own: standard output is caught in a file of the folder, standard error is a
+/// terminal. Killed at the end if it still runs.
 class WendProcess {
 public:
     WendProcess(const std::vector<std::string>& arguments, const ScratchFolder& folder);
@@ -54,17 +59,39 @@ public:
     WendProcess& operator=(const WendProcess&) = delete;
 
     void signal(int number) const;
-    /// Waits until the process has a handler for this signal; false where it has none after ten seconds.
-    bool wait_for_handler(int number) const;
-    /// Waits for the end. The status is minus the signal's number where one ended it; -1000 after `seconds` in vain.
-    ProgramResult wait(double seconds);
+    /// Waits until the process draws its progress (anew): it renders. False where it ends without.
+    bool wait_for_progress();
+    /// Waits for the end. The status is minus the signal's number where one ended it.
+    ProgramResult wait();
 
 private:
+    /// More of what the process writes to its terminal; false at its end.
+    bool read_terminal();
+
     pid_t pid_ = -1;
-    bool ended_ = false;
+    int terminal_ = -1;
+    std::string err_;
+    std::size_t seen_ = 0;  ///< so much of `err_` is older than the last progress that was waited for
     std::filesystem::path out_;
-    std::filesystem::path err_;
 };
+
+/// A soft limit on what this process, or one that it starts, may take; the old one returns at the end.
+class ResourceLimit {
+public:
+    /// `resource` is an RLIMIT_ of setrlimit().
+    ResourceLimit(int resource, std::uint64_t limit);
+    ~ResourceLimit();
+    ResourceLimit(const ResourceLimit&) = delete;
+    ResourceLimit& operator=(const ResourceLimit&) = delete;
+
+private:
+    int resource_;
+    rlimit old_{};
+};
+
+/// Ends this process (SIGXCPU) where it takes more than about ten seconds of processor time from here on: a bound that
+/// other load on the machine does not touch.
+ResourceLimit ten_more_seconds_of_work();
 
 std::string read_text(const std::filesystem::path& file);
 

@@ -103,7 +103,7 @@ double filmic(double linear) {
     return x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
-TEST(RealScenes, TheCornellBoxIsThatOfTungsten) {
+TEST(SlowRealScenes, TheCornellBoxIsThatOfTungsten) {
     const auto folder = test::shared_dir() / "scenes" / "cornell-box";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no collection of scenes beside the checkout: " << folder;

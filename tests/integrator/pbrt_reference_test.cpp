@@ -143,7 +143,7 @@ TEST_P(PbrtReference, AgreesBlockByBlock) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PbrtReference,
+INSTANTIATE_TEST_SUITE_P(SlowScenes, PbrtReference,
                          testing::Values(Case{"fog-box", "fog-box/fog-box.pbrt", "classical", 600},
                                          Case{"fog-box", "fog-box/fog-box.pbrt", "direction", 300},
                                          Case{"cloud-grey", "cloud/cloud-grey.pbrt", "classical", 224}),

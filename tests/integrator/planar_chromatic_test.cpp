@@ -49,7 +49,7 @@ TEST(ChromaticPlanar, ExtinctionsDiffer) {
     expect_exact_channels(e, 60000);
 }
 
-TEST(ChromaticPlanar, BoundariesRefract) {
+TEST(SlowChromaticPlanar, BoundariesRefract) {
     PlanarExperiment e = half_space(0, "");
     e.albedo = {0.95, 0.8, 0.6};
     e.extinction = {1, 1.5, 0.7};
@@ -60,7 +60,7 @@ TEST(ChromaticPlanar, BoundariesRefract) {
     expect_exact_channels(e, 40000);
 }
 
-TEST(ChromaticPlanar, BoundariesAreRough) {
+TEST(SlowChromaticPlanar, BoundariesAreRough) {
     PlanarExperiment e = half_space(0, "");
     e.albedo = {0.95, 0.8, 0.6};
     e.ior = 1.4;

@@ -76,7 +76,7 @@ private:
 const std::vector<std::optional<double>> incidences = {1.0, 0.5, 1e-3, std::nullopt};
 
 // Of the light that has entered a half-space whose albedo was made for a colour, that colour comes back.
-TEST(PlanarMeans, AlbedosForAColour) {
+TEST(SlowPlanarMeans, AlbedosForAColour) {
     for (const auto& [g, ior] : {std::pair{0.0, 1.33}, {0.8, 1.4}, {-0.5, 1.5}, {0.9, 1.0}}) {
         const AlbedoInversion albedo_of(g, ior);
         for (const float colour : {0.1f, 0.5f, 0.95f}) {
@@ -95,7 +95,7 @@ TEST(PlanarMeans, AlbedosForAColour) {
     }
 }
 
-TEST(PlanarMeans, IsotropicHalfSpace) {
+TEST(SlowPlanarMeans, IsotropicHalfSpace) {
     MeansOf means(20000);
     for (const double albedo : {0.2, 0.4, 0.8, 0.95, 0.99}) {
         for (const std::optional<double>& mu0 : incidences) {
@@ -106,7 +106,7 @@ TEST(PlanarMeans, IsotropicHalfSpace) {
     }
 }
 
-TEST(PlanarMeans, IsotropicSlab) {
+TEST(SlowPlanarMeans, IsotropicSlab) {
     MeansOf means(10000);
     for (const double albedo : {0.4, 0.8, 0.99}) {
         for (const double thickness : {2.0, 10.0}) {
@@ -121,7 +121,7 @@ TEST(PlanarMeans, IsotropicSlab) {
     }
 }
 
-TEST(PlanarMeans, AnisotropicMedia) {
+TEST(SlowPlanarMeans, AnisotropicMedia) {
     MeansOf means(10000);
     struct Medium {
         double g;
@@ -146,7 +146,7 @@ TEST(PlanarMeans, AnisotropicMedia) {
     }
 }
 
-TEST(PlanarMeans, RefractiveBoundaries) {
+TEST(SlowPlanarMeans, RefractiveBoundaries) {
     MeansOf means(20000);
     struct Medium {
         double ior;
@@ -175,7 +175,7 @@ TEST(PlanarMeans, RefractiveBoundaries) {
     }
 }
 
-TEST(PlanarMeans, RoughBoundaries) {
+TEST(SlowPlanarMeans, RoughBoundaries) {
     MeansOf means(15000);
     struct Medium {
         double ior;
@@ -198,7 +198,7 @@ TEST(PlanarMeans, RoughBoundaries) {
 }
 
 // Values of others, independent of the solver that the laboratory takes its references from.
-TEST(PlanarMeans, PublishedValues) {
+TEST(SlowPlanarMeans, PublishedValues) {
     struct Published {
         double albedo, g, ior, thickness;
         Tally tally;

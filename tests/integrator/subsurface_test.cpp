@@ -51,6 +51,7 @@ Measured reflected(const Block& k, const char* strategy, int walks) {
 
 class GuidedSlab : public testing::TestWithParam<Block> {};
 
+// 150 or 600 thousand walks by each of six strategies.
 TEST_P(GuidedSlab, MatchesKnownReflectance) {
     const Block& k = GetParam();
     for (const char* strategy : guided) {
@@ -64,7 +65,7 @@ TEST_P(GuidedSlab, MatchesKnownReflectance) {
 }
 
 // By H functions and adding-doubling, as in transport_test.cpp.
-INSTANTIATE_TEST_SUITE_P(Media, GuidedSlab,
+INSTANTIATE_TEST_SUITE_P(SlowMedia, GuidedSlab,
                          testing::Values(Block{"HalfSpace_4", 0.4f, 60, 0, 1, 0.08335728},
                                          Block{"HalfSpace_95", 0.95f, 80, 0, 1, 0.53554099},
                                          Block{"HalfSpace_95g_75", 0.95f, 150, 0.75f, 1, 0.276766},
@@ -73,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Media, GuidedSlab,
                                          Block{"Slabb4_95g_75", 0.95f, 4, 0.75f, 1, 0.203461}),
                          [](const auto& block) { return std::string(block.param.name); });
 
-TEST(GuidedSlab, MatchesTheReferenceTable) {
+TEST(SlowGuidedSlab, MatchesTheReferenceTable) {
     const std::vector<test::SlabReference> references = test::slab_references();
     if (references.empty()) {
         GTEST_SKIP() << "no table of slab references beside the checkout";
@@ -101,7 +102,7 @@ TEST(GuidedSlab, HasLessVarianceThanClassicalSampling) {
     EXPECT_LT(dwivedi * dwivedi, classical * classical / 4);
 }
 
-TEST(GuidedSlab, LeadsThroughAShieldThatABillionthPasses) {
+TEST(SlowGuidedSlab, LeadsThroughAShieldThatABillionthPasses) {
     // Twenty mean free paths of albedo 1/2, between a white sky and a black wall; the value by analytic discrete
     // ordinates, the 2.06e-9 of light that never collides included.
     constexpr double transmittance = 1.0479658e-8;
@@ -159,6 +160,7 @@ SceneDescription lit(const Object& o) {
 
 class GuidedObject : public testing::TestWithParam<Object> {};
 
+// 100 thousand walks by classical sampling and by each of six strategies.
 TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     const Scene scene(lit(GetParam()));
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
@@ -175,7 +177,7 @@ TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Boundaries, GuidedObject,
+INSTANTIATE_TEST_SUITE_P(SlowBoundaries, GuidedObject,
                          testing::Values(Object{"MatchedChromatic", 0, 1, 0, {0.2f, 0.8f, 2}, {12, 10, 8}, true},
                                          Object{"MatchedForward", 0.8f, 1, 0, {0.2f, 0.4f, 1}, {20, 15, 12}, false},
                                          Object{"SmoothBackward", -0.5f, 1.4f, 0, {0.3f, 0.6f, 1}, {9, 9, 9}, true},
@@ -183,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Boundaries, GuidedObject,
                                              "RoughForward", 0.8f, 1.4f, 0.3f, {0.2f, 0.5f, 1}, {20, 15, 12}, false}),
                          [](const auto& object) { return std::string(object.param.name); });
 
-TEST(GuidedObject, MayHoldALampAndOtherObjects) {
+TEST(SlowGuidedObject, MayHoldALampAndOtherObjects) {
     SceneDescription s;
     const MediumId outer = test::add_homogeneous(s, Rgb(0.2f), Rgb(8.0f), 0.3f);
     const MediumId inner = test::add_homogeneous(s, {1, 0.5f, 0.2f}, Rgb(12.0f));
@@ -245,7 +247,7 @@ void expect_same_radiance(const Scene& scene, const Ray& ray, const Walks& conne
     EXPECT_FALSE(agrees((1 + limit.bias) * a.mean - b.mean, error, 0, 4));
 }
 
-TEST(GuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
+TEST(SlowGuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     const Scene scene(back_lit());
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // Few walks get through in five collisions; to connect once too often would show there.
@@ -269,7 +271,7 @@ SceneDescription under_glass() {
     return s;
 }
 
-TEST(GuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
+TEST(SlowGuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
     const Scene scene(under_glass());
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // After the first collision a walk of five vertices has three left, of which two boundaries.
@@ -290,7 +292,7 @@ SceneDescription under_spot() {
 
 // Whatever the shares and the preference, a stay brings the same in the mean: with their changes the light that is
 // brought changes as much as the density of the walks does.
-TEST(GuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
+TEST(SlowGuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     for (const SceneDescription& description : {under_spot(), under_glass(), back_lit()}) {
         const Scene scene(description);
@@ -302,7 +304,7 @@ TEST(GuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
         Moments brought, by_preference;
         std::array<Moments, 3> by_share;
         std::vector<Stay> stays;
-        constexpr std::uint32_t walks = 200000;
+        constexpr std::uint32_t walks = 50000;
         for (std::uint32_t i = 0; i < walks; ++i) {
             Sampler sampler(SamplerKind::independent, 1, 0, i);
             stays.clear();
@@ -351,7 +353,7 @@ SceneDescription two_coloured(float ior, const Rgb& left, const Rgb& right) {
 }
 
 // A walk finds the albedo of where it entered, so that each half looks as if all were of its colour.
-TEST(GuidedObject, HasTheColourOfWhereItIsEntered) {
+TEST(SlowGuidedObject, HasTheColourOfWhereItIsEntered) {
     const Rgb red(1.04f, 0.6f, 0.3f), dark(0.2f);
     constexpr float ior = 1.4f;
     const Scene both(two_coloured(ior, dark, red)), all_red(two_coloured(ior, red, red));
@@ -380,7 +382,7 @@ TEST(GuidedObject, HasTheColourOfWhereItIsEntered) {
 }
 
 // Where a stay counts as one event, that of entering, a walk that may have no more than this loses nothing.
-TEST(GuidedObject, MayCountAsOneVertex) {
+TEST(SlowGuidedObject, MayCountAsOneVertex) {
     for (const auto& [ior, alpha] : {std::pair{1.4f, 0.0f}, {1.4f, 0.3f}}) {
         SceneDescription s;
         const MediumId medium = test::add_homogeneous(s, {0.1f, 0.2f, 0.4f}, Rgb(9.0f), 0.3f);

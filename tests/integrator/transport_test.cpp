@@ -114,7 +114,7 @@ TEST_P(DiffuseReflectance, MatchesPublishedAndDeterministicValues) {
 
 // Half-spaces (as slabs of 60 mean free paths or more) and slabs at normal incidence, by H functions and
 // adding-doubling.
-INSTANTIATE_TEST_SUITE_P(Media, DiffuseReflectance,
+INSTANTIATE_TEST_SUITE_P(SlowMedia, DiffuseReflectance,
                          testing::Values(Known{"HalfSpace_8", 0.8f, 60, 0, 1, 0.28525450},
                                          Known{"HalfSpace_95", 0.95f, 80, 0, 1, 0.53554099},
                                          Known{"HalfSpace_99", 0.99f, 150, 0, 1, 0.75272072},
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Media, DiffuseReflectance,
                                          Known{"Slabb4_95g_75", 0.95f, 4, 0.75f, 1, 0.203461}),
                          [](const auto& known) { return std::string(known.param.name); });
 
-TEST(SlabReflectance, MatchesTheReferenceTable) {
+TEST(SlowSlabReflectance, MatchesTheReferenceTable) {
     const std::vector<test::SlabReference> references = test::slab_references();
     if (references.empty()) {
         GTEST_SKIP() << "no table of slab references beside the checkout";
@@ -149,7 +149,7 @@ TEST(SlabReflectance, MatchesTheReferenceTable) {
     EXPECT_EQ(rows, 12);
 }
 
-TEST(GridMedium, IsTheSameAsTheHomogeneousOne) {
+TEST(SlowGridMedium, IsTheSameAsTheHomogeneousOne) {
     const Box3 box(Vec3(-1), Vec3(1));
     for (const float g : {0.0f, 0.8f}) {
         Measured m[2];

@@ -35,7 +35,7 @@ def citations(path, text):
 
 def files(root):
     for folder in FOLDERS:
-        yield from (p for p in sorted((root / folder).rglob("*")) if p.suffix in (".h", ".cpp"))
+        yield from (p for p in sorted((root / folder).rglob("*")) if p.suffix in (".h", ".inl", ".cpp"))
     yield from sorted(root.glob("*.md"))
     yield from sorted((root / "docs").rglob("*.md"))
 

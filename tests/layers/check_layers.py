@@ -56,7 +56,7 @@ def offences(root):
         elif entry.name not in LEVEL:
             yield f"{entry}: unknown room '{entry.name}'; known are {', '.join(LEVEL)}"
         else:
-            for file in sorted(p for p in entry.rglob("*") if p.suffix in (".h", ".cpp")):
+            for file in sorted(p for p in entry.rglob("*") if p.suffix in (".h", ".inl", ".cpp")):
                 for number, line in enumerate(file.read_text().splitlines(), 1):
                     offence = offence_of_line(entry.name, line)
                     if offence:

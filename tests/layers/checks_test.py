@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The checks can fail: each is given a tree with a planted offence."""
 
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -42,6 +44,11 @@ class Layers(Tree):
     def test_odd_spacing_does_not_hide_an_include(self):
         self.assertEqual(len(self.offences("src/wend/core/a.h", "  #  include<wend/stats/moments.h>\n")), 1)
 
+    def test_every_kind_of_source_is_read(self):
+        for ending in ("h", "inl", "cpp"):
+            self.write(f"src/wend/core/a.{ending}", "#include <wend/io/volume.h>\n")
+        self.assertEqual(len(list(check_layers.offences(self.root))), 3)
+
     def test_rooms_of_one_level_do_not_see_each_other(self):
         for room, other in [("theory", "guide"), ("guide", "theory"), ("decision", "theory"), ("decision", "guide")]:
             self.assertFalse(check_layers.may_include(room, other), f"{room} sees {other}")
@@ -70,12 +77,30 @@ class Citations(Tree):
         self.assertIn("a.h:2: nobody1999", found[0])
         self.assertEqual(len(self.offences("docs/theory.md", "see `nobody1999b` and (nobody2001)\n")), 3)
 
+    def test_every_kind_of_source_is_read(self):
+        for ending in ("h", "inl"):
+            self.write(f"src/wend/core/a.{ending}", "// As nobody1999 did.\n")
+        self.assertEqual(len(self.offences("src/wend/core/a.cpp", "// As nobody1999 did.\n")), 3)
+
     def test_code_files_and_paths_are_not_citations(self):
         self.assertEqual(self.offences("src/wend/core/a.h", "int nobody1999 = 0;  // see nobody1999.pbrt, a/nobody1999\n"), [])
 
     def test_double_entries_are_refused(self):
         self.write("docs/references.bib", "@article{duff2017,\n}\n@misc{duff2017,\n}\n")
         self.assertEqual(len(list(check_citations.offences(self.root))), 1)
+
+
+@unittest.skipUnless(shutil.which("clang-format-14"), "clang-format-14 is absent")
+class Format(Tree):
+    def test_every_kind_of_source_is_read(self):
+        check = Path(__file__).parent / "check_format.sh"
+        for folder in ("src", "tests", "bench", "fuzz", "examples"):
+            self.write(f"{folder}/a.h", "int x;\n")
+        self.assertEqual(subprocess.run([check, self.root], capture_output=True).returncode, 0)
+        for ending in ("h", "inl", "cpp"):
+            self.write(f"src/b.{ending}", "int   x;\n")
+            self.assertNotEqual(subprocess.run([check, self.root], capture_output=True).returncode, 0, ending)
+            (self.root / f"src/b.{ending}").unlink()
 
 
 if __name__ == "__main__":
