@@ -183,7 +183,7 @@ TEST_P(FurnaceMatrix, IsAsBrightAsItShouldBe) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, FurnaceMatrix, testing::ValuesIn(furnaces()));
+INSTANTIATE_TEST_SUITE_P(SlowPairs, FurnaceMatrix, testing::ValuesIn(furnaces()));
 
 TEST(CoveringArray, HasEachPairOfLevels) {
     const std::vector<int> levels = Furnace::levels();

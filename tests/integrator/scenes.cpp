@@ -60,8 +60,8 @@ void add_parallelogram(SceneDescription& scene, const Vec3& corner, const Vec3& 
 void add_box(SceneDescription& scene, const Box3& box, int material, MediumId interior, MediumId exterior) {
     TriangleMesh mesh;
     for (int i = 0; i < 8; ++i) {
-        mesh.positions.push_back({i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                                  i & 4 ? box.max.z : box.min.z});
+        mesh.positions.push_back(
+            {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z});
     }
     mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                     2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};

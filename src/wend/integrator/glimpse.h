@@ -21,6 +21,7 @@ struct Glimpse {
 /// refracts, so that connections do as well, or where none of the directions ends at a light. It tells that light
 /// arrives there, not how much: what is learned from it is for guides only. Rough boundaries are taken for smooth.
 /// The ray starts in `medium` and heads for a light at `distance`, which may be infinite.
-std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, const MediumState& medium, Pcg32& random);
+std::optional<Glimpse> glimpse(const Scene& scene, const Ray& ray, float distance, const MediumState& medium,
+                               Pcg32& random);
 
 }  // namespace wend

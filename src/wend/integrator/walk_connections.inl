@@ -139,8 +139,7 @@ template <class Directions>
 auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
                                                 const Vec3& position, bool in_volume) -> Sight {
     const LightSample& light = chosen.light;
-    const MediumState medium =
-        in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    const MediumState medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
     Sight sight{light.direction,
                 light.distance,
                 light.radiance,
@@ -192,8 +191,7 @@ void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, 
     if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
         return;
     }
-    const MediumState medium =
-        in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
+    const MediumState medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
     const ShadowRay shadow = shadow_ray(leave(position, light.direction, in_volume), position, light);
     if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;

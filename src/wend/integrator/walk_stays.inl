@@ -104,8 +104,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
             if (!chosen) {
                 continue;
             }
-            const Connection found =
-                connect(*chosen, connections(false), boundary, around, hit->position, false);
+            const Connection found = connect(*chosen, connections(false), boundary, around, hit->position, false);
             const Rgb light = found.scattering * found.light;
             bring(now_.throughput * light, found.slope);
             brought += arriving * light;
