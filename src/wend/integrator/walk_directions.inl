@@ -31,6 +31,8 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
     }
     if (outcome->expected != 1) {
         weigh(Rgb(static_cast<float>(1 / outcome->expected)));
+        // What it would carry unguided is carried by all copies.
+        now_.boost *= static_cast<float>(outcome->expected);
     }
     result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
     for (int i = 1; i < outcome->copies; ++i) {
