@@ -203,7 +203,10 @@ TEST_F(Program, ATimedRunCanBeRepeated) {
     }
     EXPECT_EQ(samples, report["spp"]);
     const auto again = render({"--passes", passes, "--sampling", "direction", "--json", "-"}, "again.exr");
-    EXPECT_EQ(again.json()["segments"], report["segments"]);
+    // A pass that a busy machine drags out is stopped, and not among those that are told.
+    if (report["interrupted"] == false) {
+        EXPECT_EQ(again.json()["segments"], report["segments"]);
+    }
 }
 
 TEST_F(Program, TheSceneNamesThePictureIfNobodyElseDoes) {

@@ -275,8 +275,10 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             break;
         }
         if (settings.seconds > 0 && settings.passes.empty()) {
-            constexpr double excess = 1, first_pass = 10;
-            const double most = (settings.seconds + excess) * (statistics.samples == 0 ? first_pass : 1);
+            // Longer than any render, and less than the clock can count.
+            constexpr double excess = 1, first_pass = 10, longest = 1e9;
+            const double most =
+                std::min(longest, (settings.seconds + excess) * (statistics.samples == 0 ? first_pass : 1));
             watch.stop_at(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most)));
         }
         rendering.pass(count, statistics);
