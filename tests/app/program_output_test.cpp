@@ -193,7 +193,7 @@ TEST_F(ProgramOutput, AnInterruptEndsWithAPicture) {
         const Picture picture = read_picture(folder_.file("room.exr"));
         EXPECT_EQ(picture.metadata.at("wend:spp"), std::to_string(report["spp"].get<int>()));
         for (const float n : layer(picture, "samples").values) {
-            ASSERT_EQ(n, report["spp"]) << "whole passes only";
+            ASSERT_GE(n, report["spp"]) << "whole passes, and what was done of the last";
         }
         std::filesystem::remove(folder_.file("room.exr"));
     }

@@ -59,8 +59,8 @@ public:
     Unpacking(const Unpacking&) = delete;
     Unpacking& operator=(const Unpacking&) = delete;
 
-    /// Whether it is whole so far, and that many bytes at most.
-    bool goes_on(std::string_view data, std::uint64_t most) {
+    /// Whether it is that many bytes at most so far. What is damaged ends; that is for the reader to find.
+    bool is_at_most(std::string_view data, std::uint64_t most) {
         std::array<Bytef, 1 << 15> unpacked;
         stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));  // is only read from
         stream_.avail_in = static_cast<uInt>(data.size());
@@ -72,7 +72,7 @@ public:
                 status_ = status_ == Z_BUF_ERROR ? Z_OK : status_;
             }
         } while (status_ == Z_OK && stream_.avail_out == 0 && stream_.total_out <= most);
-        return (status_ == Z_OK || status_ == Z_STREAM_END) && stream_.total_out <= most;
+        return stream_.total_out <= most;
     }
 
 private:
@@ -101,8 +101,8 @@ void prepare_png(std::string& file, const Place& place) {
             most = unpacked_size(chunk->data);
         } else if (chunk->type == "IDAT" && chunk->data.empty()) {
             empty.push_back(chunk->begin);
-        } else if (chunk->type == "IDAT" && !unpacking.goes_on(chunk->data, most)) {
-            throw InputError(place, "the picture is damaged: its pixels are not what the header says");
+        } else if (chunk->type == "IDAT" && !unpacking.is_at_most(chunk->data, most)) {
+            throw InputError(place, "the picture is damaged: it holds more pixels than its header says");
         } else if (chunk->type == "CgBI") {
             throw InputError(place, "the picture is a PNG file as only iPhones have it");
         }

@@ -72,8 +72,12 @@ void warn_of_boundaries(LoadContext& context, const SceneDescription& scene, con
         context.warnings.add(places[static_cast<std::size_t>(fault.surface)], text);
     }
     for (const MediumFault& fault : medium_faults(scene)) {
-        const Place& place = fault.surface < 0 ? camera : places[static_cast<std::size_t>(fault.surface)];
-        context.warnings.add(place, describe(fault, names));
+        // The medium of a material can be named by nobody.
+        const bool can_be_named = fault.medium == vacuum || !names[static_cast<std::size_t>(fault.medium)].empty();
+        if (can_be_named || fault.kind != MediumFault::Kind::camera) {
+            const Place& place = fault.surface < 0 ? camera : places[static_cast<std::size_t>(fault.surface)];
+            context.warnings.add(place, describe(fault, names));
+        }
     }
 }
 

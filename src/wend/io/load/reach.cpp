@@ -5,14 +5,24 @@
 #include <cmath>
 
 namespace wend {
+namespace {
 
-void require_near(const Place& place, std::string_view what, const Vec3& point) {
+/// Of spheres and disks, which need no products of lengths: rays that reach them are still rays to Embree.
+constexpr float farthest_quadric = 1e16f;
+
+void require_within(const Place& place, std::string_view what, const Vec3& point, float bound) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(std::abs(point[axis]) <= farthest)) {
+        if (!(std::abs(point[axis]) <= bound)) {
             throw InputError(place, fmt::format("{} at ({}, {}, {}): coordinates must stay within {}", what, point.x,
-                                                point.y, point.z, farthest));
+                                                point.y, point.z, bound));
         }
     }
+}
+
+}  // namespace
+
+void require_near(const Place& place, std::string_view what, const Vec3& point) {
+    require_within(place, what, point, farthest);
 }
 
 Box3 require_near(const Place& place, std::string_view what, const Shape& shape) {
@@ -25,8 +35,8 @@ Box3 require_near(const Place& place, std::string_view what, const Shape& shape)
         return box;
     }
     box = bounds(std::get<Quadric>(shape));
-    require_near(place, what, box.min);
-    require_near(place, what, box.max);
+    require_within(place, what, box.min, farthest_quadric);
+    require_within(place, what, box.max, farthest_quadric);
     return box;
 }
 

@@ -13,7 +13,7 @@ namespace wend {
 inline constexpr float farthest = 1e9f;
 
 /// Throws InputError at the place unless the point is finite and no coordinate of it is beyond `farthest`. `what`
-/// begins the message: "Camera" stands at ...
+/// begins the message: "Camera" stands at ... Spheres and disks may reach further.
 void require_near(const Place& place, std::string_view what, const Vec3& point);
 
 /// The same for all of a shape; returns what it takes up.
