@@ -169,11 +169,11 @@ class FurnaceMatrix : public testing::TestWithParam<Furnace> {};
 
 TEST_P(FurnaceMatrix, IsAsBrightAsItShouldBe) {
     const Furnace& f = GetParam();
-    const Channels got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0024, 256});
+    const Channels got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 256});
     // Rough boundaries lose what facets scatter more than once.
     const bool is_lossless = f.albedo == 1 && f.boundary != Boundary::rough;
     const bool is_clear = f.boundary != Boundary::rough && f.coloured;
-    const Channels classical = is_lossless ? Channels() : measure(f, {"classical", "classical", 64, 0.0015, 1024});
+    const Channels classical = is_lossless ? Channels() : measure(f, {"classical", "classical", 64, 0.002, 1024});
     for (std::size_t c = 0; c < 3; ++c) {
         const bool is_known = is_lossless || (is_clear && c == 2);
         const double right = is_known ? 1 : classical.mean[c].mean();

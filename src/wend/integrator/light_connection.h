@@ -45,15 +45,15 @@ struct ShadowRay {
 };
 
 /// A ray from a vertex at `position` in the light's direction, up to the light.
-inline ShadowRay shadow_ray(const TracedRay& ray, const Vec3& position, const LightSample& light) {
-    // Behind a surface the ray begins a little earlier. It ends short of a light that is a surface.
-    constexpr float rounding = 4e-6f;
-    const float before = dot(position - ray.origin, ray.direction);
-    const Vec3 end = position + light.direction * light.distance;
-    const float margin = light.medium == vacuum && light.distance < infinity
-                             ? rounding * (light.distance + std::abs(end.x) + std::abs(end.y) + std::abs(end.z))
-                             : 0.0f;
-    return {ray, std::max(light.distance - margin, 0.5f * light.distance) + before, light.medium};
+inline ShadowRay shadow_ray(TracedRay ray, const Vec3& position, const LightSample& light) {
+    if (light.distance == infinity) {
+        return {ray, light.distance, light.medium};
+    }
+    // Where the ray begins beside the position must not move its end through a lamp that is seen edge on. It ends short
+    // of a light that is a surface.
+    const float part = light.medium == vacuum ? 1 - 1e-4f : 1.0f;
+    const float distance = ray.aim_at(position + light.direction * light.distance);
+    return {ray, distance * part, light.medium};
 }
 
 /// An estimate of the transmittance, 0 where something blocks the light, and the probability, by channel, that a walk

@@ -44,6 +44,15 @@ public:
     /// From a surface in direction w, with nothing in the same place.
     static TracedRay leave_anew(const Hit& hit, const Vec3& w) { return TracedRay(hit, w, true); }
 
+    /// Turns the ray, before it has met anything, so that it goes through a point far from where it starts; returns the
+    /// distance of that.
+    float aim_at(const Vec3& point) {
+        const Vec3 way = point - start_;
+        const float distance = length(way);
+        direction = way * (1 / distance);
+        return distance;
+    }
+
     /// Where the ray is traced from, and how far along it has come.
     const Vec3& start() const { return start_; }
     float passed() const { return passed_; }
