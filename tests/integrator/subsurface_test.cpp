@@ -56,7 +56,7 @@ TEST_P(GuidedSlab, MatchesKnownReflectance) {
     const Block& k = GetParam();
     for (const char* strategy : guided) {
         SCOPED_TRACE(strategy);
-        const Measured m = reflected(k, strategy, k.thickness < 5 ? 600000 : 150000);
+        const Measured m = reflected(k, strategy, k.thickness < 5 ? 600000 : 240000);
         EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
             << m.mean << " +- " << m.standard_error << " expected " << k.value;
         EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << "too few walks to see a bias of 1 %";

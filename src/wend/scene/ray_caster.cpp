@@ -336,8 +336,10 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
         t.dpdu = placement->world_from_object.vector(t.dpdu);
         largest = placement->world_from_object.magnitude(largest);
     }
-    hit.clearance = rounding * max_of(largest);
     hit.normal = normalize(normal);
+    // Along the normal: a wide surface across an axis is as exact as its place on that axis.
+    const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
+    hit.clearance = rounding * (dot(facing, largest) + 0.1f * max_of(largest_of(hit.position, hit.position)));
     const Vec3 n = normalize(shading);
     const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
     if (t.valid && length_squared(along) > 1e-14f * length_squared(t.dpdu)) {
