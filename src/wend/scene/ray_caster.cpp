@@ -339,7 +339,7 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     hit.normal = normalize(normal);
     // Along the normal: a wide surface across an axis is as exact as its place on that axis.
     const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
-    hit.clearance = rounding * (dot(facing, largest) + 0.4f * max_of(largest_of(hit.position, hit.position)));
+    hit.clearance = rounding * (dot(facing, largest) + max_of(largest_of(hit.position, hit.position)));
     const Vec3 n = normalize(shading);
     const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
     if (t.valid && length_squared(along) > 1e-14f * length_squared(t.dpdu)) {
