@@ -118,6 +118,10 @@ void check_attributes(const std::filesystem::path& file, const Place& place) {
     std::ifstream stream(file, std::ios::binary);
     std::uint32_t start[2] = {0, 0};  // the magic number and the version, with flags
     stream.read(reinterpret_cast<char*>(start), bytes_before_header);
+    constexpr std::uint32_t magic = 20000630;
+    if (stream && start[0] != magic) {
+        throw InputError(place, "not an OpenEXR picture");
+    }
     constexpr std::uint32_t many_parts = 0x1000;
     auto left = static_cast<std::int64_t>(std::filesystem::file_size(file)) - bytes_before_header;
     const auto take_name = [&] {
