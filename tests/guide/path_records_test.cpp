@@ -255,6 +255,29 @@ TEST(PathRecords, LeaveOutMirrorsButNotWhatTheyShow) {
     EXPECT_FLOAT_EQ(records.surface()[0].radiance, 3);
 }
 
+TEST(PathLog, KeepsWhatIsFoundAfterItIsFull) {
+    PathLog log;
+    log.start();
+    log.scatter({0, 0, 0}, {0, 0, 1}, 1, Rgb(0.5f), true);
+    const PathLog::Branch at_first = log.branch();
+    for (std::size_t i = 1; i < PathLog::most_vertices; ++i) {
+        log.scatter({0, 0, 0}, {0, 0, 1}, 1, Rgb(0.0f), true);
+    }
+    log.resume(at_first);
+    log.weigh(Rgb(0.5f));
+    log.connect({1, 0, 0}, 1, 1, Rgb(3));
+    log.gather(Rgb(3));
+    log.scatter({0, 0, 9}, {0, 0, 1}, 1, Rgb(0.25f), true);
+    log.weigh(Rgb(0.5f));
+    log.gather(Rgb(16));
+    log.gather(Rgb(16));
+    EXPECT_EQ(log.vertices().size(), PathLog::most_vertices);
+    EXPECT_EQ(log.branch().connected, Rgb()) << "that was at the vertex left out";
+    std::vector<Rgb> incident;
+    incident_radiance(log.vertices(), incident);
+    EXPECT_EQ(incident[0], Rgb(0.5f * (3 + 0.25f * 0.5f * 32)));
+}
+
 TEST(PathRecords, AreJoinedInOrder) {
     const Path path = random_tree(20, true, 1), more = random_tree(30, true, 2);
     PathRecords together, first, second;

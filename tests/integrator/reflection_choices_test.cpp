@@ -97,6 +97,21 @@ TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
     EXPECT_EQ(records.size(), 3u) << "a walk is told once";
 }
 
+TEST(ReflectionLog, KeepsWhatIsFoundAfterItIsFull) {
+    const ReflectionChoices choices(room);
+    ReflectionLog log;
+    log.start();
+    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 1);
+    for (std::size_t i = 1; i < ReflectionLog::most; ++i) {
+        log.note(first, choices.record(here, false, 0), 1);
+    }
+    log.bring(log.note(first, choices.record(there, false, 0), 1), 5);
+    std::vector<ReflectionRecord> records;
+    log.finish(records);
+    ASSERT_EQ(records.size(), ReflectionLog::most);
+    EXPECT_EQ(records.back().brought, 5) << "the first boundary's";
+}
+
 constexpr int resolution = 6;
 
 class DarkGlass : public testing::TestWithParam<float> {};

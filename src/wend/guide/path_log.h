@@ -3,15 +3,22 @@
 
 #include <wend/guide/path_records.h>
 
+#include <cstddef>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wend::guide {
 
 /// Writes down the vertices of a walk. The walk tells every factor of its weight and every radiance it finds at the
 /// time it does; the log knows which vertex that belongs to. The estimate of the walk and its records so cannot differ.
+///
+/// A walk may have any number of vertices, its log has not: what is found after the last one belongs to that.
 class PathLog {
 public:
+    static constexpr std::size_t most_vertices = 1 << 18;
+
     /// Forgets the last walk.
     void start() {
         vertices_.clear();
@@ -67,6 +74,12 @@ public:
     /// density is that of a mixture, its parts are told as well.
     void scatter(const Vec3& position, const Vec3& direction, float density, const Rgb& weight, bool in_volume,
                  float classical_density = 0, float guided_density = 0) {
+        if (vertices_.size() == most_vertices) {
+            const Branch last = std::exchange(at_, {});
+            at_.vertex = last.vertex;
+            at_.weight = last.weight * weight;
+            return;
+        }
         PathVertex v;
         v.position = position;
         v.direction = direction;
@@ -89,7 +102,11 @@ public:
     }
 
     /// Where light comes from, found otherwise than by going there. It only teaches: the walk gathers nothing.
-    void hint(const Hint& hint) { hints_.push_back(hint); }
+    void hint(const Hint& hint) {
+        if (hints_.size() < most_vertices) {
+            hints_.push_back(hint);
+        }
+    }
 
     /// Where the walk is: where it is split, each copy goes on from the place kept before.
     struct Branch {

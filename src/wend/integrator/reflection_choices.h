@@ -3,6 +3,7 @@
 
 #include <wend/integrator/vertex_cells.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,15 +52,20 @@ private:
     std::vector<float> odds_;
 };
 
-/// What a walk, split or not, found behind each boundary on its way.
+/// What a walk, split or not, found behind each boundary on its way. Of more than `most` the last ones are left out:
+/// what is found behind them belongs to the boundary before.
 class ReflectionLog {
 public:
     static constexpr int none = -1;
+    static constexpr std::size_t most = 1 << 18;
 
     void start() { notes_.clear(); }
     /// A boundary was passed after the one noted before (or none). `worth` is the walk's throughput had the choice
     /// followed Fresnel's equations, `record` lacks what was brought. Returns where it is noted.
     int note(int before, const ReflectionRecord& record, float worth) {
+        if (notes_.size() == most) {
+            return before;
+        }
         notes_.push_back({record, before, worth});
         return static_cast<int>(notes_.size()) - 1;
     }
