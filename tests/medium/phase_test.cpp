@@ -1,11 +1,13 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
+#include <wend/core/error.h>
 #include <wend/core/random.h>
 #include <wend/medium/phase.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -122,6 +124,12 @@ TEST(PhaseFunction, AWrongGOrSignIsRejected) {
             test::chi_square_sphere([&](Vec2 u) { return phase.sample(before, u); },
                                     [&](const Vec3& w) { return HenyeyGreenstein{wrong}.evaluate(dot(before, w)); });
         EXPECT_LT(test.result.p_value, test::failing) << wrong;
+    }
+}
+
+TEST(PhaseFunction, RefusesWhatIsNoFunction) {
+    for (const float g : {-1.0f, 1.0f, 2.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_THROW(PhaseFunction(HenyeyGreenstein{g}), InputError) << g;
     }
 }
 

@@ -1,4 +1,5 @@
 #include <wend/core/contracts.h>
+#include <wend/core/error.h>
 #include <wend/medium/phase.h>
 #include <wend/medium/phase_lobes.h>
 
@@ -61,8 +62,11 @@ float HenyeyGreensteinMixture::blurred(const Vec3& before, const Vec3& mean) con
     return sum / total_;
 }
 
-PhaseFunction::PhaseFunction(Variant kind)
-    : kind_(std::move(kind)), lobes_(std::visit([](const auto& p) { return lobes_of(p); }, kind_)) {
+PhaseFunction::PhaseFunction(Variant kind) : kind_(std::move(kind)) {
+    if (!(std::abs(mean_cosine()) < 1)) {
+        throw InputError("a phase function: the mean cosine must be within (-1, 1)");
+    }
+    lobes_ = std::visit([](const auto& p) { return lobes_of(p); }, kind_);
 }
 
 }  // namespace wend

@@ -79,6 +79,7 @@ public:
     using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture>;
 
     PhaseFunction() = default;
+    /// Throws InputError for a mean cosine of -1, 1, beyond, or NaN.
     PhaseFunction(Variant kind);
 
     float evaluate(float cosine) const {

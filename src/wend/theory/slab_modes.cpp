@@ -46,9 +46,6 @@ std::vector<std::vector<SlabMode>> slab_modes(const HomogeneousMedium& medium) {
     if (!is_finite(extinction) || !(min_value(medium.absorption) >= 0) || !(min_value(medium.scattering) >= 0)) {
         throw InputError("the modes of a medium: its coefficients must be finite and not negative");
     }
-    if (!(std::abs(medium.phase.mean_cosine()) < 1)) {
-        throw InputError("the modes of a medium: the mean cosine of its phase function must be within (-1, 1)");
-    }
     const auto is_grey = [](const Rgb& c) { return c.r == c.g && c.g == c.b; };
     const int channels = is_grey(medium.absorption) && is_grey(medium.scattering) ? 1 : 3;
     std::vector<std::vector<SlabMode>> modes;

@@ -14,7 +14,7 @@ namespace wend {
 std::vector<SlabMode> slab_modes(double albedo, const PhaseFunction& phase);
 
 /// The same for a medium, channel by channel, or for one channel where all are alike. Throws InputError for
-/// coefficients that are negative or not finite, and mean cosines outside (-1, 1).
+/// coefficients that are negative or not finite.
 std::vector<std::vector<SlabMode>> slab_modes(const HomogeneousMedium& medium);
 
 }  // namespace wend

@@ -1,0 +1,164 @@
+// Furnaces in thermal equilibrium: media that shine as much as they absorb, lamps that shine as the sky does. Whatever
+// stands in them, and wherever the camera is, all has the radiance of the sky, times the square of the refractive index
+// (Kirchhoff's law). So the right value is known for media that absorb, too.
+#include <tests/support/covering_array.h>
+#include <tests/support/scenes.h>
+
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <vector>
+
+namespace wend {
+namespace {
+
+constexpr float albedos[] = {1, 0.99f, 0.9f, 0.5f};
+constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
+constexpr float sizes[] = {1, 10, 30};  // in mean free paths
+enum class Inside { nothing, lamp, other_medium, glass, other_medium_in_glass };
+constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "learned", "auto"};
+constexpr const char* samplings[] = {"classical", "direction", "splitting", "full"};
+constexpr int passes[] = {4, 16, 64};  // samples per pixel
+
+constexpr float ior = 1.4f;
+constexpr float ior_inside = 1.2f;
+
+struct Equilibrium {
+    float albedo, g, size;
+    bool refracts, is_cube, coloured, camera_inside;
+    Inside inside;
+    const char* subsurface;
+    const char* sampling;
+    int samples;
+
+    static std::vector<int> levels() { return {4, 4, 3, 2, 2, 2, 2, 5, 5, 4, 3}; }
+    explicit Equilibrium(const std::vector<int>& row)
+        : albedo(albedos[row[0]]),
+          g(mean_cosines[row[1]]),
+          size(sizes[row[2]]),
+          refracts(row[3] != 0),
+          is_cube(row[4] != 0),
+          coloured(row[5] != 0),
+          camera_inside(row[6] != 0),
+          inside(static_cast<Inside>(row[7])),
+          subsurface(subsurfaces[row[8]]),
+          sampling(samplings[row[9]]),
+          samples(passes[row[10]]) {}
+
+    friend void PrintTo(const Equilibrium& e, std::ostream* out) {
+        constexpr const char* insides[] = {"nothing", "a lamp", "another medium", "glass", "another medium in glass"};
+        *out << "albedo " << e.albedo << ", g " << e.g << ", size " << e.size << (e.refracts ? ", smooth" : ", matched")
+             << (e.is_cube ? " cube" : " ball") << (e.coloured ? ", coloured" : "")
+             << (e.camera_inside ? ", camera inside" : "") << ", in it " << insides[static_cast<int>(e.inside)]
+             << ", --subsurface " << e.subsurface << " --sampling " << e.sampling << " --spp " << e.samples;
+    }
+};
+
+std::vector<Equilibrium> equilibria() {
+    std::vector<Equilibrium> all;
+    for (const auto& row : test::covering_array(Equilibrium::levels())) {
+        all.emplace_back(row);
+    }
+    return all;
+}
+
+/// A medium in equilibrium with this radiance.
+MediumId add_medium(SceneDescription& s, const Rgb& extinction, const Rgb& albedo, float g, float radiance) {
+    const MediumId medium = test::add_homogeneous(s, extinction - albedo * extinction, albedo * extinction, g);
+    auto& added = std::get<HomogeneousMedium>(s.media.back());
+    added.emission = added.absorption * radiance;
+    return medium;
+}
+
+Scene scene_of(const Equilibrium& e, int resolution) {
+    const Vec3 eye = e.camera_inside ? Vec3(0.1f, -0.75f, 0.2f) : Vec3(0.4f, 0.3f, -5);
+    SceneDescription s = test::scene_with_camera(eye, {0.1f, 0.05f, 0}, e.camera_inside ? 60 : 6, resolution);
+    const float radiance = e.refracts ? sqr(ior) : 1;
+    // One channel is thin.
+    const Rgb extinction = (e.coloured ? Rgb(1, 0.3f, 0.02f) : Rgb(1.0f)) * (e.size / 2);
+    const MediumId medium = add_medium(s, extinction, Rgb(e.albedo), e.g, radiance);
+    const int boundary = e.refracts ? test::add_dielectric(s, ior) : test::add_interface(s);
+    if (e.is_cube) {
+        test::add_box(s, Box3(Vec3(-1), Vec3(1)), boundary, medium);
+    } else {
+        test::add_sphere(s, {0, 0, 0}, 1, boundary, medium);
+    }
+    s.camera_medium = e.camera_inside ? medium : vacuum;
+    const float in_glass = radiance * sqr(ior_inside);
+    switch (e.inside) {
+        case Inside::nothing:
+            break;
+        case Inside::lamp:
+            test::add_lamp(s, {0.1f, 0.1f, 0}, 0.4f, Rgb(radiance), test::add_diffuse(s, Rgb(0.0f)));
+            break;
+        case Inside::other_medium:
+            test::add_sphere(s, {0, 0.2f, 0}, 0.5f, test::add_interface(s),
+                             add_medium(s, Rgb(3.0f), Rgb(0.7f, 0.9f, 1), 0.3f, radiance), medium);
+            break;
+        case Inside::glass:
+            test::add_sphere(s, {0, 0.2f, 0}, 0.5f, test::add_dielectric(s, ior_inside), vacuum, medium);
+            break;
+        case Inside::other_medium_in_glass:
+            test::add_sphere(s, {0, 0.2f, 0}, 0.5f, test::add_dielectric(s, ior_inside),
+                             add_medium(s, Rgb(3.0f), Rgb(0.7f, 0.9f, 1), 0.3f, in_glass), medium);
+            break;
+    }
+    test::add_environment(s, Rgb(1.0f));
+    return Scene(std::move(s));
+}
+
+constexpr int samples_of_render = 1 << 12;
+constexpr int least_renders = 6;
+constexpr int most_renders = 512;
+
+class Equilibria : public testing::TestWithParam<Equilibrium> {};
+
+TEST_P(Equilibria, AreAsBrightAsTheSky) {
+    const Equilibrium& e = GetParam();
+    const double right = e.camera_inside && e.refracts ? static_cast<double>(sqr(ior)) : 1;
+    const int resolution = static_cast<int>(std::lround(std::sqrt(samples_of_render / e.samples)));
+    const Scene scene = scene_of(e, resolution);
+    RenderSettings settings;
+    settings.preset = parse_preset(e.sampling);
+    settings.subsurface = parse_subsurface(e.subsurface);
+    settings.samples = e.samples;
+    settings.max_depth = 100000;
+    std::array<Moments, 3> means;
+    const auto error = [&] {
+        double worst = 0;
+        for (const Moments& m : means) {
+            worst = std::max(worst, m.standard_error() / right);
+        }
+        return worst;
+    };
+    for (int i = 0; i < most_renders && (i < least_renders || error() > 0.002); ++i) {
+        settings.seed = static_cast<std::uint64_t>(1 + i);
+        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        render(scene, film, settings);
+        Rgb sum;
+        const Image image = film.beauty();
+        for (const Rgb& pixel : image.pixels) {
+            sum += pixel;
+        }
+        for (int c = 0; c < 3; ++c) {
+            means[static_cast<std::size_t>(c)].add(static_cast<double>(sum[c]) /
+                                                   static_cast<double>(image.pixels.size()));
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_TRUE(agrees(means[c].mean(), means[c].standard_error(), right, 4, 1e-5))
+            << "channel " << c << ": " << means[c].mean() << " +- " << means[c].standard_error() << ", not " << right;
+    }
+    EXPECT_LT(error(), 0.0021) << "too few samples to see a bias of 1 %";
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowPairs, Equilibria, testing::ValuesIn(equilibria()));
+
+}  // namespace
+}  // namespace wend
