@@ -72,7 +72,7 @@ private:
 };
 
 /// Classical roulette of a guided walk. It is on its way to light, and to end it at its first losses would be a noise
-/// that its directions had just avoided. An eighth is a compromise over several scenes (docs/theory/survival.md).
+/// that its directions had just avoided. An eighth is a compromise over several scenes (docs/experiments/survival.md).
 inline constexpr ClassicalSurvival guided_walks_end{1.0f / 8};
 
 /// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known. Of walks that

@@ -7,7 +7,7 @@ namespace wend {
 
 /// Keeps what one pass tells the fields within bounds, however large the picture is: of more walks, fewer are recorded.
 /// Memory and the time to train would grow with the picture otherwise, and many more records than there are cells to
-/// teach say little that is new (docs/theory/learned_field.md).
+/// teach say little that is new (docs/experiments/learned_field.md).
 class RecordBudget {
 public:
     /// About so many records a pass; positive.
