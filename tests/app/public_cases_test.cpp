@@ -86,16 +86,11 @@ void expect_right_mean(const std::filesystem::path& file) {
     }
 }
 
-bool takes_seconds(const std::string& name) {
-    return name.starts_with("scale_") || name == "camera_in_dense_glass_furnace" || name.starts_with("dense_box_");
-}
-
-std::vector<std::string> cases(bool slow) {
+std::vector<std::string> cases() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "tests" / "cases")) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".pbrt" && takes_seconds(name) == slow) {
-            names.push_back(name);
+        if (entry.path().extension() == ".pbrt") {
+            names.push_back(entry.path().stem().string());
         }
     }
     std::sort(names.begin(), names.end());
@@ -115,8 +110,7 @@ TEST_P(PublicCase, HasItsRightMean) {
     expect_right_mean(test::source_dir() / "tests" / "cases" / (GetParam() + ".pbrt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PublicCase, testing::ValuesIn(cases(false)), test_name);
-INSTANTIATE_TEST_SUITE_P(SlowScenes, PublicCase, testing::ValuesIn(cases(true)), test_name);
+INSTANTIATE_TEST_SUITE_P(SlowScenes, PublicCase, testing::ValuesIn(cases()), test_name);
 
 /// openvdb issue 1840 (rotated transforms), unreal-vdb issue 78 (negative scale in a file's transform).
 TEST(PublicCases, AVolumeThatItsFileMirrorsAndTurns) {

@@ -216,7 +216,7 @@ const Rgb red_absorption(0.1f, 0.2f, 0.1f), blue_scattering(0.3f, 0.6f, 1.2f);
 constexpr auto scatter_alone = DistanceGuiding::scatter_alone;
 
 INSTANTIATE_TEST_SUITE_P(
-    GuidedDistance, GuidedWeights,
+    SlowGuidedDistance, GuidedWeights,
     testing::Values(Case{"homogeneous", homogeneous(Rgb(0.1f), Rgb(0.4f)), uneven()},
                     Case{"homogeneous_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(uneven())},
                     Case{"homogeneous_many_slices_lamp", homogeneous(Rgb(0.1f), Rgb(0.4f)), with_lamp(very_many()),

@@ -121,7 +121,7 @@ const std::vector<float> steps = {0.2f, 3, 0, 1, 30, 0.5f, 1};
 const Rgb red_absorption(0.1f, 0.2f, 0.1f), blue_scattering(0.3f, 0.6f, 1.2f);
 
 INSTANTIATE_TEST_SUITE_P(
-    GuidedTracking, TrackedWeights,
+    SlowGuidedTracking, TrackedWeights,
     testing::Values(Case{{"uneven", steps, 2}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"level", steps, 2, true}, Rgb(0.2f), Rgb(0.6f)},
                     Case{{"dark_medium", {0}, 1}, Rgb(0.2f), Rgb(0.6f)},

@@ -114,7 +114,7 @@ Scene scene_of(const Equilibrium& e, int resolution) {
 }
 
 constexpr int samples_of_render = 1 << 12;
-constexpr int least_renders = 6;
+constexpr int least_renders = 16;
 constexpr int most_renders = 512;
 
 class Equilibria : public testing::TestWithParam<Equilibrium> {};

@@ -146,6 +146,7 @@ TEST_P(PbrtReference, AgreesBlockByBlock) {
 INSTANTIATE_TEST_SUITE_P(SlowScenes, PbrtReference,
                          testing::Values(Case{"fog-box", "fog-box/fog-box.pbrt", "classical", 600},
                                          Case{"fog-box", "fog-box/fog-box.pbrt", "direction", 300},
+                                         Case{"fog-box-filled", "fog-box/fog-box-filled.pbrt", "full", 160},
                                          Case{"cloud-grey", "cloud/cloud-grey.pbrt", "classical", 224}),
                          [](const auto& parameter) {
                              std::string name = std::string(parameter.param.name) + "_" + parameter.param.preset;

@@ -42,15 +42,15 @@ struct Steps {
 /// Between what was seen and what is expected elsewhere.
 Steps steps(const StayMoments::Sums& sums, const Steps& expected) {
     const double n = sums.guided.powers[0];
-    const auto [variance_here, count] = variance(sums.guided);
-    if (!(variance_here > 0)) {
+    const StayVariance here = variance(sums.guided);
+    if (!(here.value > 0)) {
         return expected;
     }
     // `slope` and `squares`: sums of what falls.
     const auto step = [&](double slope, double squares, double elsewhere) {
         const double significance = squares > 0 ? slope * slope / (slope * slope + 4 * squares) : 0.0;
-        const double seen = std::clamp(pace * slope / (n * variance_here), -largest_step, largest_step) * significance;
-        return (count * seen + trusted * elsewhere) / (count + trusted);
+        const double seen = std::clamp(pace * slope / (n * here.value), -largest_step, largest_step) * significance;
+        return (here.count * seen + trusted * elsewhere) / (here.count + trusted);
     };
     Steps result;
     for (std::size_t i = 0; i < result.share.size(); ++i) {
