@@ -7,6 +7,7 @@
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
 #include <wend/integrator/surface_ahead.h>
+#include <wend/integrator/vertex.h>
 #include <wend/integrator/walk_branch.h>
 
 #include <algorithm>
@@ -149,18 +150,19 @@ private:
         const Hit& hit = ahead.hit();
         end.kind = scene_.is_interface(hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
         end.position = hit.position;
-        end.normal = faced(hit);
+        end.normal = Vertex::facing_normal(hit, now_.ray.direction);
         end.emitted = hit.light >= 0 ? mean_value(met_.at(hit, now_.last, now_.ray.direction).radiance) : 0.0f;
         return end;
     }
 
-    /// The ray from the vertex at hand in a direction.
-    TracedRay leave(const Vec3& position, const Vec3& w, bool in_volume) const {
-        return in_volume ? TracedRay(Ray{position, w}) : now_.ray.leave(*hit_, w);
+    /// The ray from a vertex that the walk has just come to in a direction.
+    TracedRay leave(const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? TracedRay(Ray{v.position, w}) : now_.ray.leave(*v.hit, w);
     }
-
-    /// The normal on the side that the walk comes from.
-    Vec3 faced(const Hit& hit) const { return dot(hit.normal, now_.ray.direction) < 0 ? hit.normal : -hit.normal; }
+    /// The medium that such a ray is in.
+    MediumState medium_towards(const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? now_.medium : scene_.medium_beyond(*v.hit, w, now_.medium);
+    }
 
     bool scatter_in(const Medium& medium, float distance) {
         if (now_.medium.id == now_.coloured) {
@@ -177,18 +179,18 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        const Vec3 position = now_.ray.at(distance);
+        const Vertex vertex = Vertex::in_medium(now_.ray.at(distance));
         if (log_ && now_.is_told) {
-            log_->collide(mean_value(extinction_at(medium, position)));
+            log_->collide(mean_value(extinction_at(medium, vertex.position)));
         }
         now_.connected_before = 0;
-        const VolumeScattering f(phase_function(medium), now_.ray.direction);
-        return scatter(f, position, {0, 0, 0}, true);
+        return scatter(VolumeScattering(phase_function(medium), now_.ray.direction), vertex);
     }
 
     bool scatter_at(const Hit& hit) {
         meet();
-        const SurfaceScattering f = scattering_at(hit);
+        const Vertex vertex = Vertex::on_surface(hit, now_.ray.direction);
+        const SurfaceScattering f = scattering_at(vertex);
         now_.connected_before =
             now_.lamps_ahead > 0 ? connections_at_boundary * now_.lamps_ahead / mean_value(now_.last.pass_probability)
                                  : 0.0f;
@@ -198,11 +200,10 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        hit_ = &hit;
         if (log_) {
-            log_->face(faced(hit));
+            log_->face(vertex.facing);
         }
-        return scatter(f, hit.position, hit.normal, false);
+        return scatter(f, vertex);
     }
 
     /// Whether so many vertices more, that count, are not too many.
@@ -226,34 +227,34 @@ private:
         return sampler_.random().uniform() < survival;
     }
 
-    SurfaceScattering scattering_at(const Hit& hit) const {
-        SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+    SurfaceScattering scattering_at(const Vertex& v) const {
+        SurfaceScattering f(scene_.bsdf(*v.hit), v.hit->shading, now_.ray.direction);
         if (f.reflects_or_refracts()) {
-            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}), weight_to_bound());
+            f.prefer_reflection(tracer_.reflections_.odds(v.side()), weight_to_bound());
         }
         return f;
     }
 
-    /// Connects a vertex to lights, draws a direction, and decides on survival. `normal` is zero in a volume.
+    /// Connects a vertex to lights, draws a direction, and decides on survival.
     template <class F>
-    bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
-        if (in_volume && now_.slab.is_inside()) {
-            tracer_.subsurface_.aim(now_.medium.id, position, now_.slab);
-            const SlabWalk slab = now_.slab;
-            const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
-            if constexpr (std::same_as<F, VolumeScattering>) {
-                connect_at_boundary(f, directions, position);
+    bool scatter(const F& f, const Vertex& v) {
+        if constexpr (F::in_volume) {
+            if (now_.slab.is_inside()) {
+                tracer_.subsurface_.aim(now_.medium.id, v.position, now_.slab);
+                const SlabWalk slab = now_.slab;
+                const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
+                connect_at_boundary(f, directions, v);
+                return scatter(f, directions, v);
             }
-            return scatter(f, directions, position, normal, true);
+            if (now_.is_classical) {
+                return scatter(f, ClassicalDirection().at(v.position, f), v);
+            }
         }
-        if (in_volume && now_.is_classical) {
-            return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
-        }
-        return scatter(f, d_.direction.at(position, in_volume, f, weight_to_bound()), position, normal, in_volume);
+        return scatter(f, d_.direction.at(v.position, f, weight_to_bound()), v);
     }
 
     template <class F, class Directions>
-    bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume);
+    bool scatter(const F& f, const Directions& directions, const Vertex& v);
 
     /// What the walk may yet bring over what all of it is expected to, if both are known.
     template <class F, class Directions>
@@ -296,22 +297,20 @@ private:
 
     /// Draws a direction, and decides on survival unless that has been `judged`; false where the walk ends.
     template <class F, class Directions>
-    bool draw_direction(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                        bool in_volume, bool judged);
+    bool draw_direction(const F& f, const Directions& directions, const Vertex& v, bool judged);
     /// What light that is met from here on will want to know.
     template <class F>
-    void remember_vertex(const F& f, const DirectionSample& s, const Vec3& position, const Vec3& normal,
-                         bool in_volume);
+    void remember_vertex(const F& f, const DirectionSample& s, const Vertex& v);
     /// Roulette after the direction is drawn.
     bool survives(bool is_judged_elsewhere);
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
-    float preference(bool in_volume) const { return in_volume ? now_.connecting.preference : 1.0f; }
+    float preference(const Vertex& v) const { return v.in_volume() ? now_.connecting.preference : 1.0f; }
 
     /// To lights that directions find as well, as a mean.
-    float connections(bool in_volume) const {
-        return in_volume ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
+    float connections(const Vertex& v) const {
+        return v.in_volume() ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
     }
 
     float survival_probability(bool is_judged_elsewhere) {
@@ -332,18 +331,17 @@ private:
     };
 
     template <class F, class Directions>
-    void connect_to_lights(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                           bool in_volume);
+    void connect_to_lights(const F& f, const Directions& directions, const Vertex& v);
     /// The same from a collision in a dense medium, along a way that boundaries refract.
     template <class F, class Directions>
-    void connect_through_boundaries(const F& f, const Directions& directions, const Vec3& position);
+    void connect_through_boundaries(const F& f, const Directions& directions, const Vertex& v);
     /// Counts what a connection has found; as many as `times` were made, as a mean.
-    void take(const Connection& found, const LightReceiver& receiver, const ChosenSample& chosen, float times);
+    void take(const Connection& found, const Vertex& v, const ChosenSample& chosen, float times);
     /// Flies out from a collision in a stay to a lamp that is known there, and connects the boundary to lights.
-    void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vec3& position);
+    void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vertex& v);
     template <class F, class Directions>
     Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
-                       const Vec3& position, bool in_volume);
+                       const Vertex& v);
     /// How a vertex sees a light: where, how bright, with what density of that direction, and what is in between.
     struct Sight {
         Vec3 direction;
@@ -356,19 +354,19 @@ private:
     /// `often`: how many connections see the light as this one does, as a mean; `value`: what is scattered here.
     template <class Directions>
     Connection weigh(const Sight& sight, float often, bool point_like, const Rgb& value, const Directions& directions,
-                     bool in_volume) const;
+                     const Vertex& v) const;
     template <class Directions>
-    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vec3& position, bool in_volume);
+    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vertex& v);
     template <class Directions>
     std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
-                                                 const Vec3& position);
+                                                 const Vertex& v);
     /// The walk, if it is in a guided stay, after it went from a collision in a direction.
     template <class Directions>
     SlabWalk slab_towards(const Vec3& direction, const Directions& directions) const;
     /// Tells the log of a light that no connection reaches.
-    void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, bool in_volume);
+    void hint_at_refracted(const ChosenSample& chosen, const Vertex& v);
     /// Tells the log of light that smooth surfaces lead to a vertex.
-    void hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume);
+    void hint_at_caustics(const Vertex& v);
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
@@ -382,8 +380,8 @@ private:
     void glow(const Rgb& radiance, float distance);
     void bring(const Rgb& light, const std::optional<StaySlope>& slope);
     void meet();
-    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume);
-    void note_reflection(const SurfaceScattering& f, const DirectionSample& s);
+    void scatter_into(const DirectionSample& s, const Vertex& v);
+    void note_reflection(const SurfaceScattering& f, const DirectionSample& s, const Vertex& v);
 
     static constexpr int max_pending = 64;
     /// For each flight out to a lamp.
@@ -405,7 +403,6 @@ private:
     std::vector<WalkBranch> pending_;
     Rgb radiance_;
     float expected_;
-    const Hit* hit_ = nullptr;  ///< of the surface vertex at hand
 
     WalkResult result_;
 };

@@ -50,14 +50,14 @@ void PathTracer<Decisions>::Walk::meet() {
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume) {
+void PathTracer<Decisions>::Walk::scatter_into(const DirectionSample& s, const Vertex& v) {
     now_.throughput *= s.weight();
     if (log_) {
-        if (in_volume && !now_.is_told) {
+        if (v.in_volume() && !now_.is_told) {
             log_->weigh(s.weight());
         } else {
-            log_->scatter(position, s.direction, s.specular ? 0 : s.density, s.weight(), in_volume, s.classical_density,
-                          s.guided_density);
+            log_->scatter(v.position, s.direction, s.specular ? 0 : s.density, s.weight(), v.in_volume(),
+                          s.classical_density, s.guided_density);
         }
         // In a channel without throughput the walk draws nothing, and what it finds there says nothing.
         log_->weigh({now_.throughput.r > 0 ? 1.0f : 0.0f, now_.throughput.g > 0 ? 1.0f : 0.0f,
@@ -66,11 +66,10 @@ void PathTracer<Decisions>::Walk::scatter_into(const DirectionSample& s, const V
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::note_reflection(const SurfaceScattering& f, const DirectionSample& s) {
+void PathTracer<Decisions>::Walk::note_reflection(const SurfaceScattering& f, const DirectionSample& s,
+                                                  const Vertex& v) {
     if (reflections_ && f.reflects_or_refracts()) {
-        const Vec3 normal = faced(*hit_);
-        const ReflectionRecord record =
-            tracer_.reflections_.record({hit_->position, normal}, dot(s.direction, normal) > 0, 0);
+        const ReflectionRecord record = tracer_.reflections_.record(v.side(), dot(s.direction, v.facing) > 0, 0);
         now_.boundary = boundaries_.note(now_.boundary, record, mean_value(now_.throughput) / s.boost);
     }
 }

@@ -67,7 +67,7 @@ std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& a
 // a path either way has the same value, and the balance heuristic counts `connected_before` on both.
 template <class Decisions>
 void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
-                                                      const Vec3& position) {
+                                                      const Vertex& v) {
     if (!has_depth_for(scene_.counts_vertices_in(now_.medium.id) ? 1 : 0)) {
         return;
     }
@@ -76,13 +76,12 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     if (!(density > 0)) {
         return;
     }
-    const Ray ray{position, *w};
+    const Ray ray{v.position, *w};
     const std::optional<Hit> hit = scene_.intersect(ray);
     if (!hit || scene_.is_interface(*hit)) {
         return;
     }
     const WalkBranch here = now_;
-    const Hit* const surface = std::exchange(hit_, &*hit);
     const Rgb phase = f.evaluate(*w);
     now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
     now_.slab.turn(directions, *w);
@@ -91,27 +90,26 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
     now_.throughput *= arriving;
     now_.connected_before = connections_at_boundary * directions.lamp_density(*w) / (density * passing);
-    const SurfaceScattering boundary = scattering_at(*hit);
+    const Vertex there = Vertex::on_surface(*hit, *w);
+    const SurfaceScattering boundary = scattering_at(there);
     Rgb brought;
     if (is_finite(arriving) && !boundary.is_specular()) {
         constexpr int n = connections_at_boundary;
-        const auto around = d_.direction.at(hit->position, false, boundary, weight_to_bound());
+        const auto around = d_.direction.at(there.position, boundary, weight_to_bound());
         const float u = sampler_.random().uniform();
         for (int i = 0; i < n; ++i) {
-            const auto chosen =
-                choose_light(scene_, tracer_.lights_, {hit->position, hit->normal}, (static_cast<float>(i) + u) / n,
-                             sampler_.random().uniform2(), sampler_.random());
+            const auto chosen = choose_light(scene_, tracer_.lights_, there.receiver(), (static_cast<float>(i) + u) / n,
+                                             sampler_.random().uniform2(), sampler_.random());
             if (!chosen) {
                 continue;
             }
-            const Connection found = connect(*chosen, connections(false), boundary, around, hit->position, false);
+            const Connection found = connect(*chosen, connections(there), boundary, around, there);
             const Rgb light = found.scattering * found.light;
             bring(now_.throughput * light, found.slope);
             brought += arriving * light;
         }
     }
     now_ = here;
-    hit_ = surface;
     if (log_) {
         log_->gather(brought);
     }
