@@ -21,34 +21,25 @@ namespace wend {
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const WalkLessons& lessons)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const RecorderTargets& record_to)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
-          log_(lessons.log),
-          stays_(lessons.stays),
-          lights_(lessons.lights),
-          reflections_(lessons.reflections),
-          caustics_(lessons.caustics),
+          recorder_(record_to, tracer.lights_, tracer.reflections_),
           met_(scene_, tracer.lights_),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
-        if (log_) {
-            log_->start();
-        }
-        boundaries_.start();
+        recorder_.start();
         now_.ray = start;
         now_.medium = scene_.camera_medium();
         do {
             while (!is_stopped() && step()) {
             }
-            update_stay();
+            recorder_.update(now_.slab);
         } while (!is_stopped() && take_up_pending());
-        if (reflections_) {
-            boundaries_.finish(*reflections_);
-        }
+        recorder_.finish();
         result_.sample.radiance = radiance_;
         return result_;
     }
@@ -81,7 +72,7 @@ private:
         }
         if (!ahead) {
             if (const MetLight arriving = met_.beyond(now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
-                gather(arriving.radiance, slope_of(arriving));
+                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.slab));
             }
             return false;
         }
@@ -89,7 +80,7 @@ private:
         now_.travelled += hit.distance;
         if (hit.light >= 0) {
             if (const MetLight arriving = met_.at(hit, now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
-                gather(arriving.radiance, slope_of(arriving));
+                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.slab));
             }
         }
         if (scene_.is_interface(hit)) {
@@ -106,9 +97,7 @@ private:
     /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
     Flight fly(const Medium& medium, SurfaceAhead& ahead, float drawn) {
         const float length = ahead.distance();
-        if (Stay* const stay = stay_inside()) {
-            ++stay->flights;
-        }
+        recorder_.fly(now_.medium.id);
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
@@ -131,15 +120,6 @@ private:
 
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
     void enter_medium(const Hit& hit, MediumId from);
-    void update_stay();
-    /// The last stay that is told, and the same if it goes on; null if there is none.
-    Stay* last_stay() { return now_.stay >= 0 ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
-    Stay* stay_inside() {
-        Stay* const stay = last_stay();
-        return stay && stay->medium == now_.medium.id ? stay : nullptr;
-    }
-    /// Light that was weighted against connections from a collision changes less than the walk's density.
-    std::optional<StaySlope> slope_of(const MetLight& arriving);
 
     FlightEnd end_of_segment(SurfaceAhead& ahead) const {
         FlightEnd end;
@@ -171,7 +151,7 @@ private:
                 return false;
             }
         }
-        meet();
+        recorder_.meet(now_.travelled);
         if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
             result_.sample.scattered = true;
@@ -180,15 +160,13 @@ private:
             return false;
         }
         const Vertex vertex = Vertex::in_medium(now_.ray.at(distance));
-        if (log_ && now_.is_told) {
-            log_->collide(mean_value(extinction_at(medium, vertex.position)));
-        }
+        recorder_.collide(medium, vertex.position);
         now_.connected_before = 0;
         return scatter(VolumeScattering(phase_function(medium), now_.ray.direction), vertex);
     }
 
     bool scatter_at(const Hit& hit) {
-        meet();
+        recorder_.meet(now_.travelled);
         const Vertex vertex = Vertex::on_surface(hit, now_.ray.direction);
         const SurfaceScattering f = scattering_at(vertex);
         now_.connected_before =
@@ -200,9 +178,7 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        if (log_) {
-            log_->face(vertex.facing);
-        }
+        recorder_.face(vertex);
         return scatter(f, vertex);
     }
 
@@ -273,17 +249,13 @@ private:
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {
-        if (log_) {
-            now_.logged = log_->branch();
-        }
+        now_.recorded = recorder_.branch();
         pending_.push_back(now_);
     }
 
     void go_on_from(const WalkBranch& branch) {
         now_ = branch;
-        if (log_) {
-            log_->resume(now_.logged);
-        }
+        recorder_.resume(now_.recorded);
     }
 
     bool take_up_pending() {
@@ -363,10 +335,8 @@ private:
     /// The walk, if it is in a guided stay, after it went from a collision in a direction.
     template <class Directions>
     SlabWalk slab_towards(const Vec3& direction, const Directions& directions) const;
-    /// Tells the log of a light that no connection reaches.
+    /// Records a light that no connection reaches.
     void hint_at_refracted(const ChosenSample& chosen, const Vertex& v);
-    /// Tells the log of light that smooth surfaces lead to a vertex.
-    void hint_at_caustics(const Vertex& v);
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
@@ -374,14 +344,23 @@ private:
         result_.sample.depth = now_.travelled;
     }
 
-    // What the walk multiplies and adds, and tells those that learn from it.
-    void weigh(const Rgb& weight);
-    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {});
-    void glow(const Rgb& radiance, float distance);
-    void bring(const Rgb& light, const std::optional<StaySlope>& slope);
-    void meet();
-    void scatter_into(const DirectionSample& s, const Vertex& v);
-    void note_reflection(const SurfaceScattering& f, const DirectionSample& s, const Vertex& v);
+    // What the walk multiplies and adds.
+    void weigh(const Rgb& weight) {
+        now_.throughput *= weight;
+        recorder_.weigh(weight);
+    }
+    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {}) {
+        bring(now_.throughput * radiance, slope);
+        recorder_.gather(radiance);
+    }
+    void glow(const Rgb& radiance, float distance) {
+        bring(now_.throughput * radiance, {});
+        recorder_.glow(radiance, distance);
+    }
+    void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
+        radiance_ += light;
+        recorder_.bring(mean_value(light), slope, now_.slab);
+    }
 
     static constexpr int max_pending = 64;
     /// For each flight out to a lamp.
@@ -391,12 +370,7 @@ private:
     const Scene& scene_;
     const Decisions& d_;
     Sampler& sampler_;
-    guide::PathLog* log_;
-    std::vector<Stay>* stays_;
-    std::vector<LightRecord>* lights_;
-    std::vector<ReflectionRecord>* reflections_;
-    const CausticPhotons* caustics_;
-    ReflectionLog boundaries_;
+    WalkRecorder recorder_;
     LightMet met_;
 
     WalkBranch now_;
@@ -411,15 +385,14 @@ private:
 
 #include <wend/integrator/walk_connections.inl>
 #include <wend/integrator/walk_directions.inl>
-#include <wend/integrator/walk_lessons.inl>
 #include <wend/integrator/walk_stays.inl>
 
 namespace wend {
 
 template <class Decisions>
 WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler,
-                                        const WalkLessons& lessons) const {
-    return Walk(*this, expected, sampler, lessons).run(ray);
+                                        const RecorderTargets& record_to) const {
+    return Walk(*this, expected, sampler, record_to).run(ray);
 }
 
 }  // namespace wend

@@ -53,9 +53,7 @@ void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const D
     Connection found;
     if (const auto sight = look_through_boundaries(*chosen, directions, v)) {
         found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, v);
-        if (Stay* const stay = stay_inside()) {
-            stay->connected_through = true;
-        }
+        recorder_.connected(now_.medium.id, true);
     }
     take(found, v, *chosen, often);
 }
@@ -65,13 +63,8 @@ void PathTracer<Decisions>::Walk::take(const Connection& found, const Vertex& v,
                                        float times) {
     const Rgb brought = found.scattering * found.light;
     gather(brought, found.slope);
-    if (lights_) {
-        lights_->push_back(
-            tracer_.lights_.record(v.receiver(), chosen.index, mean_value(brought) * times * chosen.probability));
-    }
-    if (log_ && (now_.is_told || !v.in_volume())) {
-        log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
-    }
+    recorder_.connect(v, chosen.index, chosen.probability, times, found.to_light, found.distance,
+                      mean_value(found.light), brought);
 }
 
 template <class Decisions>
@@ -84,13 +77,13 @@ auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float time
     }
     const Sight sight = look_straight(chosen, directions, v);
     if (is_black(sight.passage.transmittance)) {
-        if (log_ && !sight.slab.is_inside()) {
+        if (recorder_.takes_hints() && !sight.slab.is_inside()) {
             hint_at_refracted(chosen, v);
         }
         return {};
     }
-    if (Stay* const stay = v.in_volume() ? stay_inside() : nullptr) {
-        stay->connected = true;
+    if (v.in_volume()) {
+        recorder_.connected(now_.medium.id, false);
     }
     return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, v);
 }
@@ -107,16 +100,10 @@ auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool po
     }
     Connection found{sight.direction, sight.distance,
                      sight.radiance * sight.passage.transmittance * (1 / (density + other)), value, std::nullopt};
-    if (!stays_) {
-        return found;
-    }
     if (v.in_volume() && now_.slab.is_inside()) {
-        const float weight = density / (density + other);
-        found.slope =
-            StaySlope{mix(now_.slab.relative_densities(), sight.slab.relative_densities(), weight), weight - 1};
+        found.slope = recorder_.slope_inside(now_.slab, sight.slab, density / (density + other));
     } else if (now_.connected_before > 0) {
-        const float before = now_.connected_before * sight.density / (density + other);
-        found.slope = StaySlope{mix(now_.at_collision, now_.slab.relative_densities(), before), 0};
+        found.slope = recorder_.slope_at_boundary(now_.slab, now_.connected_before * sight.density / (density + other));
     }
     return found;
 }
@@ -172,17 +159,6 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::hint_at_caustics(const Vertex& v) {
-    if (!log_ || !caustics_ || (v.in_volume() && now_.slab.is_inside())) {
-        return;
-    }
-    if (const auto seen = caustics_->near(v.position, v.facing, sampler_.random())) {
-        log_->hint({{v.position, seen->towards, mean_value(seen->fluence), 1, seen->distance, 0, 0, 0, seen->fluence},
-                    v.in_volume()});
-    }
-}
-
-template <class Decisions>
 void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vertex& v) {
     constexpr float often = 0.25f;
     const LightSample& light = chosen.light;
@@ -193,9 +169,9 @@ void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, 
     if (const auto seen =
             glimpse(scene_, shadow.ray, shadow.length, medium_towards(v, light.direction), sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;
-        log_->hint({{v.position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0, 0,
-                     0, radiance},
-                    v.in_volume()});
+        recorder_.hint({{v.position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0,
+                         0, 0, radiance},
+                        v.in_volume()});
     }
 }
 

@@ -18,7 +18,7 @@ template <class F, class Directions>
 bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directions, const Vertex& v) {
     if (!f.is_specular()) {
         connect_to_lights(f, directions, v);
-        hint_at_caustics(v);
+        recorder_.hint_at_caustics(v, now_.slab, sampler_.random());
     }
     if (v.in_volume()) {
         connect_through_boundaries(f, directions, v);
@@ -35,9 +35,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
     }
     result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
     for (int i = 1; i < outcome->copies; ++i) {
-        if (log_) {
-            now_.logged = log_->branch();
-        }
+        now_.recorded = recorder_.branch();
         const WalkBranch here = now_;
         if (draw_direction(f, directions, v, true)) {
             leave_pending();
@@ -57,13 +55,16 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
         return false;
     }
     if constexpr (std::same_as<F, SurfaceScattering>) {
-        note_reflection(f, *s, v);
+        if (f.reflects_or_refracts()) {
+            recorder_.reflect(*s, v, mean_value(now_.throughput) / s->boost);
+        }
     }
-    scatter_into(*s, v);
+    now_.throughput *= s->weight();
+    recorder_.scatter(*s, v, now_.throughput);
     remember_vertex(f, *s, v);
     if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
         now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
-        now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+        recorder_.turn(now_.slab);
         now_.slab.turn(directions, s->direction);
     }
     if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
@@ -94,9 +95,9 @@ void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSam
         return;
     }
     const float connected = connections(v) + now_.connected_before;
-    now_.from_collision = v.in_volume() && now_.slab.is_inside() ? 1.0f
-                          : now_.connected_before > 0            ? now_.connected_before / connected
-                                                                 : 0.0f;
+    recorder_.remember_connections(v.in_volume() && now_.slab.is_inside() ? 1.0f
+                                   : now_.connected_before > 0            ? now_.connected_before / connected
+                                                                          : 0.0f);
     now_.last = {v.receiver(),
                  s.specular,
                  s.density * preference(v),

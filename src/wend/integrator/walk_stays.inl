@@ -23,44 +23,23 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
         return;
     }
-    update_stay();
+    recorder_.update(now_.slab);
     bool guided = now_.slab.is_inside();
     if (now_.medium.id != from) {
         const StayPlan* plan = tracer_.subsurface_.plan(now_.medium.id, hit.position);
         guided = plan && !(sampler_.random().uniform() < plan->unguided_probability);
         now_.is_classical = plan && !guided && plan->is_unguided_classical;
-        now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
+        recorder_.choose_recording(guided, plan ? plan->told_probability : 1.0f, sampler_.random());
         now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->unguided;
         now_.slab.leave();
-        if (stays_ && plan) {
-            now_.stay = static_cast<int>(stays_->size());
-            now_.relative = {};
-            stays_->push_back({.medium = now_.medium.id, .entry = hit.position, .guided = guided});
+        if (plan) {
+            recorder_.enter(now_.medium.id, hit.position, guided);
         }
     }
     if (guided) {
         tracer_.subsurface_.enter(now_.medium.id, hit, now_.ray.direction, channel_probabilities(now_.throughput),
                                   now_.slab);
     }
-}
-
-template <class Decisions>
-void PathTracer<Decisions>::Walk::update_stay() {
-    if (Stay* const stay = last_stay(); stay && now_.slab.is_inside()) {
-        stay->relative = now_.relative = now_.slab.relative_densities();
-    }
-}
-
-template <class Decisions>
-std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& arriving) {
-    if (!stays_ || now_.from_collision == 0) {
-        return std::nullopt;
-    }
-    update_stay();
-    const float by_connections = arriving.by_connections / mean_value(arriving.radiance);
-    const bool in_volume = now_.last.receiver.normal == Vec3(0, 0, 0);
-    return StaySlope{mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
-                     in_volume ? by_connections : 0.0f};
 }
 
 // What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
@@ -81,9 +60,10 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     if (!hit || scene_.is_interface(*hit)) {
         return;
     }
+    now_.recorded = recorder_.branch();
     const WalkBranch here = now_;
     const Rgb phase = f.evaluate(*w);
-    now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+    recorder_.turn(now_.slab);
     now_.slab.turn(directions, *w);
     now_.ray = ray;
     const float passing = now_.slab.pass(hit->distance);
@@ -109,13 +89,8 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
             brought += arriving * light;
         }
     }
-    now_ = here;
-    if (log_) {
-        log_->gather(brought);
-    }
-    if (log_ && now_.is_told) {
-        log_->connect(*w, infinity, mean_value(brought) / mean_value(phase), brought);
-    }
+    go_on_from(here);
+    recorder_.connect_at_boundary(*w, phase, brought);
 }
 
 }  // namespace wend
