@@ -86,6 +86,7 @@ float lamp_density(float distance, float cosine) {
 
 /// A matt surface. Its lobes are what the guide multiplies incident radiance with. (Fog: wend::VolumeScattering.)
 struct Matt {
+    static constexpr bool in_volume = false;
     Rgb albedo;
     Vec3 normal;
 
@@ -124,7 +125,7 @@ private:
         log_.meet(std::min(flight, hit.distance));
         if (flight < hit.distance) {
             weigh(fog_albedo);  // transmittance times scattering coefficient over the density of the flight
-            return scatter(wend::VolumeScattering(fog_phase, direction_), origin_ + direction_ * flight, true);
+            return scatter(wend::VolumeScattering(fog_phase, direction_), origin_ + direction_ * flight);
         }
         const float cosine = direction_[hit.wall->axis];
         if (hit.wall == &lamp) {
@@ -137,12 +138,12 @@ private:
         }
         Vec3 normal(0, 0, 0);
         normal[hit.wall->axis] = cosine > 0 ? -1.0f : 1.0f;
-        return scatter(Matt{hit.wall->albedo, normal}, origin_ + direction_ * hit.distance + normal * 1e-4f, false);
+        return scatter(Matt{hit.wall->albedo, normal}, origin_ + direction_ * hit.distance + normal * 1e-4f);
     }
 
     template <class F>
-    bool scatter(const F& f, const Vec3& position, bool in_fog) {
-        const auto distribution = directions_.at(position, in_fog, f, mean_value(throughput_));
+    bool scatter(const F& f, const Vec3& position) {
+        const auto distribution = directions_.at(position, f, mean_value(throughput_));
         gather(connect(f, distribution, position));
         const float u = random_.uniform();
         const auto s = distribution.sample(u, random_.uniform2());
@@ -151,7 +152,8 @@ private:
         }
         // The weight is the scattering function over the density that was used, so no field can bias the picture.
         throughput_ *= s->weight();
-        log_.scatter(position, s->direction, s->density, s->weight(), in_fog, s->classical_density, s->guided_density);
+        log_.scatter(position, s->direction, s->density, s->weight(), F::in_volume, s->classical_density,
+                     s->guided_density);
         boost_ *= s->boost;
         origin_ = position;
         direction_ = s->direction;

@@ -16,6 +16,7 @@ namespace {
 
 /// A phase function in a medium.
 struct Volume {
+    static constexpr bool in_volume = true;
     Vec3 before = normalize(Vec3(0.2f, -0.5f, 0.7f));
     HenyeyGreenstein phase{0.6f};
 
@@ -32,6 +33,7 @@ struct Volume {
 
 /// A coloured Lambertian surface.
 struct Wall {
+    static constexpr bool in_volume = false;
     Vec3 normal = normalize(Vec3(-0.3f, 0.4f, 0.8f));
     Rgb reflectance{0.8f, 0.5f, 0.2f};
 
@@ -48,6 +50,7 @@ struct Wall {
 
 /// A mirror with probability 0.4 over a Lambertian base, like a smooth coat.
 struct Coat {
+    static constexpr bool in_volume = false;
     Wall base;
 
     float density(const Vec3& w) const { return 0.6f * base.density(w); }
@@ -137,13 +140,12 @@ std::array<Moments, 3> estimate(const Distribution& distribution, int samples = 
 }
 
 template <class F>
-void expect_unbiased(const F& f, bool in_volume) {
+void expect_unbiased(const F& f) {
     const Rgb expected = integral_of(f);
-    const auto classical = estimate(ClassicalDirection().at(here, in_volume, f));
-    const auto guided = estimate(GuidedDirection(&wrong, &wrong, classical_share).at(here, in_volume, f));
-    const auto by_glints = estimate(GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, in_volume, f));
-    const auto by_all =
-        estimate(GuidedDirection(&wrong, &wrong, classical_share, &glints, &glints).at(here, in_volume, f));
+    const auto classical = estimate(ClassicalDirection().at(here, f));
+    const auto guided = estimate(GuidedDirection(&wrong, &wrong, classical_share).at(here, f));
+    const auto by_glints = estimate(GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, f));
+    const auto by_all = estimate(GuidedDirection(&wrong, &wrong, classical_share, &glints, &glints).at(here, f));
     for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(test::is_within_one_percent(classical[static_cast<std::size_t>(c)], expected[c], 1e-4));
         EXPECT_TRUE(test::is_within_one_percent(guided[static_cast<std::size_t>(c)], expected[c], 1e-4));
@@ -153,14 +155,14 @@ void expect_unbiased(const F& f, bool in_volume) {
 }
 
 TEST(Direction, GuidedAndClassicalHaveTheSameMean) {
-    expect_unbiased(Volume{}, true);
-    expect_unbiased(Wall{}, false);
-    expect_unbiased(Coat{}, false);
+    expect_unbiased(Volume{});
+    expect_unbiased(Wall{});
+    expect_unbiased(Coat{});
 }
 
 TEST(Direction, AWeightByTheWrongDensityIsRejected) {
     const Volume f;
-    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
     Pcg32 random(1);
     Moments moments;
     for (int i = 0; i < 100000; ++i) {
@@ -185,17 +187,17 @@ test::SphereTest direction_test(const Distribution& distribution, const test::Di
 TEST(Direction, GuidedSamplesFollowTheirDensity) {
     const GuidedDirection guided(&wrong, &wrong, classical_share);
     const Volume volume;
-    const auto in_volume = guided.at(here, true, volume);
+    const auto in_volume = guided.at(here, volume);
     EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
                                       "guided_volume", 3));
     // Directions below a wall are drawn by the lobe, but are no samples.
     const Wall wall;
-    const auto on_wall = guided.at(here, false, wall);
+    const auto on_wall = guided.at(here, wall);
     const auto above = [&](const auto& d, const Vec3& w) { return dot(wall.normal, w) > 0 ? d.density(w) : 0.0f; };
     EXPECT_TRUE(test::follows_density(direction_test(on_wall, [&](const Vec3& w) { return above(on_wall, w); }),
                                       "guided_wall", 3));
     const Coat coat;
-    const auto on_coat = guided.at(here, false, coat);
+    const auto on_coat = guided.at(here, coat);
     EXPECT_TRUE(test::follows_density(direction_test(on_coat, [&](const Vec3& w) { return above(on_coat, w); }),
                                       "guided_coat", 3));
 }
@@ -203,11 +205,11 @@ TEST(Direction, GuidedSamplesFollowTheirDensity) {
 TEST(Direction, SamplesAmongGlintsFollowTheirDensity) {
     const Volume volume;
     const GuidedDirection all(&wrong, &wrong, classical_share, &glints, &glints);
-    const auto in_volume = all.at(here, true, volume);
+    const auto in_volume = all.at(here, volume);
     EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
                                       "glints_volume", 3));
     const Wall wall;
-    const auto alone = GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, false, wall);
+    const auto alone = GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, wall);
     const auto above = [&](const Vec3& w) { return dot(wall.normal, w) > 0 ? alone.density(w) : 0.0f; };
     EXPECT_TRUE(test::follows_density(direction_test(alone, above), "glints_wall", 3));
 }
@@ -218,7 +220,7 @@ TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
         const GuidedDirection guide(&wrong, &wrong, 0.01f, known, known);
         for (const float weight : {0.2f, 1.0f, 2.0f, 2.9f, 3.0f, 5.0f}) {
             SCOPED_TRACE(testing::Message() << "weight " << weight << (known ? ", glints" : ""));
-            const auto distribution = guide.at(here, true, f, weight);
+            const auto distribution = guide.at(here, f, weight);
             Pcg32 random(7);
             float heaviest = 0;
             for (int i = 0; i < 20000; ++i) {
@@ -231,20 +233,20 @@ TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
             EXPECT_GE(heaviest, 0.9f * heaviest_walk);
         }
         const Vec3 against = -wrong.adjoint->lobe.mean;
-        EXPECT_LT(guide.at(here, true, f).density(against), 0.011f * f.density(against)) << "of unknown weight";
+        EXPECT_LT(guide.at(here, f).density(against), 0.011f * f.density(against)) << "of unknown weight";
     }
 }
 
 TEST(Direction, AnotherClassicalShareIsRejected) {
     const Volume f;
-    const auto actual = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
-    const auto claimed = GuidedDirection(&wrong, &wrong, 0.33f).at(here, true, f);
+    const auto actual = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
+    const auto claimed = GuidedDirection(&wrong, &wrong, 0.33f).at(here, f);
     EXPECT_LT(direction_test(actual, [&](const Vec3& w) { return claimed.density(w); }).result.p_value, test::failing);
 }
 
 TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
     const auto check = [&](const auto& f, const GuidedDirection<LobeField>& guided, float least_share) {
-        const auto distribution = guided.at(here, false, f);
+        const auto distribution = guided.at(here, f);
         Pcg32 random(2);
         for (int i = 0; i < 2000; ++i) {
             const float u = random.uniform();
@@ -269,9 +271,9 @@ TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
 
 TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {
     const Volume f;
-    const auto own = GuidedDirection(&wrong, &wrong).at(here, true, f);
-    const auto same = GuidedDirection(&wrong, &wrong, LobeAdjoint().share).at(here, true, f);
-    const auto other = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    const auto own = GuidedDirection(&wrong, &wrong).at(here, f);
+    const auto same = GuidedDirection(&wrong, &wrong, LobeAdjoint().share).at(here, f);
+    const auto other = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
     const Vec3 w = normalize(Vec3(1, 1, 0.5f));
     EXPECT_EQ(own.density(w), same.density(w));
     EXPECT_NE(own.density(w), other.density(w));
@@ -279,7 +281,7 @@ TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {
 
 TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
     const Volume f;
-    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, true, f);
+    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
     Pcg32 random(5);
     for (int i = 0; i < 100; ++i) {
         const float u = random.uniform();
@@ -288,14 +290,14 @@ TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
         ASSERT_TRUE(s);
         EXPECT_EQ(s->classical_density, f.density(s->direction));
         EXPECT_FLOAT_EQ(s->density, classical_share * s->classical_density + (1 - classical_share) * s->guided_density);
-        const auto alone = ClassicalDirection().at(here, true, f).sample(u, u2);
+        const auto alone = ClassicalDirection().at(here, f).sample(u, u2);
         EXPECT_EQ(alone->guided_density, 0);
     }
 }
 
 TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {
     const Coat coat;
-    const auto distribution = GuidedDirection(&wrong, &wrong, classical_share).at(here, false, coat);
+    const auto distribution = GuidedDirection(&wrong, &wrong, classical_share).at(here, coat);
     Pcg32 random(3);
     Moments mirror;
     for (int i = 0; i < 4000000; ++i) {
@@ -308,8 +310,8 @@ TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {
 
 TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
     const Volume f;
-    const auto guided = GuidedDirection(&nothing, &nothing, classical_share).at(here, true, f);
-    const auto classical = ClassicalDirection().at(here, true, f);
+    const auto guided = GuidedDirection(&nothing, &nothing, classical_share).at(here, f);
+    const auto classical = ClassicalDirection().at(here, f);
     Pcg32 random(4);
     for (int i = 0; i < 100; ++i) {
         const float u = random.uniform();
@@ -322,9 +324,9 @@ TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
 TEST(Direction, AHeavyWalkIsUnguidedButKnowsWhatToExpect) {
     const Volume f;
     const GuidedDirection guide(&wrong, &wrong, classical_share);
-    const auto light = guide.at(here, true, f, 0.99f * heaviest_walk);
-    const auto heavy = guide.at(here, true, f, heaviest_walk);
-    const auto classical = ClassicalDirection().at(here, true, f);
+    const auto light = guide.at(here, f, 0.99f * heaviest_walk);
+    const auto heavy = guide.at(here, f, heaviest_walk);
+    const auto classical = ClassicalDirection().at(here, f);
     ASSERT_TRUE(light.in_scattered() && heavy.in_scattered());
     for (int c = 0; c < 3; ++c) {
         EXPECT_EQ((*heavy.in_scattered())[c], (*light.in_scattered())[c]);
@@ -343,10 +345,11 @@ TEST(Direction, AHeavyWalkIsUnguidedButKnowsWhatToExpect) {
 }
 
 TEST(Direction, SurfacesAndVolumesHaveAFieldEach) {
-    const Wall f;
-    const Vec3 w = f.normal;
-    EXPECT_EQ(GuidedDirection(&nothing, &wrong, 0.5f).at(here, false, f).density(w), f.density(w));
-    EXPECT_NE(GuidedDirection(&nothing, &wrong, 0.5f).at(here, true, f).density(w), f.density(w));
+    const Wall wall;
+    const Volume volume;
+    const Vec3 w = wall.normal;
+    EXPECT_EQ(GuidedDirection(&nothing, &wrong, 0.5f).at(here, wall).density(w), wall.density(w));
+    EXPECT_NE(GuidedDirection(&nothing, &wrong, 0.5f).at(here, volume).density(w), volume.density(w));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const 
     { f.lobes() } -> std::same_as<AxialLobes>;
     { f.is_specular() } -> std::same_as<bool>;
     { f.is_guidable() } -> std::same_as<bool>;
+    { F::in_volume } -> std::convertible_to<bool>;
 };
 
 /// Directions in proportion to the scattering function alone.
@@ -60,7 +61,7 @@ public:
 
     /// The distribution at a vertex; `f` must outlive it.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& /*position*/, bool /*in_volume*/, const F& f, float /*weight*/ = 0) const {
+    Distribution<F> at(const Vec3& /*position*/, const F& f, float /*weight*/ = 0) const {
         return Distribution<F>(f);
     }
 };
@@ -97,12 +98,12 @@ public:
         /// `adjoint` and `glints` may be null. `least_classical` in [0,1]: of the density of `f` alone, what is always
         /// left of it.
         Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share,
-                     const GlintMap::Cell* glints, bool in_volume, float least_classical)
+                     const GlintMap::Cell* glints, float least_classical)
             : f_(f), adjoint_(adjoint) {
             if (glints) {
                 glints_ = GlintMixture(*glints, position, f);
                 glint_share_ =
-                    glints_.is_empty() ? 0.0f : std::min(share_of(glints->fluence(in_volume)), 1 - least_classical);
+                    glints_.is_empty() ? 0.0f : std::min(share_of(glints->fluence(F::in_volume)), 1 - least_classical);
             }
             classical_share_ = std::max(classical_share, least_classical / (1 - glint_share_));
             if (adjoint) {
@@ -189,12 +190,12 @@ public:
     /// `weight` is the walk's (Outlook::weight) and raises the classical share of one that has become heavy; 0 leaves
     /// it alone. From heaviest_walk on the adjoint tells no more than what is to be expected.
     template <ScatteringFunction F>
-    Distribution<F> at(const Vec3& position, bool in_volume, const F& f, float weight = 0) const {
-        const LocalAdjoint* adjoint = f.is_guidable() ? (in_volume ? volume_ : surface_)->find(position) : nullptr;
-        const GlintMap* glints = in_volume ? volume_glints_ : surface_glints_;
+    Distribution<F> at(const Vec3& position, const F& f, float weight = 0) const {
+        const LocalAdjoint* adjoint = f.is_guidable() ? (F::in_volume ? volume_ : surface_)->find(position) : nullptr;
+        const GlintMap* glints = F::in_volume ? volume_glints_ : surface_glints_;
         const GlintMap::Cell* known = glints && f.is_guidable() ? glints->find(position) : nullptr;
         const float share = adjoint ? classical_share_.value_or(adjoint->classical_share()) : 1.0f;
-        return Distribution<F>(f, adjoint, position, share, known, in_volume, least_classical(weight));
+        return Distribution<F>(f, adjoint, position, share, known, least_classical(weight));
     }
 
 private:

@@ -9,6 +9,8 @@ namespace wend {
 /// A phase function, which must outlive it, given the direction of propagation before the collision.
 class VolumeScattering {
 public:
+    static constexpr bool in_volume = true;
+
     VolumeScattering(const PhaseFunction& phase, const Vec3& before) : phase_(phase), before_(before) {}
 
     Rgb evaluate(const Vec3& w) const { return Rgb(density(w)); }

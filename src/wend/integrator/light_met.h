@@ -1,6 +1,7 @@
 // Light that a walk runs into, weighted against the connections that could have found it.
 #pragma once
 
+#include <wend/decision/channels.h>
 #include <wend/decision/distance.h>
 #include <wend/integrator/light_choices.h>
 #include <wend/integrator/refracted_way.h>

@@ -6,11 +6,10 @@
 #include <wend/decision/guided_distance.h>
 #include <wend/decision/survival.h>
 #include <wend/film/film.h>
-#include <wend/guide/path_log.h>
-#include <wend/integrator/caustic_photons.h>
 #include <wend/integrator/light_choices.h>
 #include <wend/integrator/reflection_choices.h>
 #include <wend/integrator/subsurface.h>
+#include <wend/integrator/walk_recorder.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 
@@ -62,15 +61,6 @@ struct GuidedDecisions {
 template <class Field, class Distance, class Survival>
 GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<Field, Distance, Survival>;
 
-/// What a walk tells those that learn from it, if they are there.
-struct WalkLessons {
-    guide::PathLog* log = nullptr;                         ///< is started anew
-    std::vector<Stay>* stays = nullptr;                    ///< those in dense media are added
-    std::vector<LightRecord>* lights = nullptr;            ///< what connections brought is added
-    std::vector<ReflectionRecord>* reflections = nullptr;  ///< what was found behind boundaries is added
-    const CausticPhotons* caustics = nullptr;              ///< what the log is told beside what walks find
-};
-
 /// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
 template <class Decisions>
 class PathTracer {
@@ -90,7 +80,7 @@ public:
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
     /// none.
-    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const WalkLessons& lessons = {}) const;
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const RecorderTargets& record_to = {}) const;
 
 private:
     class Walk;

@@ -7,6 +7,7 @@
 #include <wend/integrator/path_tracer.h>
 #include <wend/integrator/scattering.h>
 #include <wend/integrator/surface_ahead.h>
+#include <wend/integrator/vertex.h>
 #include <wend/integrator/walk_branch.h>
 
 #include <algorithm>
@@ -20,34 +21,25 @@ namespace wend {
 template <class Decisions>
 class PathTracer<Decisions>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const WalkLessons& lessons)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const RecorderTargets& record_to)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
-          log_(lessons.log),
-          stays_(lessons.stays),
-          lights_(lessons.lights),
-          reflections_(lessons.reflections),
-          caustics_(lessons.caustics),
+          recorder_(record_to, tracer.lights_, tracer.reflections_),
           met_(scene_, tracer.lights_),
           expected_(expected) {}
 
     WalkResult run(const Ray& start) {
-        if (log_) {
-            log_->start();
-        }
-        boundaries_.start();
+        recorder_.start();
         now_.ray = start;
         now_.medium = scene_.camera_medium();
         do {
             while (!is_stopped() && step()) {
             }
-            update_stay();
+            recorder_.update(now_.slab);
         } while (!is_stopped() && take_up_pending());
-        if (reflections_) {
-            boundaries_.finish(*reflections_);
-        }
+        recorder_.finish();
         result_.sample.radiance = radiance_;
         return result_;
     }
@@ -80,7 +72,7 @@ private:
         }
         if (!ahead) {
             if (const MetLight arriving = met_.beyond(now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
-                gather(arriving.radiance, slope_of(arriving));
+                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.slab));
             }
             return false;
         }
@@ -88,7 +80,7 @@ private:
         now_.travelled += hit.distance;
         if (hit.light >= 0) {
             if (const MetLight arriving = met_.at(hit, now_.last, now_.ray.direction); !is_black(arriving.radiance)) {
-                gather(arriving.radiance, slope_of(arriving));
+                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.slab));
             }
         }
         if (scene_.is_interface(hit)) {
@@ -105,9 +97,7 @@ private:
     /// The next flight, up to the hit; if it passes the segment, that is counted in. In a stay it has been `drawn`.
     Flight fly(const Medium& medium, SurfaceAhead& ahead, float drawn) {
         const float length = ahead.distance();
-        if (Stay* const stay = stay_inside()) {
-            ++stay->flights;
-        }
+        recorder_.fly(now_.medium.id);
         if (now_.slab.is_inside()) {
             // Connections know the probabilities of a stay where they start from one of its collisions.
             const bool told = now_.slab.has_turned();
@@ -130,15 +120,6 @@ private:
 
     /// Begins, continues or ends a stay in a dense medium behind a boundary, once medium and ray are those beyond it.
     void enter_medium(const Hit& hit, MediumId from);
-    void update_stay();
-    /// The last stay that is told, and the same if it goes on; null if there is none.
-    Stay* last_stay() { return now_.stay >= 0 ? &(*stays_)[static_cast<std::size_t>(now_.stay)] : nullptr; }
-    Stay* stay_inside() {
-        Stay* const stay = last_stay();
-        return stay && stay->medium == now_.medium.id ? stay : nullptr;
-    }
-    /// Light that was weighted against connections from a collision changes less than the walk's density.
-    std::optional<StaySlope> slope_of(const MetLight& arriving);
 
     FlightEnd end_of_segment(SurfaceAhead& ahead) const {
         FlightEnd end;
@@ -149,18 +130,19 @@ private:
         const Hit& hit = ahead.hit();
         end.kind = scene_.is_interface(hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
         end.position = hit.position;
-        end.normal = faced(hit);
+        end.normal = Vertex::facing_normal(hit, now_.ray.direction);
         end.emitted = hit.light >= 0 ? mean_value(met_.at(hit, now_.last, now_.ray.direction).radiance) : 0.0f;
         return end;
     }
 
-    /// The ray from the vertex at hand in a direction.
-    TracedRay leave(const Vec3& position, const Vec3& w, bool in_volume) const {
-        return in_volume ? TracedRay(Ray{position, w}) : now_.ray.leave(*hit_, w);
+    /// The ray from a vertex that the walk has just come to in a direction.
+    TracedRay leave(const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? TracedRay(Ray{v.position, w}) : now_.ray.leave(*v.hit, w);
     }
-
-    /// The normal on the side that the walk comes from.
-    Vec3 faced(const Hit& hit) const { return dot(hit.normal, now_.ray.direction) < 0 ? hit.normal : -hit.normal; }
+    /// The medium that such a ray is in.
+    MediumState medium_towards(const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? now_.medium : scene_.medium_beyond(*v.hit, w, now_.medium);
+    }
 
     bool scatter_in(const Medium& medium, float distance) {
         if (now_.medium.id == now_.coloured) {
@@ -169,7 +151,7 @@ private:
                 return false;
             }
         }
-        meet();
+        recorder_.meet(now_.travelled);
         if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
             result_.sample.scattered = true;
@@ -177,18 +159,16 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        const Vec3 position = now_.ray.at(distance);
-        if (log_ && now_.is_told) {
-            log_->collide(mean_value(extinction_at(medium, position)));
-        }
+        const Vertex vertex = Vertex::in_medium(now_.ray.at(distance));
+        recorder_.collide(medium, vertex.position);
         now_.connected_before = 0;
-        const VolumeScattering f(phase_function(medium), now_.ray.direction);
-        return scatter(f, position, {0, 0, 0}, true);
+        return scatter(VolumeScattering(phase_function(medium), now_.ray.direction), vertex);
     }
 
     bool scatter_at(const Hit& hit) {
-        meet();
-        const SurfaceScattering f = scattering_at(hit);
+        recorder_.meet(now_.travelled);
+        const Vertex vertex = Vertex::on_surface(hit, now_.ray.direction);
+        const SurfaceScattering f = scattering_at(vertex);
         now_.connected_before =
             now_.lamps_ahead > 0 ? connections_at_boundary * now_.lamps_ahead / mean_value(now_.last.pass_probability)
                                  : 0.0f;
@@ -198,11 +178,8 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        hit_ = &hit;
-        if (log_) {
-            log_->face(faced(hit));
-        }
-        return scatter(f, hit.position, hit.normal, false);
+        recorder_.face(vertex);
+        return scatter(f, vertex);
     }
 
     /// Whether so many vertices more, that count, are not too many.
@@ -226,34 +203,34 @@ private:
         return sampler_.random().uniform() < survival;
     }
 
-    SurfaceScattering scattering_at(const Hit& hit) const {
-        SurfaceScattering f(scene_.bsdf(hit), hit.shading, now_.ray.direction);
+    SurfaceScattering scattering_at(const Vertex& v) const {
+        SurfaceScattering f(scene_.bsdf(*v.hit), v.hit->shading, now_.ray.direction);
         if (f.reflects_or_refracts()) {
-            f.prefer_reflection(tracer_.reflections_.odds({hit.position, faced(hit)}), weight_to_bound());
+            f.prefer_reflection(tracer_.reflections_.odds(v.side()), weight_to_bound());
         }
         return f;
     }
 
-    /// Connects a vertex to lights, draws a direction, and decides on survival. `normal` is zero in a volume.
+    /// Connects a vertex to lights, draws a direction, and decides on survival.
     template <class F>
-    bool scatter(const F& f, const Vec3& position, const Vec3& normal, bool in_volume) {
-        if (in_volume && now_.slab.is_inside()) {
-            tracer_.subsurface_.aim(now_.medium.id, position, now_.slab);
-            const SlabWalk slab = now_.slab;
-            const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
-            if constexpr (std::same_as<F, VolumeScattering>) {
-                connect_at_boundary(f, directions, position);
+    bool scatter(const F& f, const Vertex& v) {
+        if constexpr (F::in_volume) {
+            if (now_.slab.is_inside()) {
+                tracer_.subsurface_.aim(now_.medium.id, v.position, now_.slab);
+                const SlabWalk slab = now_.slab;
+                const SlabWalk::Directions directions(slab, now_.ray.direction, sampler_.random());
+                connect_at_boundary(f, directions, v);
+                return scatter(f, directions, v);
             }
-            return scatter(f, directions, position, normal, true);
+            if (now_.is_classical) {
+                return scatter(f, ClassicalDirection().at(v.position, f), v);
+            }
         }
-        if (in_volume && now_.is_classical) {
-            return scatter(f, ClassicalDirection().at(position, true, f), position, normal, true);
-        }
-        return scatter(f, d_.direction.at(position, in_volume, f, weight_to_bound()), position, normal, in_volume);
+        return scatter(f, d_.direction.at(v.position, f, weight_to_bound()), v);
     }
 
     template <class F, class Directions>
-    bool scatter(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal, bool in_volume);
+    bool scatter(const F& f, const Directions& directions, const Vertex& v);
 
     /// What the walk may yet bring over what all of it is expected to, if both are known.
     template <class F, class Directions>
@@ -272,17 +249,13 @@ private:
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {
-        if (log_) {
-            now_.logged = log_->branch();
-        }
+        now_.recorded = recorder_.branch();
         pending_.push_back(now_);
     }
 
     void go_on_from(const WalkBranch& branch) {
         now_ = branch;
-        if (log_) {
-            log_->resume(now_.logged);
-        }
+        recorder_.resume(now_.recorded);
     }
 
     bool take_up_pending() {
@@ -296,22 +269,20 @@ private:
 
     /// Draws a direction, and decides on survival unless that has been `judged`; false where the walk ends.
     template <class F, class Directions>
-    bool draw_direction(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                        bool in_volume, bool judged);
+    bool draw_direction(const F& f, const Directions& directions, const Vertex& v, bool judged);
     /// What light that is met from here on will want to know.
     template <class F>
-    void remember_vertex(const F& f, const DirectionSample& s, const Vec3& position, const Vec3& normal,
-                         bool in_volume);
+    void remember_vertex(const F& f, const DirectionSample& s, const Vertex& v);
     /// Roulette after the direction is drawn.
     bool survives(bool is_judged_elsewhere);
 
     /// What multiplies the density of the walk's own directions where it is weighed against that of connections to
     /// lights.
-    float preference(bool in_volume) const { return in_volume ? now_.connecting.preference : 1.0f; }
+    float preference(const Vertex& v) const { return v.in_volume() ? now_.connecting.preference : 1.0f; }
 
     /// To lights that directions find as well, as a mean.
-    float connections(bool in_volume) const {
-        return in_volume ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
+    float connections(const Vertex& v) const {
+        return v.in_volume() ? now_.connecting.probability : static_cast<float>(now_.connecting.at_surfaces);
     }
 
     float survival_probability(bool is_judged_elsewhere) {
@@ -332,18 +303,17 @@ private:
     };
 
     template <class F, class Directions>
-    void connect_to_lights(const F& f, const Directions& directions, const Vec3& position, const Vec3& normal,
-                           bool in_volume);
+    void connect_to_lights(const F& f, const Directions& directions, const Vertex& v);
     /// The same from a collision in a dense medium, along a way that boundaries refract.
     template <class F, class Directions>
-    void connect_through_boundaries(const F& f, const Directions& directions, const Vec3& position);
+    void connect_through_boundaries(const F& f, const Directions& directions, const Vertex& v);
     /// Counts what a connection has found; as many as `times` were made, as a mean.
-    void take(const Connection& found, const LightReceiver& receiver, const ChosenSample& chosen, float times);
+    void take(const Connection& found, const Vertex& v, const ChosenSample& chosen, float times);
     /// Flies out from a collision in a stay to a lamp that is known there, and connects the boundary to lights.
-    void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vec3& position);
+    void connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions, const Vertex& v);
     template <class F, class Directions>
     Connection connect(const ChosenSample& chosen, float times, const F& f, const Directions& directions,
-                       const Vec3& position, bool in_volume);
+                       const Vertex& v);
     /// How a vertex sees a light: where, how bright, with what density of that direction, and what is in between.
     struct Sight {
         Vec3 direction;
@@ -356,19 +326,17 @@ private:
     /// `often`: how many connections see the light as this one does, as a mean; `value`: what is scattered here.
     template <class Directions>
     Connection weigh(const Sight& sight, float often, bool point_like, const Rgb& value, const Directions& directions,
-                     bool in_volume) const;
+                     const Vertex& v) const;
     template <class Directions>
-    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vec3& position, bool in_volume);
+    Sight look_straight(const ChosenSample& chosen, const Directions& directions, const Vertex& v);
     template <class Directions>
     std::optional<Sight> look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
-                                                 const Vec3& position);
+                                                 const Vertex& v);
     /// The walk, if it is in a guided stay, after it went from a collision in a direction.
     template <class Directions>
     SlabWalk slab_towards(const Vec3& direction, const Directions& directions) const;
-    /// Tells the log of a light that no connection reaches.
-    void hint_at_refracted(const ChosenSample& chosen, const Vec3& position, bool in_volume);
-    /// Tells the log of light that smooth surfaces lead to a vertex.
-    void hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume);
+    /// Records a light that no connection reaches.
+    void hint_at_refracted(const ChosenSample& chosen, const Vertex& v);
 
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
@@ -376,14 +344,23 @@ private:
         result_.sample.depth = now_.travelled;
     }
 
-    // What the walk multiplies and adds, and tells those that learn from it.
-    void weigh(const Rgb& weight);
-    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {});
-    void glow(const Rgb& radiance, float distance);
-    void bring(const Rgb& light, const std::optional<StaySlope>& slope);
-    void meet();
-    void scatter_into(const DirectionSample& s, const Vec3& position, bool in_volume);
-    void note_reflection(const SurfaceScattering& f, const DirectionSample& s);
+    // What the walk multiplies and adds.
+    void weigh(const Rgb& weight) {
+        now_.throughput *= weight;
+        recorder_.weigh(weight);
+    }
+    void gather(const Rgb& radiance, const std::optional<StaySlope>& slope = {}) {
+        bring(now_.throughput * radiance, slope);
+        recorder_.gather(radiance);
+    }
+    void glow(const Rgb& radiance, float distance) {
+        bring(now_.throughput * radiance, {});
+        recorder_.glow(radiance, distance);
+    }
+    void bring(const Rgb& light, const std::optional<StaySlope>& slope) {
+        radiance_ += light;
+        recorder_.bring(mean_value(light), slope, now_.slab);
+    }
 
     static constexpr int max_pending = 64;
     /// For each flight out to a lamp.
@@ -393,19 +370,13 @@ private:
     const Scene& scene_;
     const Decisions& d_;
     Sampler& sampler_;
-    guide::PathLog* log_;
-    std::vector<Stay>* stays_;
-    std::vector<LightRecord>* lights_;
-    std::vector<ReflectionRecord>* reflections_;
-    const CausticPhotons* caustics_;
-    ReflectionLog boundaries_;
+    WalkRecorder recorder_;
     LightMet met_;
 
     WalkBranch now_;
     std::vector<WalkBranch> pending_;
     Rgb radiance_;
     float expected_;
-    const Hit* hit_ = nullptr;  ///< of the surface vertex at hand
 
     WalkResult result_;
 };
@@ -414,15 +385,14 @@ private:
 
 #include <wend/integrator/walk_connections.inl>
 #include <wend/integrator/walk_directions.inl>
-#include <wend/integrator/walk_lessons.inl>
 #include <wend/integrator/walk_stays.inl>
 
 namespace wend {
 
 template <class Decisions>
 WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler,
-                                        const WalkLessons& lessons) const {
-    return Walk(*this, expected, sampler, lessons).run(ray);
+                                        const RecorderTargets& record_to) const {
+    return Walk(*this, expected, sampler, record_to).run(ray);
 }
 
 }  // namespace wend

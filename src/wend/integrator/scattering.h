@@ -13,6 +13,8 @@ namespace wend {
 /// A BSDF at a surface, given the direction of propagation before the hit.
 class SurfaceScattering {
 public:
+    static constexpr bool in_volume = false;
+
     SurfaceScattering(Bsdf bsdf, const Frame& shading, const Vec3& before)
         : bsdf_(std::move(bsdf)), shading_(shading), wo_(shading.to_local(-before)) {}
 

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <wend/core/ray.h>
-#include <wend/decision/slab_guide.h>
 #include <wend/decision/slab_walk.h>
-#include <wend/guide/path_log.h>
 #include <wend/integrator/light_met.h>
-#include <wend/integrator/reflection_choices.h>
 #include <wend/integrator/stay_plan.h>
+#include <wend/integrator/walk_recorder.h>
 #include <wend/scene/traced_ray.h>
 
 namespace wend {
@@ -27,10 +25,7 @@ struct WalkBranch {
 
     // The stay in a dense medium.
     SlabWalk slab;                      ///< if it is guided
-    int stay = -1;                      ///< the last one, of those that are told; negative if there is none
-    SlabGuide::Shares relative{};       ///< relative densities in the stay, or at its end
     bool is_classical = false;          ///< in a stay left to classical sampling alone
-    bool is_told = true;                ///< whether collisions go into the log
     StayPlan::Connecting connecting{};  ///< of vertices in the medium and on what it meets
 
     // Connections at the boundary of a dense medium that began at the last collision.
@@ -38,12 +33,8 @@ struct WalkBranch {
     float lamps_ahead = 0;
     /// How often the surface vertex at hand was connected from the collision before, as a mean.
     float connected_before = 0;
-    SlabGuide::Shares at_collision{};  ///< relative densities there
-    float from_collision = 0;          ///< part of the last vertex's connections that began there
 
-    // For those that learn from walks.
-    guide::PathLog::Branch logged{};
-    int boundary = ReflectionLog::none;  ///< the last one that was passed
+    WalkRecorder::Branch recorded{};  ///< where the walk was split
 
     // The last medium that was entered where the boundary has a colour.
     MediumId coloured = vacuum;

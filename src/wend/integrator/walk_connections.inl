@@ -15,9 +15,8 @@ namespace wend {
 
 template <class Decisions>
 template <class F, class Directions>
-void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions& directions, const Vec3& position,
-                                                    const Vec3& normal, bool in_volume) {
-    const float often = connections(in_volume);
+void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions& directions, const Vertex& v) {
+    const float often = connections(v);
     const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
     if (is_left_out && !scene_.has_point_like_lights()) {
         return;
@@ -26,99 +25,85 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
     const float u = sampler_.uniform();
     for (int i = 0; i < n; ++i) {
         // Several go through the lights in their order.
-        const auto chosen = choose_light(
-            scene_, tracer_.lights_, {position, normal}, (static_cast<float>(i) + u) / static_cast<float>(n),
-            i == 0 ? sampler_.uniform2() : sampler_.random().uniform2(), sampler_.random());
+        const auto chosen =
+            choose_light(scene_, tracer_.lights_, v.receiver(), (static_cast<float>(i) + u) / static_cast<float>(n),
+                         i == 0 ? sampler_.uniform2() : sampler_.random().uniform2(), sampler_.random());
         if (!chosen || (is_left_out && !chosen->light.point_like)) {
             continue;
         }
         // What only connections find is never left out.
         const float times = chosen->light.point_like ? std::max(1.0f, often) : often;
-        take(connect(*chosen, times, f, directions, position, in_volume), {position, normal}, *chosen, times);
+        take(connect(*chosen, times, f, directions, v), v, *chosen, times);
     }
 }
 
 template <class Decisions>
 template <class F, class Directions>
 void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const Directions& directions,
-                                                             const Vec3& position) {
+                                                             const Vertex& v) {
     const float often = now_.connecting.through_boundaries;
     if (often == 0 || !(sampler_.random().uniform() < often)) {
         return;
     }
-    const auto chosen = choose_light(scene_, tracer_.lights_, {position, {0, 0, 0}}, sampler_.random().uniform(),
+    const auto chosen = choose_light(scene_, tracer_.lights_, v.receiver(), sampler_.random().uniform(),
                                      sampler_.random().uniform2(), sampler_.random());
     if (!chosen || !is_seen_through_boundaries(scene_.lights()[static_cast<std::size_t>(chosen->index)])) {
         return;
     }
     Connection found;
-    if (const auto sight = look_through_boundaries(*chosen, directions, position)) {
-        found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, true);
-        if (Stay* const stay = stay_inside()) {
-            stay->connected_through = true;
-        }
+    if (const auto sight = look_through_boundaries(*chosen, directions, v)) {
+        found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, v);
+        recorder_.connected(now_.medium.id, true);
     }
-    take(found, {position, {0, 0, 0}}, *chosen, often);
+    take(found, v, *chosen, often);
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::take(const Connection& found, const LightReceiver& receiver,
-                                       const ChosenSample& chosen, float times) {
+void PathTracer<Decisions>::Walk::take(const Connection& found, const Vertex& v, const ChosenSample& chosen,
+                                       float times) {
     const Rgb brought = found.scattering * found.light;
     gather(brought, found.slope);
-    if (lights_) {
-        lights_->push_back(
-            tracer_.lights_.record(receiver, chosen.index, mean_value(brought) * times * chosen.probability));
-    }
-    if (log_ && (now_.is_told || receiver.normal != Vec3(0, 0, 0))) {
-        log_->connect(found.to_light, found.distance, mean_value(found.light), brought);
-    }
+    recorder_.connect(v, chosen.index, chosen.probability, times, found.to_light, found.distance,
+                      mean_value(found.light), brought);
 }
 
 template <class Decisions>
 template <class F, class Directions>
 auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
-                                          const Directions& directions, const Vec3& position, bool in_volume)
-    -> Connection {
+                                          const Directions& directions, const Vertex& v) -> Connection {
     const Rgb value = f.evaluate(chosen.light.direction);
     if (is_black(value)) {
         return {};
     }
-    const Sight sight = look_straight(chosen, directions, position, in_volume);
+    const Sight sight = look_straight(chosen, directions, v);
     if (is_black(sight.passage.transmittance)) {
-        if (log_ && !sight.slab.is_inside()) {
-            hint_at_refracted(chosen, position, in_volume);
+        if (recorder_.takes_hints() && !sight.slab.is_inside()) {
+            hint_at_refracted(chosen, v);
         }
         return {};
     }
-    if (Stay* const stay = in_volume ? stay_inside() : nullptr) {
-        stay->connected = true;
+    if (v.in_volume()) {
+        recorder_.connected(now_.medium.id, false);
     }
-    return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, in_volume);
+    return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, v);
 }
 
 template <class Decisions>
 template <class Directions>
 auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool point_like, const Rgb& value,
-                                        const Directions& directions, bool in_volume) const -> Connection {
+                                        const Directions& directions, const Vertex& v) const -> Connection {
     const float density = often * sight.density;
     float other = 0;
     if (!point_like) {
         const Rgb channels = channel_probabilities(now_.throughput * value);
-        other = preference(in_volume) * directions.density(sight.direction) * dot(channels, sight.passage.probability);
+        other = preference(v) * directions.density(sight.direction) * dot(channels, sight.passage.probability);
     }
     Connection found{sight.direction, sight.distance,
                      sight.radiance * sight.passage.transmittance * (1 / (density + other)), value, std::nullopt};
-    if (!stays_) {
-        return found;
-    }
-    if (in_volume && now_.slab.is_inside()) {
-        const float weight = density / (density + other);
-        found.slope =
-            StaySlope{mix(now_.slab.relative_densities(), sight.slab.relative_densities(), weight), weight - 1};
+    if (v.in_volume() && now_.slab.is_inside()) {
+        found.slope = recorder_.slope_inside(now_.slab, sight.slab, density / (density + other));
     } else if (now_.connected_before > 0) {
-        const float before = now_.connected_before * sight.density / (density + other);
-        found.slope = StaySlope{mix(now_.at_collision, now_.slab.relative_densities(), before), 0};
+        found.slope = recorder_.slope_at_boundary(now_.slab, now_.connected_before * sight.density / (density + other));
     }
     return found;
 }
@@ -137,27 +122,27 @@ SlabWalk PathTracer<Decisions>::Walk::slab_towards(const Vec3& direction, const 
 template <class Decisions>
 template <class Directions>
 auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
-                                                const Vec3& position, bool in_volume) -> Sight {
+                                                const Vertex& v) -> Sight {
     const LightSample& light = chosen.light;
-    const MediumState medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
     Sight sight{light.direction,
                 light.distance,
                 light.radiance,
                 chosen.density(),
                 slab_towards(light.direction, directions),
                 {}};
-    const ShadowRay shadow = shadow_ray(leave(position, light.direction, in_volume), position, light);
-    sight.passage = pass(scene_, d_.distance, shadow, medium, sight.slab, sampler_.random());
+    const ShadowRay shadow = shadow_ray(leave(v, light.direction), v.position, light);
+    sight.passage =
+        pass(scene_, d_.distance, shadow, medium_towards(v, light.direction), sight.slab, sampler_.random());
     return sight;
 }
 
 template <class Decisions>
 template <class Directions>
 auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
-                                                          const Vec3& position) -> std::optional<Sight> {
+                                                          const Vertex& v) -> std::optional<Sight> {
     const LightSample& light = chosen.light;
     const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
-    const auto way = find_refracted_way(scene_, {position, light.direction}, light.distance, now_.medium);
+    const auto way = find_refracted_way(scene_, {v.position, light.direction}, light.distance, now_.medium);
     const bool is_far = light.distance == infinity;
     if (!way || (!is_far && way->end.light != chosen.index) || !has_depth_for(way->vertices)) {
         return std::nullopt;
@@ -174,30 +159,19 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
 }
 
 template <class Decisions>
-void PathTracer<Decisions>::Walk::hint_at_caustics(const Vec3& position, const Vec3& normal, bool in_volume) {
-    if (!log_ || !caustics_ || (in_volume && now_.slab.is_inside())) {
-        return;
-    }
-    if (const auto seen = caustics_->near(position, in_volume ? normal : faced(*hit_), sampler_.random())) {
-        log_->hint({{position, seen->towards, mean_value(seen->fluence), 1, seen->distance, 0, 0, 0, seen->fluence},
-                    in_volume});
-    }
-}
-
-template <class Decisions>
-void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vec3& position, bool in_volume) {
+void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vertex& v) {
     constexpr float often = 0.25f;
     const LightSample& light = chosen.light;
     if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
         return;
     }
-    const MediumState medium = in_volume ? now_.medium : scene_.medium_beyond(*hit_, light.direction, now_.medium);
-    const ShadowRay shadow = shadow_ray(leave(position, light.direction, in_volume), position, light);
-    if (const auto seen = glimpse(scene_, shadow.ray, shadow.length, medium, sampler_.random())) {
+    const ShadowRay shadow = shadow_ray(leave(v, light.direction), v.position, light);
+    if (const auto seen =
+            glimpse(scene_, shadow.ray, shadow.length, medium_towards(v, light.direction), sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;
-        log_->hint({{position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0, 0, 0,
-                     radiance},
-                    in_volume});
+        recorder_.hint({{v.position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0,
+                         0, 0, radiance},
+                        v.in_volume()});
     }
 }
 

@@ -15,19 +15,18 @@ namespace wend {
 
 template <class Decisions>
 template <class F, class Directions>
-bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directions, const Vec3& position,
-                                          const Vec3& normal, bool in_volume) {
+bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directions, const Vertex& v) {
     if (!f.is_specular()) {
-        connect_to_lights(f, directions, position, normal, in_volume);
-        hint_at_caustics(position, normal, in_volume);
+        connect_to_lights(f, directions, v);
+        recorder_.hint_at_caustics(v, now_.slab, sampler_.random());
     }
-    if (in_volume) {
-        connect_through_boundaries(f, directions, position);
+    if (v.in_volume()) {
+        connect_through_boundaries(f, directions, v);
     }
     const std::optional<WeightWindow::Outcome> outcome =
         d_.survival.before_direction({expected_ratio(f, directions), weight(), room()}, sampler_.random());
     if (!outcome) {
-        return draw_direction(f, directions, position, normal, in_volume, false);
+        return draw_direction(f, directions, v, false);
     }
     if (outcome->expected != 1) {
         weigh(Rgb(static_cast<float>(1 / outcome->expected)));
@@ -36,49 +35,48 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
     }
     result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
     for (int i = 1; i < outcome->copies; ++i) {
-        if (log_) {
-            now_.logged = log_->branch();
-        }
+        now_.recorded = recorder_.branch();
         const WalkBranch here = now_;
-        if (draw_direction(f, directions, position, normal, in_volume, true)) {
+        if (draw_direction(f, directions, v, true)) {
             leave_pending();
         }
         go_on_from(here);
     }
-    return outcome->copies > 0 && draw_direction(f, directions, position, normal, in_volume, true);
+    return outcome->copies > 0 && draw_direction(f, directions, v, true);
 }
 
 template <class Decisions>
 template <class F, class Directions>
-bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& directions, const Vec3& position,
-                                                 const Vec3& normal, bool in_volume, bool judged) {
+bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& directions, const Vertex& v,
+                                                 bool judged) {
     const float u = sampler_.uniform();
     const auto s = directions.sample(u, sampler_.uniform2());
     if (!s) {
         return false;
     }
     if constexpr (std::same_as<F, SurfaceScattering>) {
-        note_reflection(f, *s);
+        if (f.reflects_or_refracts()) {
+            recorder_.reflect(*s, v, mean_value(now_.throughput) / s->boost);
+        }
     }
-    scatter_into(*s, position, in_volume);
-    remember_vertex(f, *s, position, normal, in_volume);
+    now_.throughput *= s->weight();
+    recorder_.scatter(*s, v, now_.throughput);
+    remember_vertex(f, *s, v);
     if constexpr (std::same_as<Directions, SlabWalk::Directions>) {
         now_.lamps_ahead = directions.lamp_density(s->direction) / s->density;
-        now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+        recorder_.turn(now_.slab);
         now_.slab.turn(directions, s->direction);
     }
     if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
         return false;
     }
-    if (in_volume) {
-        now_.ray = Ray{position, s->direction};
-    } else {
-        const MediumId from = std::exchange(now_.medium, scene_.medium_beyond(*hit_, s->direction, now_.medium)).id;
-        now_.ray = now_.ray.leave(*hit_, s->direction);
+    now_.ray = leave(v, s->direction);
+    if (!v.in_volume()) {
+        const MediumId from = std::exchange(now_.medium, medium_towards(v, s->direction)).id;
         if (now_.slab.is_inside()) {
             now_.slab.head(s->direction);
         }
-        enter_medium(*hit_, from);
+        enter_medium(*v.hit, from);
     }
     now_.travelled = 0;
     return true;
@@ -86,26 +84,25 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
 
 template <class Decisions>
 template <class F>
-void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSample& s, const Vec3& position,
-                                                  const Vec3& normal, bool in_volume) {
+void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSample& s, const Vertex& v) {
     now_.boost *= s.boost;
     now_.index_scale *= sqr(f.index_ratio(s.direction));
     now_.lamps_ahead = 0;
     // Connections that look through boundaries see past a refraction, to where the walk is going.
-    const bool refracts = dot(now_.ray.direction, normal) * dot(s.direction, normal) > 0;
+    const bool refracts = dot(now_.ray.direction, v.normal) * dot(s.direction, v.normal) > 0;
     if (s.specular && refracts && now_.last.connected_through > 0) {
         ++now_.last.refractions;
         return;
     }
-    const float connected = connections(in_volume) + now_.connected_before;
-    now_.from_collision = in_volume && now_.slab.is_inside() ? 1.0f
-                          : now_.connected_before > 0        ? now_.connected_before / connected
-                                                             : 0.0f;
-    now_.last = {{position, normal},
+    const float connected = connections(v) + now_.connected_before;
+    recorder_.remember_connections(v.in_volume() && now_.slab.is_inside() ? 1.0f
+                                   : now_.connected_before > 0            ? now_.connected_before / connected
+                                                                          : 0.0f);
+    now_.last = {v.receiver(),
                  s.specular,
-                 s.density * preference(in_volume),
+                 s.density * preference(v),
                  connected,
-                 in_volume ? now_.connecting.through_boundaries : 0.0f,
+                 v.in_volume() ? now_.connecting.through_boundaries : 0.0f,
                  channel_probabilities(now_.throughput),
                  Rgb(1.0f),
                  s.direction,

@@ -23,19 +23,17 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
         return;
     }
-    update_stay();
+    recorder_.update(now_.slab);
     bool guided = now_.slab.is_inside();
     if (now_.medium.id != from) {
         const StayPlan* plan = tracer_.subsurface_.plan(now_.medium.id, hit.position);
         guided = plan && !(sampler_.random().uniform() < plan->unguided_probability);
         now_.is_classical = plan && !guided && plan->is_unguided_classical;
-        now_.is_told = !log_ || !guided || sampler_.random().uniform() < plan->told_probability;
+        recorder_.choose_recording(guided, plan ? plan->told_probability : 1.0f, sampler_.random());
         now_.connecting = !plan ? StayPlan::Connecting{} : guided ? plan->guided : plan->unguided;
         now_.slab.leave();
-        if (stays_ && plan) {
-            now_.stay = static_cast<int>(stays_->size());
-            now_.relative = {};
-            stays_->push_back({.medium = now_.medium.id, .entry = hit.position, .guided = guided});
+        if (plan) {
+            recorder_.enter(now_.medium.id, hit.position, guided);
         }
     }
     if (guided) {
@@ -44,30 +42,11 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     }
 }
 
-template <class Decisions>
-void PathTracer<Decisions>::Walk::update_stay() {
-    if (Stay* const stay = last_stay(); stay && now_.slab.is_inside()) {
-        stay->relative = now_.relative = now_.slab.relative_densities();
-    }
-}
-
-template <class Decisions>
-std::optional<StaySlope> PathTracer<Decisions>::Walk::slope_of(const MetLight& arriving) {
-    if (!stays_ || now_.from_collision == 0) {
-        return std::nullopt;
-    }
-    update_stay();
-    const float by_connections = arriving.by_connections / mean_value(arriving.radiance);
-    const bool in_volume = now_.last.receiver.normal == Vec3(0, 0, 0);
-    return StaySlope{mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
-                     in_volume ? by_connections : 0.0f};
-}
-
 // What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
 // a path either way has the same value, and the balance heuristic counts `connected_before` on both.
 template <class Decisions>
 void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f, const SlabWalk::Directions& directions,
-                                                      const Vec3& position) {
+                                                      const Vertex& v) {
     if (!has_depth_for(scene_.counts_vertices_in(now_.medium.id) ? 1 : 0)) {
         return;
     }
@@ -76,48 +55,42 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
     if (!(density > 0)) {
         return;
     }
-    const Ray ray{position, *w};
+    const Ray ray{v.position, *w};
     const std::optional<Hit> hit = scene_.intersect(ray);
     if (!hit || scene_.is_interface(*hit)) {
         return;
     }
+    now_.recorded = recorder_.branch();
     const WalkBranch here = now_;
-    const Hit* const surface = std::exchange(hit_, &*hit);
     const Rgb phase = f.evaluate(*w);
-    now_.at_collision = stays_ ? now_.slab.relative_densities() : SlabGuide::Shares{};
+    recorder_.turn(now_.slab);
     now_.slab.turn(directions, *w);
     now_.ray = ray;
     const float passing = now_.slab.pass(hit->distance);
     const Rgb arriving = phase * transmittance(now_.slab.guide()->medium, hit->distance) * (1 / (density * passing));
     now_.throughput *= arriving;
     now_.connected_before = connections_at_boundary * directions.lamp_density(*w) / (density * passing);
-    const SurfaceScattering boundary = scattering_at(*hit);
+    const Vertex there = Vertex::on_surface(*hit, *w);
+    const SurfaceScattering boundary = scattering_at(there);
     Rgb brought;
     if (is_finite(arriving) && !boundary.is_specular()) {
         constexpr int n = connections_at_boundary;
-        const auto around = d_.direction.at(hit->position, false, boundary, weight_to_bound());
+        const auto around = d_.direction.at(there.position, boundary, weight_to_bound());
         const float u = sampler_.random().uniform();
         for (int i = 0; i < n; ++i) {
-            const auto chosen =
-                choose_light(scene_, tracer_.lights_, {hit->position, hit->normal}, (static_cast<float>(i) + u) / n,
-                             sampler_.random().uniform2(), sampler_.random());
+            const auto chosen = choose_light(scene_, tracer_.lights_, there.receiver(), (static_cast<float>(i) + u) / n,
+                                             sampler_.random().uniform2(), sampler_.random());
             if (!chosen) {
                 continue;
             }
-            const Connection found = connect(*chosen, connections(false), boundary, around, hit->position, false);
+            const Connection found = connect(*chosen, connections(there), boundary, around, there);
             const Rgb light = found.scattering * found.light;
             bring(now_.throughput * light, found.slope);
             brought += arriving * light;
         }
     }
-    now_ = here;
-    hit_ = surface;
-    if (log_) {
-        log_->gather(brought);
-    }
-    if (log_ && now_.is_told) {
-        log_->connect(*w, infinity, mean_value(brought) / mean_value(phase), brought);
-    }
+    go_on_from(here);
+    recorder_.connect_at_boundary(*w, phase, brought);
 }
 
 }  // namespace wend
