@@ -82,11 +82,10 @@ protected:
 };
 
 TEST_F(HostileFiles, OfTheCollectionEndByThemselves) {
-    const fs::path cases = test::shared_dir() / "cases/hostile";
-    if (!fs::exists(cases)) {
-        GTEST_SKIP() << "the collection of hostile files is absent";
-    }
-    for (const auto& entry : fs::directory_iterator(cases)) {
+    for (const auto& entry : fs::directory_iterator(test::source_dir() / "tests/hostile")) {
+        if (!entry.is_directory()) {
+            continue;
+        }
         const Ended ended = render(entry.path() / "scene.pbrt");
         EXPECT_TRUE(ended.status == 0 || ended.status == 2) << entry.path() << ": " << ended.status << ended.err;
         EXPECT_LT(ended.memory, most_memory) << entry.path();

@@ -10,9 +10,6 @@ namespace {
 
 TEST(SlabReference, EveryRowIsMetByModes) {
     const std::vector<test::SlabReference> rows = test::slab_references();
-    if (rows.empty()) {
-        GTEST_SKIP() << "no table of slab references beside the checkout";
-    }
     ASSERT_EQ(rows.size(), 36u);
     for (const test::SlabReference& row : rows) {
         for (const Tally tally : {Tally::transmittance, Tally::reflectance}) {

@@ -76,9 +76,6 @@ INSTANTIATE_TEST_SUITE_P(SlowMedia, GuidedSlab,
 
 TEST(SlowGuidedSlab, MatchesTheReferenceTable) {
     const std::vector<test::SlabReference> references = test::slab_references();
-    if (references.empty()) {
-        GTEST_SKIP() << "no table of slab references beside the checkout";
-    }
     int rows = 0;
     for (const test::SlabReference& row : references) {
         if (!row.is_normal_beam() || row.thickness < 4) {

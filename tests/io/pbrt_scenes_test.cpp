@@ -29,11 +29,7 @@ TEST(PbrtScenes, RealScenesParse) {
 }
 
 TEST(PbrtScenes, TheFogBoxIsAsWritten) {
-    const std::filesystem::path file = test::shared_dir() / "scenes/fog-box/fog-box.pbrt";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "the scene fog-box is not beside the checkout";
-    }
-    const Description d = parse_file(file);
+    const Description d = parse_file(test::source_dir() / "tests/references/fog-box.pbrt");
     EXPECT_EQ(d.integrator.type, "volpath");
     EXPECT_EQ(d.shapes.size(), 8u);
     ASSERT_EQ(d.media.size(), 1u);

@@ -23,9 +23,9 @@ struct SlabReference {
     bool is_normal_beam() const { return mu0 == 1.0; }
 };
 
-/// The rows of the table beside the checkout; none where it is absent. Throws for a row that is not understood.
+/// The rows of the table. Throws for one that is not understood, and if there is none.
 inline std::vector<SlabReference> slab_references() {
-    std::ifstream file(shared_dir() / "references" / "slab_reference.csv");
+    std::ifstream file(source_dir() / "tests/references/slab_reference.csv");
     std::vector<SlabReference> rows;
     std::string line;
     std::getline(file, line);  // names of the columns
@@ -45,6 +45,9 @@ inline std::vector<SlabReference> slab_references() {
             throw std::runtime_error("unknown incidence: " + line);
         }
         rows.push_back(row);
+    }
+    if (rows.empty()) {
+        throw std::runtime_error("no slab references");
     }
     return rows;
 }

@@ -169,9 +169,6 @@ TEST(DiscreteOrdinates, AgreeWithVanDeHulstsTables) {
 
 TEST(DiscreteOrdinates, AgreeWithTheSlabReferences) {
     const std::vector<SlabReference> references = slab_references();
-    if (references.empty()) {
-        GTEST_SKIP() << "the table of slab references is not here";
-    }
     EXPECT_GT(references.size(), 30u);
     for (const SlabReference& row : references) {
         const auto see = [&](Lit lit) {
