@@ -239,6 +239,20 @@ TEST_F(ImageFile, JpegWithATooLargeHuffmanTableIsRefused) {
     bytes[first_count + 14] = '\xff';
     store("a.jpg", bytes);
     EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
+    // Any number of these bytes may stand before a marker, the first one too.
+    store("a.jpg", "\xff\xff\xff" + bytes);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
+}
+
+TEST_F(ImageFile, LinesThatAreUnpackedAtOnceAreBounded) {
+    Picture picture;
+    picture.image = gradient(4, 1);
+    write_picture(folder / "a.exr", picture);
+    std::string bytes = read_file(folder / "a.exr");
+    const std::size_t box = bytes.find("dataWindow") + sizeof "dataWindow" + sizeof "box2i" + sizeof(std::int32_t);
+    bytes[box + 11] = '\x01';  // 16 million pixels wide, one high, 16 lines at once
+    store("a.exr", bytes);
+    EXPECT_NE(message_of([&] { read_image(folder / "a.exr"); }).find("too large: 16777220 x 1"), std::string::npos);
 }
 
 TEST_F(ImageFile, AbsurdSizesAreRefusedBeforeTheyAreAllocated) {

@@ -116,6 +116,15 @@ TEST_F(OpenVdb, CountsOfTheRootAreComparedWithTheFile) {
     EXPECT_REFUSED(store(file_of({.tree = root(0, 0xffffffff)})), "truncated");
 }
 
+TEST_F(OpenVdb, AGridThatEndsBeforeItsDescriptionIsNotReadForEver) {
+    const std::string good = file_of({.tree = root(1, 0) + tile(4096, 0)});
+    const std::string kind = text("density") + text("Tree_float_5_4_3") + text("");
+    const std::size_t description = good.find(kind);
+    const std::string back = bytes_of(static_cast<std::int64_t>(description));
+    const std::string start = good.substr(0, description - sizeof(std::uint32_t));
+    EXPECT_REFUSED(store(start + bytes_of(0xffffffffu) + kind + back + back + back), "damaged");
+}
+
 TEST_F(OpenVdb, SizesOfMetadataAreComparedWithTheFile) {
     const auto metadata = [](std::uint32_t count, const std::string& type, const std::string& value) {
         return bytes_of(count) + text("name") + text(type) + value;

@@ -30,8 +30,26 @@
 namespace wend {
 namespace {
 
-// More numbers than this in all channels together are refused.
+// More numbers than this in all channels together are refused, and in the lines that are unpacked at once.
 constexpr std::int64_t max_values = std::int64_t{1} << 30;
+constexpr std::int64_t max_values_at_once = std::int64_t{1} << 27;
+
+int lines_at_once(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::ZIP_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 16;
+        case Imf::PIZ_COMPRESSION:
+        case Imf::B44_COMPRESSION:
+        case Imf::B44A_COMPRESSION:
+        case Imf::DWAA_COMPRESSION:
+            return 32;
+        case Imf::DWAB_COMPRESSION:
+            return 256;
+        default:
+            return 1;
+    }
+}
 
 template <class Value>
 Imf::Slice slice(Imf::PixelType type, const Value* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
@@ -178,7 +196,8 @@ void check_size(Imf::IStream& stream, const Place& place) {
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         ++channels;
     }
-    if (width * height * channels > max_values) {
+    if (width * height * channels > max_values ||
+        width * lines_at_once(header.compression()) * channels > max_values_at_once) {
         throw InputError(
             place, fmt::format("the picture is too large: {} x {} pixels of {} channels", width, height, channels));
     }

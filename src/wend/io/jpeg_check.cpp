@@ -31,11 +31,12 @@ bool tables_fit(std::basic_string_view<unsigned char> segment) {
 
 bool huffman_tables_fit(std::string_view file) {
     const std::basic_string_view<unsigned char> bytes(reinterpret_cast<const unsigned char*>(file.data()), file.size());
-    if (bytes.size() < 2 || bytes[0] != 0xff || bytes[1] != start_of_image) {
+    // Markers are the bytes 0xff, any number of them, and another one; in compressed data 0 follows a plain 0xff.
+    const std::size_t first = bytes.find_first_not_of(0xff);
+    if (first == 0 || first == bytes.npos || bytes[first] != start_of_image) {
         return true;
     }
-    // Markers are the bytes 0xff, any number of them, and another one; in compressed data 0 follows a plain 0xff.
-    for (std::size_t at = 2; at + 1 < bytes.size();) {
+    for (std::size_t at = first + 1; at + 1 < bytes.size();) {
         if (bytes[at] != 0xff) {
             ++at;
             continue;

@@ -261,7 +261,8 @@ OpenVdbLayout::OpenVdbLayout(std::string_view content, const Place& place) : con
         }
         grid.begin = has_offsets ? begin : content.size() - bytes.left();
         if (has_offsets) {
-            if (begin > voxels || voxels > end) {
+            // A grid that ended before its own description would be read for ever.
+            if (content.size() - bytes.left() > begin || begin > voxels || voxels > end) {
                 throw InputError(place, "the file is damaged");
             }
             bytes.seek(end);
