@@ -244,6 +244,12 @@ TEST_F(ImageFile, JpegWithATooLargeHuffmanTableIsRefused) {
     EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
 }
 
+TEST_F(ImageFile, ABmpHoldsAllOfItsPixels) {
+    const std::string header("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0\0\0\xdc\0\x01\0\x18\0", 30);
+    store("a.bmp", header + std::string(24 + 12, '\0'));  // of 14 million rows one or two
+    EXPECT_NE(message_of([&] { read_image(folder / "a.bmp"); }).find("truncated"), std::string::npos);
+}
+
 TEST_F(ImageFile, LinesThatAreUnpackedAtOnceAreBounded) {
     Picture picture;
     picture.image = gradient(4, 1);

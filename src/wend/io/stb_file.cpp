@@ -154,8 +154,14 @@ Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding)
         throw InputError(place, source.ran_out() ? "the picture is truncated"
                                                  : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP or HDR)");
     }
+    const bool is_bmp = bytes.starts_with("BM");
     // A BMP whose rows come from the top says so by a negative height.
-    check_image_size(width, bytes.starts_with("BM") ? std::abs(std::int64_t{height}) : height, bytes.size(), place);
+    const std::int64_t rows = is_bmp ? std::abs(std::int64_t{height}) : height;
+    check_image_size(width, rows, bytes.size(), place);
+    // It is not compressed, and what it lacks would be read as zeros one by one.
+    if (is_bmp && static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(rows) / 8 > bytes.size()) {
+        throw InputError(place, "the picture is truncated");
+    }
     if (Source probe(bytes); stbi_is_hdr_from_callbacks(&callbacks, &probe)) {
         return load(bytes, place, stbi_loadf_from_callbacks, [](float v) { return v; });
     }
