@@ -245,7 +245,12 @@ private:
     float weight() const { return mean_value(now_.throughput) * now_.index_scale; }
     /// By which guided decisions are the more classical the heavier the walk is. At the boundary of a guided stay they
     /// are not: there connections from the collision before have to know their densities, and not the roulette since.
-    float weight_to_bound() const { return now_.slab.is_inside() ? 0.0f : weight(); }
+    /// Copies of a walk may grow as it might have, but only so many: each that has become heavy is split again, and
+    /// all of them together would know no bound.
+    float weight_to_bound() const {
+        constexpr float free_copies = 8;
+        return now_.slab.is_inside() ? 0.0f : weight() * std::max(1.0f, now_.copies / free_copies);
+    }
     int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {

@@ -17,6 +17,7 @@ struct WalkBranch {
     Rgb throughput{1.0f};
     float boost = 1;        ///< see WalkState
     float index_scale = 1;  ///< see WalkState
+    float copies = 1;       ///< of the walk, as a mean: the product of all splits on the way here
     int depth = 0;          ///< vertices so far
     int uncounted = 0;      ///< of those, the ones that do not count towards the largest depth
     int interfaces = 0;

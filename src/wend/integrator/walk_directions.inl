@@ -32,6 +32,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
         weigh(Rgb(static_cast<float>(1 / outcome->expected)));
         // What it would carry unguided is carried by all copies.
         now_.boost *= static_cast<float>(outcome->expected);
+        now_.copies *= std::max(1.0f, static_cast<float>(outcome->expected));
     }
     result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
     for (int i = 1; i < outcome->copies; ++i) {
