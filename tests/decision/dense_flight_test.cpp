@@ -80,7 +80,7 @@ bool all_agree(const GridMedium& medium, const Rgb& throughput, const Means& mea
     return agree;
 }
 
-TEST(DenseFlight, IsUnbiasedInEveryChannel) {
+TEST(SlowDenseFlight, IsUnbiasedInEveryChannel) {
     const auto emission = std::make_shared<GridEmission>();
     emission->radiance = Rgb(1, 2, 3);
     for (const GridMedium& medium :

@@ -154,7 +154,7 @@ void expect_unbiased(const F& f) {
     }
 }
 
-TEST(Direction, GuidedAndClassicalHaveTheSameMean) {
+TEST(SlowDirection, GuidedAndClassicalHaveTheSameMean) {
     expect_unbiased(Volume{});
     expect_unbiased(Wall{});
     expect_unbiased(Coat{});

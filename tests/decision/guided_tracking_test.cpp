@@ -176,7 +176,7 @@ TEST(GuidedTracking, GoesWhereTheLightIs) {
     EXPECT_GT(scatters({"", {0.1f, 5}, 1}, segment / 2, segment), 1.3 * scatters({"", {1}, 1}, segment / 2, segment));
 }
 
-TEST(GuidedTracking, EmissionIsTheLineIntegral) {
+TEST(SlowGuidedTracking, EmissionIsTheLineIntegral) {
     for (const bool level : {false, true}) {
         for (const Rgb& scattering : {Rgb(0.5f), Rgb(0.1f, 0.5f, 1)}) {
             auto emitter = std::make_shared<GridEmission>();

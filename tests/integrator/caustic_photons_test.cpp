@@ -38,7 +38,7 @@ double mean_light(const CausticPhotons& caustics, const Vec3& centre, const Vec3
     return sum / n;
 }
 
-TEST(CausticPhotons, TellTheIrradianceBehindAPane) {
+TEST(SlowCausticPhotons, TellTheIrradianceBehindAPane) {
     constexpr float albedo = 0.5f;
     SceneDescription s = with_lamp({0.2f, 4, -0.4f}, 1);
     test::add_box(s, Box3(Vec3(-1, 1, -1), Vec3(1, 1.2f, 1)), test::add_dielectric(s, ior));

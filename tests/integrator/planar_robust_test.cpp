@@ -47,7 +47,7 @@ TEST(PlanarRobustness, EveryAlbedoInHalfSpaces) {
     }
 }
 
-TEST(PlanarRobustness, EveryThickness) {
+TEST(SlowPlanarRobustness, EveryThickness) {
     for (const double thickness : {1e-4, 1.0, 60.0}) {
         for (const double albedo : {0.0, 1e-6, 0.5, 0.9999, 1.0}) {
             for (const Tally tally : {Tally::reflectance, Tally::transmittance}) {
@@ -61,7 +61,7 @@ TEST(PlanarRobustness, EveryThickness) {
     }
 }
 
-TEST(PlanarRobustness, ForwardAndRefractiveExtremes) {
+TEST(SlowPlanarRobustness, ForwardAndRefractiveExtremes) {
     PlanarExperiment e = slab(0.9999, 1e-4, Tally::transmittance, "");
     e.g = 0.95;
     e.modes = 32;

@@ -8,7 +8,7 @@
 namespace wend {
 namespace {
 
-TEST(SlabReference, EveryRowIsMetByModes) {
+TEST(SlowSlabReference, EveryRowIsMetByModes) {
     const std::vector<test::SlabReference> rows = test::slab_references();
     ASSERT_EQ(rows.size(), 36u);
     for (const test::SlabReference& row : rows) {

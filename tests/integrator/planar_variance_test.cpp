@@ -127,7 +127,7 @@ double ratio(PlanarExperiment e, std::uint64_t walks) {
     return run(e, walks / 2).channels[0].variance() / guided;
 }
 
-TEST(PlanarVariance, AnisotropicScattering) {
+TEST(SlowPlanarVariance, AnisotropicScattering) {
     struct Bar {
         double g;
         int modes;
