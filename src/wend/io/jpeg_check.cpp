@@ -14,15 +14,17 @@ bool has_length(unsigned char marker) {
     return marker > 0x01 && !restart && marker != start_of_image && marker != end_of_image;
 }
 
-/// The tables of one segment: a byte for the kind, 16 counts of codes by length, and as many symbols as they add up to.
-bool tables_fit(std::basic_string_view<unsigned char> segment) {
+/// The tables of a segment of `length` bytes: a byte for the kind, 16 counts of codes by length, and as many symbols as
+/// they add up to. The last may reach beyond the segment, as stb reads it, and beyond the file, where it reads zeros.
+bool tables_fit(std::basic_string_view<unsigned char> bytes, std::size_t length) {
     constexpr std::size_t lengths = 16;
-    while (segment.size() > lengths) {
-        const int symbols = std::accumulate(segment.begin() + 1, segment.begin() + 1 + lengths, 0);
+    for (std::size_t at = 0; at < std::min(length, bytes.size());) {
+        const auto counts = bytes.substr(at + 1, lengths);
+        const int symbols = std::accumulate(counts.begin(), counts.end(), 0);
         if (symbols > 256) {
             return false;
         }
-        segment.remove_prefix(std::min(1 + lengths + static_cast<std::size_t>(symbols), segment.size()));
+        at += 1 + lengths + static_cast<std::size_t>(symbols);
     }
     return true;
 }
@@ -51,7 +53,7 @@ bool huffman_tables_fit(std::string_view file) {
             continue;
         }
         const std::size_t length = std::max<std::size_t>(bytes[at] * 256u + bytes[at + 1], 2);
-        if (marker == define_huffman && !tables_fit(bytes.substr(at + 2, length - 2))) {
+        if (marker == define_huffman && !tables_fit(bytes.substr(at + 2), length - 2)) {
             return false;
         }
         at += length;
