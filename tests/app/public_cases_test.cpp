@@ -1,17 +1,16 @@
 // Scenes of tests/cases: what was reported to other renderers, each with its right mean, rendered as anybody would.
 #include "program_support.h"
+#include "tests/support/channel_means.h"
 #include "tests/support/paths.h"
 
 #include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
-#include <wend/stats/moments.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -64,21 +63,14 @@ void expect_right_mean(const std::filesystem::path& file) {
     settings.filter = loaded.filter;
     settings.exposure = loaded.exposure;
     const Scene scene(std::move(loaded.scene));
-    std::array<Moments, 3> means;
+    test::ChannelMeans means;
     for (settings.seed = 1; settings.seed <= renders; ++settings.seed) {
         Film film(loaded.resolution, loaded.crop);
         EXPECT_EQ(render(scene, film, settings).counts.rejected, 0u);
-        const Image image = film.beauty();
-        for (int c = 0; c < 3; ++c) {
-            double sum = 0;
-            for (const Rgb& pixel : image.pixels) {
-                sum += pixel[c];
-            }
-            means[static_cast<std::size_t>(c)].add(sum / static_cast<double>(image.pixels.size()));
-        }
+        means.add(film.beauty());
     }
     constexpr double rounding = 1e-6;
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (int c = 0; c < 3; ++c) {
         const double mean = means[c].mean(), error = means[c].standard_error();
         SCOPED_TRACE(fmt::format("channel {}: {:.6f} +- {:.6f}, right is {}", c, mean, error, expected.mean[c]));
         EXPECT_LE(std::abs(mean - expected.mean[c]), expected.tolerance[c] + rounding);

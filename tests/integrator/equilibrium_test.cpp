@@ -1,16 +1,14 @@
 // Furnaces in thermal equilibrium: media that shine as much as they absorb, lamps that shine as the sky does. Whatever
 // stands in them, and wherever the camera is, all has the radiance of the sky, times the square of the refractive index
 // (Kirchhoff's law). So the right value is known for media that absorb, too.
+#include <tests/support/channel_means.h>
 #include <tests/support/covering_array.h>
 #include <tests/support/scenes.h>
 
-#include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <ostream>
 #include <vector>
@@ -114,8 +112,6 @@ Scene scene_of(const Equilibrium& e, int resolution) {
 }
 
 constexpr int samples_of_render = 1 << 12;
-constexpr int least_renders = 16;
-constexpr int most_renders = 512;
 
 class Equilibria : public testing::TestWithParam<Equilibrium> {};
 
@@ -129,33 +125,13 @@ TEST_P(Equilibria, AreAsBrightAsTheSky) {
     settings.subsurface = parse_subsurface(e.subsurface);
     settings.samples = e.samples;
     settings.max_depth = 100000;
-    std::array<Moments, 3> means;
-    const auto error = [&] {
-        double worst = 0;
-        for (const Moments& m : means) {
-            worst = std::max(worst, m.standard_error() / right);
-        }
-        return worst;
-    };
-    for (int i = 0; i < most_renders && (i < least_renders || error() > 0.002); ++i) {
-        settings.seed = static_cast<std::uint64_t>(1 + i);
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-        render(scene, film, settings);
-        Rgb sum;
-        const Image image = film.beauty();
-        for (const Rgb& pixel : image.pixels) {
-            sum += pixel;
-        }
-        for (int c = 0; c < 3; ++c) {
-            means[static_cast<std::size_t>(c)].add(static_cast<double>(sum[c]) /
-                                                   static_cast<double>(image.pixels.size()));
-        }
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-        EXPECT_TRUE(agrees(means[c].mean(), means[c].standard_error(), right, 4, 1e-5))
+    const auto scale = [&](double) { return right; };
+    const test::ChannelMeans means = test::render_until(scene, settings, resolution, 0.002, 512, scale);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_TRUE(agrees(means[c], right, 4, 1e-5))
             << "channel " << c << ": " << means[c].mean() << " +- " << means[c].standard_error() << ", not " << right;
     }
-    EXPECT_LT(error(), 0.0021) << "too few samples to see a bias of 1 %";
+    EXPECT_LT(means.worst_error(scale), 0.0021) << "too few samples to see a bias of 1 %";
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowPairs, Equilibria, testing::ValuesIn(equilibria()));

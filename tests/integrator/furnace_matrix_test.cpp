@@ -3,11 +3,11 @@
 //
 // What such objects look like by classical walks is in furnaces.csv, which this writes anew (half an hour):
 //     test_integrator --gtest_also_run_disabled_tests --gtest_filter='*WriteReferences'
+#include <tests/support/channel_means.h>
 #include <tests/support/covering_array.h>
 #include <tests/support/paths.h>
 #include <tests/support/scenes.h>
 
-#include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
@@ -135,19 +135,6 @@ double scale_of(double value) {
     return std::max(value, 1.0 / 3);
 }
 
-/// Means of whole pictures, by channel, over renders of different seeds.
-struct Channels {
-    std::array<Moments, 3> mean;
-
-    double worst_error() const {
-        double worst = 0;
-        for (const Moments& m : mean) {
-            worst = std::max(worst, m.standard_error() / scale_of(m.mean()));
-        }
-        return worst;
-    }
-};
-
 struct Effort {
     const char* subsurface;
     const char* sampling;
@@ -157,33 +144,16 @@ struct Effort {
 };
 
 constexpr int samples_of_render = 1 << 12;
-/// Fewer do not tell their own noise.
-constexpr int least_renders = 16;
 
-Channels measure(const Furnace& f, const Effort& effort) {
+test::ChannelMeans measure(const Furnace& f, const Effort& effort) {
     const int resolution = static_cast<int>(std::lround(std::sqrt(samples_of_render / effort.samples)));
-    const Scene scene = scene_of(f, resolution);
     RenderSettings settings;
     settings.preset = parse_preset(effort.sampling);
     settings.subsurface = parse_subsurface(effort.subsurface);
     settings.samples = effort.samples;
     settings.max_depth = 100000;
-    Channels result;
-    for (int i = 0; i < effort.most_renders && (i < least_renders || result.worst_error() > effort.error); ++i) {
-        settings.seed = static_cast<std::uint64_t>(1 + i);
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
-        render(scene, film, settings);
-        Rgb sum;
-        const Image image = film.beauty();
-        for (const Rgb& pixel : image.pixels) {
-            sum += pixel;
-        }
-        for (int c = 0; c < 3; ++c) {
-            result.mean[static_cast<std::size_t>(c)].add(static_cast<double>(sum[c]) /
-                                                         static_cast<double>(image.pixels.size()));
-        }
-    }
-    return result;
+    return test::render_until(scene_of(f, resolution), settings, resolution, effort.error, effort.most_renders,
+                              scale_of);
 }
 
 /// A radiance by classical walks.
@@ -215,10 +185,10 @@ TEST(FurnaceReferences, DISABLED_WriteReferences) {
         if (f.is_lossless(0) || references.contains(f.object())) {
             continue;
         }
-        const Channels classical = measure(f, {"classical", "classical", 64, 0.0009, 4096});
+        const test::ChannelMeans classical = measure(f, {"classical", "classical", 64, 0.0009, 4096});
         std::ofstream file(references_path(), std::ios::app);
         file << std::quoted(f.object()) << std::setprecision(6);
-        for (const Moments& m : classical.mean) {
+        for (const Moments& m : classical.channels) {
             file << ',' << m.mean() << ',' << m.standard_error();
         }
         ASSERT_TRUE(file << std::endl);
@@ -231,11 +201,11 @@ TEST_P(FurnaceMatrix, IsAsBrightAsItShouldBe) {
     const Furnace& f = GetParam();
     const auto references = read_references();
     const auto known = references.find(f.object());
-    const Channels got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 512});
+    const test::ChannelMeans got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 512});
     for (int c = 0; c < 3; ++c) {
         ASSERT_TRUE(f.is_lossless(c) || known != references.end()) << references_path() << " has no such line";
         const Reference right = f.is_lossless(c) ? Reference{1, 0} : known->second[static_cast<std::size_t>(c)];
-        const Moments& mean = got.mean[static_cast<std::size_t>(c)];
+        const Moments& mean = got[c];
         const double error = std::hypot(mean.standard_error(), right.standard_error);
         EXPECT_TRUE(agrees(mean.mean(), error, right.mean, 3.5, 1e-5))
             << "channel " << c << ": " << mean.mean() << " +- " << error << ", not " << right.mean << ", after "

@@ -45,14 +45,15 @@ struct ShadowRay {
 };
 
 /// A ray from a vertex at `position` in the light's direction, up to the light.
-inline ShadowRay shadow_ray(TracedRay ray, const Vec3& position, const LightSample& light) {
+inline ShadowRay shadow_ray(const Scene& scene, TracedRay ray, const Vec3& position, const ChosenSample& chosen) {
+    const LightSample& light = chosen.light;
     if (light.distance == infinity) {
         return {ray, light.distance, light.medium};
     }
-    // Where the ray begins beside the position must not move its end through a lamp that is seen edge on. It ends short
-    // of a light that is a surface.
+    // Neither where the ray begins, beside the position, nor rounding must move its end through a lamp that is seen
+    // edge on. It ends short of what lies in the lamp's place, and of a lamp that is not flat.
     const float part = light.medium == vacuum ? 1 - 1e-4f : 1.0f;
-    const float distance = ray.aim_at(position + light.direction * light.distance);
+    const float distance = ray.aim_at(position + light.direction * light.distance, scene.flat_element(chosen.index));
     return {ray, distance * part, light.medium};
 }
 

@@ -130,7 +130,7 @@ auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, cons
                 chosen.density(),
                 slab_towards(light.direction, directions),
                 {}};
-    const ShadowRay shadow = shadow_ray(leave(v, light.direction), v.position, light);
+    const ShadowRay shadow = shadow_ray(scene_, leave(v, light.direction), v.position, chosen);
     sight.passage =
         pass(scene_, d_.distance, shadow, medium_towards(v, light.direction), sight.slab, sampler_.random());
     return sight;
@@ -165,7 +165,7 @@ void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, 
     if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
         return;
     }
-    const ShadowRay shadow = shadow_ray(leave(v, light.direction), v.position, light);
+    const ShadowRay shadow = shadow_ray(scene_, leave(v, light.direction), v.position, chosen);
     if (const auto seen =
             glimpse(scene_, shadow.ray, shadow.length, medium_towards(v, light.direction), sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;

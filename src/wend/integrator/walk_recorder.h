@@ -24,8 +24,8 @@ struct RecorderTargets {
     const CausticPhotons* caustics = nullptr;              ///< what the log is told beside what walks find
 };
 
-/// The walk says once what happens to it, and need not know who records it. Nothing said here changes a walk, but for
-/// choose_recording(), which draws a random number where there is a log.
+/// The walk says once what happens to it, and need not know who records it. A walk that is recorded draws more
+/// random numbers (choose_recording(), hint_at_caustics()); what it estimates is the same.
 class WalkRecorder {
 public:
     WalkRecorder(const RecorderTargets& to, const LightChoices& choices, const ReflectionChoices& reflection_choices)

@@ -20,6 +20,13 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
     return to_unit_float(static_cast<std::uint32_t>(h)) < alpha;
 }
 
+std::uint32_t flat_primitives(const Shape& shape) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+        return static_cast<std::uint32_t>(mesh->triangle_count());
+    }
+    return std::holds_alternative<Disk>(std::get<Quadric>(shape).shape) ? 1 : 0;
+}
+
 }  // namespace
 
 Scene::Scene(SceneDescription description) : d_(std::move(description)) {
@@ -35,7 +42,12 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         has_point_like_lights_ = has_point_like_lights_ || std::holds_alternative<PointLight>(lights_[i]) ||
                                  std::holds_alternative<DistantLight>(lights_[i]);
     }
-    for (const Surface& surface : d_.surfaces) {
+    flat_lights_.resize(lights_.size());
+    for (std::size_t i = 0; i < d_.surfaces.size(); ++i) {
+        const Surface& surface = d_.surfaces[i];
+        for (std::uint32_t k = 0; surface.first_light >= 0 && k < flat_primitives(surface.shape); ++k) {
+            flat_lights_[static_cast<std::size_t>(surface.first_light) + k] = {static_cast<std::uint32_t>(i), k};
+        }
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
         has_interfaces_ |= std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
     }

@@ -146,6 +146,8 @@ public:
     const Camera& camera() const { return d_.camera; }
     /// Where walks begin.
     const MediumState& camera_medium() const { return camera_medium_; }
+    /// What an area light is, if that is flat; otherwise nothing that a ray meets.
+    const SurfaceElement& flat_element(int light) const { return flat_lights_[static_cast<std::size_t>(light)]; }
     /// Those of the description, and then the media that glow.
     const std::vector<Light>& lights() const { return lights_; }
     /// The light that a medium is, as an index of lights(); -1: none.
@@ -167,7 +169,8 @@ private:
     MediumState camera_medium_;
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<Light> lights_;
-    std::vector<int> glow_lights_;  ///< by medium
+    std::vector<SurfaceElement> flat_lights_;  ///< by light
+    std::vector<int> glow_lights_;             ///< by medium
     std::vector<int> infinite_lights_;
     bool has_point_like_lights_ = false;
     Box3 bounds_;

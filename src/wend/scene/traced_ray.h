@@ -45,11 +45,12 @@ public:
     static TracedRay leave_anew(const Hit& hit, const Vec3& w) { return TracedRay(hit, w, true); }
 
     /// Turns the ray, before it has met anything, so that it goes through a point far from where it starts; returns the
-    /// distance of that.
-    float aim_at(const Vec3& point) {
+    /// distance of that. `on` is what the point lies on if that is flat: it is not met on the way.
+    float aim_at(const Vec3& point, const SurfaceElement& on) {
         const Vec3 way = point - start_;
         const float distance = length(way);
         direction = way * (1 / distance);
+        aim_ = on;
         return distance;
     }
 
@@ -60,7 +61,7 @@ public:
     /// Whether what is met at distance t from start() is still ahead. `along`: whether the normal by the surface's
     /// winding is along the ray.
     bool is_ahead(const SurfaceElement& met, float t, bool along) const {
-        if (t < passed_ || (met == own_ && !(own_again_ && along))) {
+        if (t < passed_ || met == aim_ || (met == own_ && !(own_again_ && along))) {
             return false;
         }
         if (t == passed_ && std::any_of(begin(), end(), [&](const Crossing& c) { return c.t == t && c.met == met; })) {
@@ -97,6 +98,8 @@ private:
     float passed_ = 0;
     /// What it starts on, and whether it may meet that again along its normal, as from within a sphere.
     SurfaceElement own_{};
+    /// What it is aimed at.
+    SurfaceElement aim_{};
     bool own_again_ = false;
     bool reflected_ = false;
     /// Up to where lies what may be in the place that it starts from.
