@@ -304,6 +304,19 @@ TEST(SceneLights, PrimitivesKnowTheirLight) {
     EXPECT_EQ(scene.intersect(Ray{{-0.5f, 0.5f, 1}, {0, 0, -1}})->light, 5);
 }
 
+TEST(SceneLights, ARayDoesNotMeetTheFlatLampThatItIsAimedAt) {
+    auto description = test::two_materials();
+    test::add(description, test::square()).first_light = 0;
+    const Scene scene(std::move(description));
+    const auto is_occluded = [&](int aimed_at) {
+        TracedRay ray = Ray{{0.5f, -0.5f, 1}, {0, 0, -1}};
+        ray.aim_at({0.5f, -0.5f, 0}, scene.flat_element(aimed_at));
+        return scene.is_occluded(ray, 2);
+    };
+    EXPECT_FALSE(is_occluded(0));
+    EXPECT_TRUE(is_occluded(1)) << "that is the other triangle";
+}
+
 TEST(Scene, WithoutSurfacesNothingIsHit) {
     const Scene scene(test::two_materials());
     EXPECT_FALSE(scene.intersect(Ray{{0, 0, 0}, {0, 0, 1}}));

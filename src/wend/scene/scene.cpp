@@ -45,8 +45,11 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     flat_lights_.resize(lights_.size());
     for (std::size_t i = 0; i < d_.surfaces.size(); ++i) {
         const Surface& surface = d_.surfaces[i];
-        for (std::uint32_t k = 0; surface.first_light >= 0 && k < flat_primitives(surface.shape); ++k) {
-            flat_lights_[static_cast<std::size_t>(surface.first_light) + k] = {static_cast<std::uint32_t>(i), k};
+        const std::uint32_t flat = surface.first_light >= 0 ? flat_primitives(surface.shape) : 0;
+        const auto first = static_cast<std::size_t>(std::max(surface.first_light, 0));
+        flat_lights_.resize(std::max(flat_lights_.size(), first + flat));
+        for (std::uint32_t k = 0; k < flat; ++k) {
+            flat_lights_[first + k] = {static_cast<std::uint32_t>(i), k};
         }
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
         has_interfaces_ |= std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
