@@ -1,17 +1,16 @@
 // Every way of sampling gives the same picture of every scene: small twins of the scenes, some with larger lamps or
 // thinner shields, so that a test can afford to see a bias of 1 %.
+#include <tests/support/block_means.h>
 #include <tests/support/paths.h>
 
 #include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
 #include <wend/io/pbrt/parser.h>
-#include <wend/stats/chi_square.h>
-#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -22,24 +21,16 @@
 namespace wend {
 namespace {
 
-constexpr int width = 32;
-constexpr int height = 18;
+constexpr Vec2i resolution(32, 18);
 constexpr int block = 6;
-constexpr int columns = width / block;
-constexpr int rows = height / block;
-
-struct MeanWithError {
-    double mean, error;
-};
 
 struct Twin {
     const char* scene;
-    int samples;  ///< per pixel and replica
+    int samples;  ///< per pixel and render
     std::vector<std::pair<const char*, const char*>> changes;
-    /// As classical sampling has it: 96 replicas, of the seeds from 100000 on, with the standard errors by their
-    /// scatter; the mean luminance of all blocks, and of each of them line by line.
-    MeanWithError whole;
-    MeanWithError blocks[columns * rows];
+    /// As classical sampling has it: 96 renders, of the seeds from 100000 on, with the standard errors by their
+    /// scatter.
+    test::BlockReference reference;
 };
 
 void PrintTo(const Twin& twin, std::ostream* out) {
@@ -60,52 +51,12 @@ LoadedScene load_twin(const Twin& twin) {
         }
     }
     LoadOverrides overrides;
-    overrides.resolution = Vec2i(width, height);
+    overrides.resolution = resolution;
     return load_scene(pbrt::parse_string(std::move(text), folder, twin.scene), overrides);
-}
-
-/// Independent renders: the mean of the picture and of its blocks.
-struct Replicas {
-    Moments whole;
-    std::vector<Moments> blocks{static_cast<std::size_t>(columns * rows)};
-
-    void add(const Image& image, double scale = 1) {
-        double total = 0;
-        for (int by = 0; by < rows; ++by) {
-            for (int bx = 0; bx < columns; ++bx) {
-                double sum = 0;
-                for (int y = by * block; y < (by + 1) * block; ++y) {
-                    for (int x = bx * block; x < (bx + 1) * block; ++x) {
-                        sum += scale * luminance(image.at(x, y));
-                    }
-                }
-                blocks[static_cast<std::size_t>(by * columns + bx)].add(sum / (block * block));
-                total += sum;
-            }
-        }
-        whole.add(total / (columns * rows * block * block));
-    }
-};
-
-/// The probability that the blocks differ as much from the reference by chance. The square of a ratio to an estimated
-/// error has a heavier tail than that of a normal variable: n - 3 over n - 1 of n replicas brings its mean back to 1.
-double same_blocks(const Replicas& replicas, const Twin& twin) {
-    double sum = 0;
-    int used = 0;
-    for (std::size_t i = 0; i < replicas.blocks.size(); ++i) {
-        const double error = std::hypot(replicas.blocks[i].standard_error(), twin.blocks[i].error);
-        if (error > 0) {
-            sum += std::pow((replicas.blocks[i].mean() - twin.blocks[i].mean) / error, 2);
-            ++used;
-        }
-    }
-    const auto n = static_cast<double>(replicas.whole.count());
-    return chi_square_p_value(sum * (n - 3) / (n - 1), used);
 }
 
 class Twins : public testing::TestWithParam<std::tuple<Twin, const char*>> {};
 
-// 16 renders of 32 x 18 pixels by the samples of the twin: .6 to 2.7 million samples.
 TEST_P(Twins, LookAsClassicalSamplingHasThem) {
     const auto& [twin, sampling] = GetParam();
     LoadedScene loaded = load_twin(twin);
@@ -114,42 +65,37 @@ TEST_P(Twins, LookAsClassicalSamplingHasThem) {
     settings.samples = twin.samples;
     settings.max_depth = loaded.max_depth;
     settings.filter = loaded.filter;
+    settings.seed = 200;
     const Scene scene(std::move(loaded.scene));
-    Replicas replicas, biased;
-    for (settings.seed = 200; settings.seed < 216; ++settings.seed) {
-        Film film({width, height}, {{0, 0}, {width, height}});
-        render(scene, film, settings);
-        replicas.add(film.beauty());
-        biased.add(film.beauty(), 1.05);
-    }
-    const double mean = twin.whole.mean;
-    const double error = std::hypot(replicas.whole.standard_error(), twin.whole.error);
-    EXPECT_LT(error, 0.005 * mean) << "too few samples to see 1 %";
-    EXPECT_NEAR(replicas.whole.mean(), mean, 0.01 * mean) << "standard error " << error / mean;
-    EXPECT_GT(same_blocks(replicas, twin), 1e-3);
-    EXPECT_LT(same_blocks(biased, twin), 1e-3) << "the test could not see a bias of 5 % in all blocks";
+    const test::BlockMeans means = test::render_until(scene, settings, resolution, block, twin.reference, 0.0032, 48);
+    const double expected = twin.reference.whole.mean, error = means.error(twin.reference);
+    EXPECT_LT(3 * error, 0.01 * expected) << "too few samples to see a bias of 1 %";
+    EXPECT_TRUE(agrees(means.whole().mean() - expected, error, 0, 3.5))
+        << means.whole().mean() << " +- " << error << ", not " << expected;
+    EXPECT_GT(means.p_value(twin.reference), 1e-3);
+    EXPECT_LT(means.p_value(twin.reference, 1.05), 1e-3) << "the test could not see a bias of 5 % in all blocks";
 }
 
 const std::vector<Twin> twins = {
     Twin{"haze",
          96,
          {},
-         {0.6494264, 0.00087},
-         {{5.13485, 0.012},
-          {0.735675, 0.0026},
-          {0.524827, 0.0014},
-          {0.431915, 0.0011},
-          {0.346059, 0.00099},
-          {0.480004, 0.0024},
-          {0.365905, 0.0015},
-          {0.374403, 0.0013},
-          {0.279212, 0.00089},
-          {0.243051, 0.00087},
-          {0.186169, 0.00089},
-          {0.170553, 0.00071},
-          {0.153039, 0.00074},
-          {0.156883, 0.00071},
-          {0.158855, 0.00066}}},
+         {{0.6494264, 0.00087},
+          {{5.13485, 0.012},
+           {0.735675, 0.0026},
+           {0.524827, 0.0014},
+           {0.431915, 0.0011},
+           {0.346059, 0.00099},
+           {0.480004, 0.0024},
+           {0.365905, 0.0015},
+           {0.374403, 0.0013},
+           {0.279212, 0.00089},
+           {0.243051, 0.00087},
+           {0.186169, 0.00089},
+           {0.170553, 0.00071},
+           {0.153039, 0.00074},
+           {0.156883, 0.00071},
+           {0.158855, 0.00066}}}},
     Twin{"cloud",
          64,
          {{"\"float radius\" [ 0.25 ]", "\"float radius\" [ 2.5 ]"},
@@ -157,126 +103,126 @@ const std::vector<Twin> twins = {
           {"\"float radius\" [ 0.03 ]", "\"float radius\" [ 0.25 ]"},
           {"[ 220 396 704 ]", "[ 3 6 10 ]"},
           {"[ 32 32 32 ]", "[ 6 6 6 ]"}},
-         {0.283546, 0.00041},
-         {{0.0029318, 0},
-          {0.0759106, 0.00099},
-          {0.171193, 0.0014},
-          {0.627189, 0.0017},
-          {0.552888, 0.0011},
-          {0.0144439, 0.00045},
-          {0.502547, 0.0024},
-          {1.1854, 0.0032},
-          {0.538, 0.0026},
-          {0.206066, 0.0017},
-          {0.0029318, 0},
-          {0.0781914, 0.0011},
-          {0.180266, 0.0015},
-          {0.10415, 0.0014},
-          {0.0110836, 0.00033}}},
+         {{0.283546, 0.00041},
+          {{0.0029318, 0},
+           {0.0759106, 0.00099},
+           {0.171193, 0.0014},
+           {0.627189, 0.0017},
+           {0.552888, 0.0011},
+           {0.0144439, 0.00045},
+           {0.502547, 0.0024},
+           {1.1854, 0.0032},
+           {0.538, 0.0026},
+           {0.206066, 0.0017},
+           {0.0029318, 0},
+           {0.0781914, 0.0011},
+           {0.180266, 0.0015},
+           {0.10415, 0.0014},
+           {0.0110836, 0.00033}}}},
     Twin{"fog-door",
          288,
          {{"\"float radius\" [ 0.18 ]", "\"float radius\" [ 0.5 ]"},
           {"Rotate -55 0 1 0", "Rotate -100 0 1 0"},
           {"Translate -1.6 1.7 5.3", "Translate 0.9 1.4 4.6"}},
-         {6.473915, 0.0092},
-         {{1.80084, 0.015},
-          {2.8374, 0.022},
-          {6.2767, 0.029},
-          {6.01822, 0.023},
-          {4.1419, 0.024},
-          {1.80343, 0.016},
-          {2.99209, 0.016},
-          {42.4176, 0.12},
-          {6.4833, 0.027},
-          {4.05685, 0.021},
-          {1.68883, 0.014},
-          {2.4212, 0.017},
-          {3.96676, 0.024},
-          {6.55915, 0.024},
-          {3.6444, 0.021}}},
+         {{6.473915, 0.0092},
+          {{1.80084, 0.015},
+           {2.8374, 0.022},
+           {6.2767, 0.029},
+           {6.01822, 0.023},
+           {4.1419, 0.024},
+           {1.80343, 0.016},
+           {2.99209, 0.016},
+           {42.4176, 0.12},
+           {6.4833, 0.027},
+           {4.05685, 0.021},
+           {1.68883, 0.014},
+           {2.4212, 0.017},
+           {3.96676, 0.024},
+           {6.55915, 0.024},
+           {3.6444, 0.021}}}},
     Twin{"smoke-room",
          160,
          {{"\"float radius\" [ 0.015 ]", "\"float radius\" [ 0.1 ]"},
           {"\"float zmax\" [ 0.095 ]", "\"float zmax\" [ -0.06 ]"}},
-         {109.6561, 0.17},
-         {{442.629, 2},
-          {119.194, 0.39},
-          {195.754, 0.54},
-          {230.993, 0.74},
-          {113.078, 0.86},
-          {57.9371, 0.13},
-          {60.4433, 0.16},
-          {59.6357, 0.22},
-          {75.8709, 0.32},
-          {49.3171, 0.15},
-          {49.4888, 0.15},
-          {50.5481, 0.14},
-          {49.1167, 0.13},
-          {46.5267, 0.15},
-          {44.3078, 0.14}}},
+         {{109.6561, 0.17},
+          {{442.629, 2},
+           {119.194, 0.39},
+           {195.754, 0.54},
+           {230.993, 0.74},
+           {113.078, 0.86},
+           {57.9371, 0.13},
+           {60.4433, 0.16},
+           {59.6357, 0.22},
+           {75.8709, 0.32},
+           {49.3171, 0.15},
+           {49.4888, 0.15},
+           {50.5481, 0.14},
+           {49.1167, 0.13},
+           {46.5267, 0.15},
+           {44.3078, 0.14}}}},
     Twin{"candles",
          64,
          {{"WorldBegin\n", "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 0.4 0.4 0.4 ]\n"},
           {"\"float Lescale\" [ 260 ]", "\"float Lescale\" [ 20 ]"}},
-         {0.1212676, 6.9e-05},
-         {{0.0999872, 0.00014},
-          {0.103818, 0.00016},
-          {0.111825, 0.00022},
-          {0.110243, 0.0002},
-          {0.0992174, 0.00013},
-          {0.0920341, 0.00013},
-          {0.137389, 0.00034},
-          {0.137428, 0.00041},
-          {0.11377, 0.0003},
-          {0.125357, 0.00032},
-          {0.143231, 0.00014},
-          {0.136055, 0.00018},
-          {0.134832, 0.00022},
-          {0.133659, 0.00019},
-          {0.140168, 0.00021}}},
+         {{0.1212676, 6.9e-05},
+          {{0.0999872, 0.00014},
+           {0.103818, 0.00016},
+           {0.111825, 0.00022},
+           {0.110243, 0.0002},
+           {0.0992174, 0.00013},
+           {0.0920341, 0.00013},
+           {0.137389, 0.00034},
+           {0.137428, 0.00041},
+           {0.11377, 0.0003},
+           {0.125357, 0.00032},
+           {0.143231, 0.00014},
+           {0.136055, 0.00018},
+           {0.134832, 0.00022},
+           {0.133659, 0.00019},
+           {0.140168, 0.00021}}}},
     Twin{"liquid",
          128,
          {{"\"float radius\" [ 0.085 ]", "\"float radius\" [ 0.8 ]"},
           {"[ 1800 1600 1300 ]", "[ 20 18 15 ]"},
           {"\"float radius\" [ 0.07 ]", "\"float radius\" [ 0.7 ]"},
           {"[ 520 660 840 ]", "[ 5 7 8 ]"}},
-         {0.2829555, 0.00021},
-         {{0.564047, 0.00043},
-          {0.214124, 0.00032},
-          {0.210472, 0.00053},
-          {0.232095, 0.00053},
-          {0.225846, 0.00033},
-          {0.377491, 0.00047},
-          {0.339041, 0.00056},
-          {0.227172, 0.0015},
-          {0.336046, 0.00096},
-          {0.395072, 0.00049},
-          {0.207452, 0.0014},
-          {0.142807, 0.001},
-          {0.187677, 0.0013},
-          {0.286117, 0.0011},
-          {0.298876, 0.00066}}},
+         {{0.2829555, 0.00021},
+          {{0.564047, 0.00043},
+           {0.214124, 0.00032},
+           {0.210472, 0.00053},
+           {0.232095, 0.00053},
+           {0.225846, 0.00033},
+           {0.377491, 0.00047},
+           {0.339041, 0.00056},
+           {0.227172, 0.0015},
+           {0.336046, 0.00096},
+           {0.395072, 0.00049},
+           {0.207452, 0.0014},
+           {0.142807, 0.001},
+           {0.187677, 0.0013},
+           {0.286117, 0.0011},
+           {0.298876, 0.00066}}}},
     Twin{"shield-duct",
          160,
          {{"\"float radius\" [ 0.08 ]", "\"float radius\" [ 0.4 ]"},
           {"[ 1.2 1.6 2.0 ]", "[ 0.3 0.4 0.5 ]"},
           {"[ 4.8 4.4 4.0 ]", "[ 1.2 1.1 1 ]"}},
-         {31.11759, 0.039},
-         {{60.0946, 0.2},
-          {25.3396, 0.16},
-          {7.0852, 0.066},
-          {4.91348, 0.069},
-          {3.7017, 0.055},
-          {89.7653, 0.27},
-          {42.9128, 0.17},
-          {8.85317, 0.086},
-          {6.20662, 0.077},
-          {4.53153, 0.082},
-          {138.805, 0.31},
-          {54.4665, 0.19},
-          {9.51708, 0.091},
-          {6.21768, 0.055},
-          {4.35363, 0.063}}}};
+         {{31.11759, 0.039},
+          {{60.0946, 0.2},
+           {25.3396, 0.16},
+           {7.0852, 0.066},
+           {4.91348, 0.069},
+           {3.7017, 0.055},
+           {89.7653, 0.27},
+           {42.9128, 0.17},
+           {8.85317, 0.086},
+           {6.20662, 0.077},
+           {4.53153, 0.082},
+           {138.805, 0.31},
+           {54.4665, 0.19},
+           {9.51708, 0.091},
+           {6.21768, 0.055},
+           {4.35363, 0.063}}}}};
 
 std::string test_name(const testing::TestParamInfo<Twins::ParamType>& parameter) {
     std::string name = std::string(std::get<0>(parameter.param).scene) + "_" + std::get<1>(parameter.param);

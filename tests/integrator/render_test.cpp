@@ -1,8 +1,7 @@
 // Whole pictures: reproducible, the same in the mean however they are sampled, and honest about their noise.
+#include <tests/support/block_means.h>
 #include <tests/support/scenes.h>
 
-#include <wend/stats/chi_square.h>
-#include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>
@@ -98,52 +97,18 @@ TEST(Reproducible, TheListOfPassesRepeatsARunThatWasStopped) {
     EXPECT_EQ(stopped.beauty().pixels, repeated.beauty().pixels);
 }
 
-/// Independent renders of the same picture: mean and its standard error, block by block and for the whole.
-struct Replicas {
-    static constexpr int block = 8;
-    static constexpr int blocks = (resolution / block) * (resolution / block);
-    std::vector<Moments> block_moments{static_cast<std::size_t>(blocks)};
-    Moments whole;
-
-    void add(const Image& image, double scale = 1) {
-        double total = 0;
-        std::vector<double> sums(static_cast<std::size_t>(blocks));
-        for (int y = 0; y < resolution; ++y) {
-            for (int x = 0; x < resolution; ++x) {
-                const double v = scale * luminance(image.at(x, y));
-                total += v;
-                sums[static_cast<std::size_t>((y / block) * (resolution / block) + x / block)] += v;
-            }
-        }
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            block_moments[i].add(sums[i] / (block * block));
-        }
-        whole.add(total / (resolution * resolution));
-    }
-};
-
-struct MeanWithError {
-    double mean, error;
-};
-
 /// The foggy room as classical sampling has it: 192 renders of 128 samples per pixel with the seeds from 100000 on
-/// (14 million samples), and the standard errors from their scatter. The whole, and its blocks line by line.
-constexpr MeanWithError reference_whole = {0.41331798, 0.00041678};
-constexpr MeanWithError reference_blocks[Replicas::blocks] = {
-    {0.3766770, 0.0012445}, {2.4208390, 0.0030332}, {0.3414534, 0.0011610},
-    {0.1304619, 0.0006726}, {0.1455518, 0.0007474}, {0.1443459, 0.0008015},
-    {0.0473600, 0.0003849}, {0.0594603, 0.0005031}, {0.0537126, 0.0004925}};
-
-/// The p-value of "the same mean as that of the reference in all blocks", by the sum of squared z.
-double same_blocks(const Replicas& replicas) {
-    double sum = 0;
-    for (std::size_t i = 0; i < replicas.block_moments.size(); ++i) {
-        const Moments& m = replicas.block_moments[i];
-        sum += std::pow(
-            (m.mean() - reference_blocks[i].mean) / std::hypot(m.standard_error(), reference_blocks[i].error), 2);
-    }
-    return chi_square_p_value(sum, Replicas::blocks);
-}
+/// (14 million samples), and the standard errors from their scatter.
+const test::BlockReference foggy_room_reference = {{0.41331798, 0.00041678},
+                                                   {{0.3766770, 0.0012445},
+                                                    {2.4208390, 0.0030332},
+                                                    {0.3414534, 0.0011610},
+                                                    {0.1304619, 0.0006726},
+                                                    {0.1455518, 0.0007474},
+                                                    {0.1443459, 0.0008015},
+                                                    {0.0473600, 0.0003849},
+                                                    {0.0594603, 0.0005031},
+                                                    {0.0537126, 0.0004925}}};
 
 struct Comparison {
     const char* preset;
@@ -156,24 +121,21 @@ void PrintTo(const Comparison& comparison, std::ostream* out) {
 
 class Guided : public testing::TestWithParam<Comparison> {};
 
-// 24 renders of 24 x 24 pixels by 128 samples each: 1.8 million samples.
 TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
-    // More than the samples after which those of the beginning are dropped.
-    constexpr int samples = 128;
-    constexpr std::uint64_t replicas = 24;
-    const Scene scene(foggy_room(GetParam().grid));
-    Replicas guided, biased;
-    for (std::uint64_t i = 0; i < replicas; ++i) {
-        const Image image = render_image(scene, GetParam().preset, samples, 2000 + i);
-        guided.add(image);
-        biased.add(image, 1.03);
-    }
-    const double error = std::hypot(reference_whole.error, guided.whole.standard_error());
-    EXPECT_LT(3 * error, 0.01 * reference_whole.mean) << "too few samples to see a bias of 1 %";
-    EXPECT_NEAR(guided.whole.mean(), reference_whole.mean, 0.01 * reference_whole.mean) << error;
-    EXPECT_TRUE(agrees(guided.whole.mean() - reference_whole.mean, error, 0, 4));
-    EXPECT_GT(same_blocks(guided), 1e-4);
-    EXPECT_LT(same_blocks(biased), 1e-4) << "the test could not see a bias of 3 %";
+    RenderSettings settings;
+    settings.preset = parse_preset(GetParam().preset);
+    settings.samples = 128;  // more than the samples after which those of the beginning are dropped
+    settings.max_depth = 20;
+    settings.seed = 2000;
+    const test::BlockReference& reference = foggy_room_reference;
+    const test::BlockMeans means = test::render_until(Scene(foggy_room(GetParam().grid)), settings,
+                                                      {resolution, resolution}, 8, reference, 0.0032, 64);
+    const double error = means.error(reference);
+    EXPECT_LT(3 * error, 0.01 * reference.whole.mean) << "too few samples to see a bias of 1 %";
+    EXPECT_TRUE(agrees(means.whole().mean() - reference.whole.mean, error, 0, 3.5))
+        << means.whole().mean() << " +- " << error << ", not " << reference.whole.mean;
+    EXPECT_GT(means.p_value(reference), 1e-4);
+    EXPECT_LT(means.p_value(reference, 1.03), 1e-4) << "the test could not see a bias of 3 %";
 }
 
 std::vector<Comparison> comparisons() {

@@ -102,15 +102,20 @@ void add_environment(SceneDescription& scene, const Rgb& radiance) {
     scene.lights.push_back(UniformInfiniteLight{radiance});
 }
 
-Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth, std::uint64_t seed,
-                          const SubsurfacePreset& strategies) {
+Measured measure_radiance(const Scene& scene, const Ray& ray, const WalkBudget& walks, int max_depth,
+                          std::uint64_t seed, const SubsurfacePreset& strategies) {
+    // Rare bright walks are not missed where it is asked no sooner whether there are enough.
+    constexpr int least = 20000;
     const ClassicalDecisions decisions;
     const SubsurfaceGuides subsurface(scene, strategies, 0);
     const LightChoices lights(scene);
     const ReflectionChoices reflections(scene.bounds());
     const PathTracer tracer(scene, decisions, subsurface, lights, reflections, max_depth);
     Moments moments;
-    for (int i = 0; i < walks; ++i) {
+    const auto enough = [&](int i) {
+        return i % least == 0 && i > 0 && moments.standard_error() <= walks.error * moments.mean();
+    };
+    for (int i = 0; i < walks.most && !enough(i); ++i) {
         Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));
         moments.add(mean(tracer.trace(ray, 0, sampler).sample.radiance));
     }

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """The checks can fail: each is given a tree with a planted offence."""
 
-import json
 import shutil
 import subprocess
 import sys
@@ -11,7 +10,6 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 import check_citations
-import check_headers
 import check_layers
 
 
@@ -90,24 +88,6 @@ class Citations(Tree):
     def test_double_entries_are_refused(self):
         self.write("docs/references.bib", "@article{duff2017,\n}\n@misc{duff2017,\n}\n")
         self.assertEqual(len(list(check_citations.offences(self.root))), 1)
-
-
-class Headers(Tree):
-    def offences(self, text):
-        entry = {"file": f"src/wend/{check_headers.MODEL}", "directory": str(self.root),
-                 "command": f"ccache c++ -I{self.root}/src -DSEEN -std=gnu++20 -Wall -o x.o -c x.cpp"}
-        self.write("build/compile_commands.json", json.dumps([entry]))
-        self.write("src/wend/core/a.h", "#pragma once\nstruct A {};\n")
-        self.write("src/wend/core/b.h", text)
-        return check_headers.offences(self.root, self.root / "build")
-
-    def test_headers_with_all_they_need_pass(self):
-        self.assertEqual(self.offences("#include <wend/core/a.h>\n#ifdef SEEN\nA a();\n#endif\n"), [])
-
-    def test_a_header_that_needs_another_before_it_is_refused_with_its_place(self):
-        found = self.offences("A a();\n")
-        self.assertEqual(len(found), 1)
-        self.assertIn("b.h:1", found[0])
 
 
 @unittest.skipUnless(shutil.which("clang-format-14"), "clang-format-14 is absent")

@@ -45,8 +45,16 @@ struct Measured {
     double standard_error = 0;
 };
 
+/// How many walks to take: at most so many, and no more than make the standard error as small as this part of the mean.
+struct WalkBudget {
+    int most = 0;
+    double error = 0;
+
+    WalkBudget(int most_, double error_ = 0) : most(most_), error(error_) {}
+};
+
 /// Mean radiance (average of the channels) along the same ray, by independent walks.
-Measured measure_radiance(const Scene& scene, const Ray& ray, int walks, int max_depth = 100000, std::uint64_t seed = 1,
-                          const SubsurfacePreset& strategies = {});
+Measured measure_radiance(const Scene& scene, const Ray& ray, const WalkBudget& walks, int max_depth = 100000,
+                          std::uint64_t seed = 1, const SubsurfacePreset& strategies = {});
 
 }  // namespace wend::test
