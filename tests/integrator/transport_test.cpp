@@ -107,7 +107,7 @@ class DiffuseReflectance : public testing::TestWithParam<Known> {};
 
 TEST_P(DiffuseReflectance, MatchesPublishedAndDeterministicValues) {
     const Known& k = GetParam();
-    const Measured m = reflected(k, {600000, 0.0024});
+    const Measured m = reflected(k, {1500000, 0.0024});
     EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5)) << m.mean << " +- " << m.standard_error;
     EXPECT_LT(4 * m.standard_error, 0.01 * k.value) << "too few walks to see a bias of 1 %";
 }
