@@ -1,6 +1,7 @@
 #include <tests/medium/smooth_medium.h>
 #include <tests/sampling/verdicts.h>
 #include <wend/decision/distance.h>
+#include <wend/medium/transmittance.h>
 
 #include <gtest/gtest.h>
 
@@ -185,6 +186,34 @@ TEST(ClassicalDistance, AClearChannelAlwaysPasses) {
         EXPECT_FALSE(flight.scatters);
         EXPECT_EQ(flight.distance, segment);
         EXPECT_EQ(flight.weight, Rgb(1));
+    }
+}
+
+TEST(ClassicalDistance, WhatOnlyAbsorbsIsPassed) {
+    const Rgb absorption(0.5f, 1, 2);
+    Pcg32 random(8);
+    const Medium clear = homogeneous(absorption, Rgb(0));
+    for (int i = 0; i < 10; ++i) {
+        const Flight flight = fly(clear, Rgb(1), random);
+        EXPECT_FALSE(flight.scatters);
+        EXPECT_EQ(flight.weight, transmittance(std::get<HomogeneousMedium>(clear), segment));
+    }
+    EXPECT_EQ(ClassicalDistance().pass_probability(clear, ray, segment), Rgb(1));
+
+    const Medium grid = test::smooth_medium(absorption, Rgb(0));
+    const Thickness thickness(grid);
+    std::array<Moments, 3> weights;
+    for (int i = 0; i < 2000000; ++i) {
+        const Flight flight = fly(grid, Rgb(1), random);
+        EXPECT_FALSE(flight.scatters);
+        EXPECT_EQ(flight.distance, segment);
+        for (std::size_t c = 0; c < 3; ++c) {
+            weights[c].add(flight.weight[static_cast<int>(c)]);
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_TRUE(test::is_within_one_percent(weights[static_cast<std::size_t>(c)],
+                                                std::exp(-thickness.up_to(segment, c)), 1e-4));
     }
 }
 

@@ -312,13 +312,17 @@ bool is_classical(const Slices& field, const Medium& medium, float weight, int d
     return true;
 }
 
-TEST(GuidedDistance, IsClassicalForHeavyWalksAndWhereNothingIsKnown) {
+TEST(GuidedDistance, IsClassicalForHeavyWalksAndWhereNothingIsKnownOrScattered) {
     const Slices field = uneven(), blank({}, {});
     for (const Medium& medium :
          {Medium(homogeneous(Rgb(0.2f), Rgb(0.6f))), Medium(test::smooth_medium(Rgb(0.2f), Rgb(0.6f)))}) {
         EXPECT_TRUE(is_classical(blank, medium, 1));
         EXPECT_TRUE(is_classical(field, medium, heaviest_walk));
         EXPECT_FALSE(is_classical(field, medium, 0.9f * heaviest_walk));
+    }
+    for (const Medium& medium :
+         {Medium(homogeneous(Rgb(0.8f), Rgb(0.0f))), Medium(test::smooth_medium(Rgb(0.8f), Rgb(0.0f)))}) {
+        EXPECT_TRUE(is_classical(field, medium, 1)) << "nothing scatters";
     }
 }
 

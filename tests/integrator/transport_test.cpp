@@ -63,6 +63,31 @@ TEST(Transmittance, HomogeneousSlabFollowsBeer) {
     }
 }
 
+TEST(Transmittance, OfAWhiteSkyOverAFloorUnderAnAbsorber) {
+    // What arrives from all sides is 2 E3(tau) of the sky, what leaves upwards is attenuated again. Connections to the
+    // sky and directions that run into it share the work.
+    const Rgb depth(0.2f, 0.7f, 2);
+    constexpr float reflectance = 0.6f;
+    double expected = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double tau = double{depth[c]};
+        const double e1 = -std::expint(-tau), e2 = std::exp(-tau) - tau * e1, e3 = (std::exp(-tau) - tau * e2) / 2;
+        expected += double{reflectance} * 2 * e3 * std::exp(-tau) / 3;
+    }
+    for (const bool grid : {false, true}) {
+        SceneDescription s;
+        const Box3 box(Vec3(-1e3f, -1e3f, 0), Vec3(1e3f, 1e3f, 1));
+        const MediumId m =
+            grid ? test::add_uniform_grid(s, box, depth, Rgb(0.0f), 0) : test::add_homogeneous(s, depth, Rgb(0.0f));
+        test::add_box(s, box, test::add_interface(s), m);
+        test::add_parallelogram(s, Vec3(-1e3f, -1e3f, 1.001f), Vec3(2e3f, 0, 0), Vec3(0, 2e3f, 0),
+                                test::add_diffuse(s, Rgb(reflectance)));
+        test::add_environment(s, Rgb(1.0f));
+        expect_agrees(test::measure_radiance(Scene(std::move(s)), {{0.1f, 0.2f, -1}, {0, 0, 1}}, {1000000, 0.0015}),
+                      expected);
+    }
+}
+
 TEST(SingleScattering, OfASlabUnderParallelLight) {
     // Light from behind the camera at normal incidence, one scattering event: albedo * phase(-1) * E * (1 - exp(-2
     // tau)) / 2.

@@ -17,11 +17,16 @@ void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length
 namespace {
 
 Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput, float u) {
+    Flight flight;
+    flight.distance = length;
+    if (is_black(medium.scattering)) {
+        pick_up_along(flight, medium, length);
+        flight.weight = transmittance(medium, length);
+        return flight;
+    }
     const Rgb extinction = medium.extinction();
     const Rgb probability = channel_probabilities(throughput);
     const int channel = choose_channel(probability, u);
-    Flight flight;
-    flight.distance = length;
     if (extinction[channel] > 0) {
         const float t = to_exponential(u, extinction[channel]);
         if (t < length) {
@@ -54,8 +59,12 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
     if (!(largest > 0)) {
         return flight;
     }
-    const auto index_ray = medium.to_index(ray);
     const GridEmission* emission = medium.emission();
+    if (is_black(medium.scattering()) && !emission) {
+        flight.weight = estimate_transmittance(medium, ray, start.length, random);
+        return flight;
+    }
+    const auto index_ray = medium.to_index(ray);
     const Rgb relative = extinction / largest;
     const bool grey = relative.r == relative.g && relative.g == relative.b;
     Rgb probability = channel_probabilities(start.throughput);
@@ -119,10 +128,8 @@ Flight ClassicalDistance::sample(const Medium& medium, const FlightStart& start,
 }
 
 Rgb ClassicalDistance::pass_probability(const Medium& medium, const Ray&, float length) const {
-    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-        return transmittance(*homogeneous, length);
-    }
-    return Rgb(1.0f);
+    const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium);
+    return homogeneous && scatters(medium) ? transmittance(*homogeneous, length) : Rgb(1.0f);
 }
 
 }  // namespace wend

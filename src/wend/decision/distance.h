@@ -86,7 +86,9 @@ concept DistanceDecision = requires(const D& d, const Medium& m, const FlightSta
 };
 
 /// Classical sampling: in proportion to transmittance times extinction, absorption by weight. Homogeneous media by
-/// inversion; grids by delta tracking against the local majorant.
+/// inversion; grids by delta tracking against the local majorant. Media that do not scatter are passed with their
+/// transmittance as weight, which is exact: no walk goes on from a collision there. Only in grids that glow are flights
+/// tracked all the same.
 class ClassicalDistance {
 public:
     bool looks_ahead(const Medium& /*medium*/, const FlightStart& /*start*/) const { return false; }

@@ -48,7 +48,7 @@ public:
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
         const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
-        return guidable && start.weight < heaviest_walk && start.length > 0;
+        return guidable && scatters(medium) && start.weight < heaviest_walk && start.length > 0;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {

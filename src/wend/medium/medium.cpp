@@ -68,6 +68,13 @@ Rgb extinction_at(const Medium& medium, const Vec3& position) {
     return grid.extinction() * grid.density().interpolate(grid.to_index({position, Vec3(0, 0, 0)}).origin);
 }
 
+bool scatters(const Medium& medium) {
+    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+        return !is_black(homogeneous->scattering);
+    }
+    return !is_black(std::get<GridMedium>(medium).scattering());
+}
+
 Rgb albedo(const Medium& medium) {
     const auto ratio = [](const Rgb& scattering, const Rgb& absorption) {
         Rgb result;

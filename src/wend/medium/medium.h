@@ -106,6 +106,9 @@ inline const PhaseFunction& phase_function(const Medium& medium) {
 /// Extinction at a point in the world, per scene unit.
 Rgb extinction_at(const Medium& medium, const Vec3& position);
 
+/// Whether a collision can be anything but absorption.
+bool scatters(const Medium& medium);
+
 /// Single-scattering albedo (the same at every density).
 Rgb albedo(const Medium& medium);
 

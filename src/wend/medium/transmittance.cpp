@@ -19,12 +19,13 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
     }
     const Rgb relative = extinction / largest;
     const bool grey = extinction.r == extinction.g && extinction.g == extinction.b;
+    const bool exact = is_black(medium.scattering());
 
     Rgb estimate(1.0f);
     // Ends a small estimate or makes it larger; false where it has ended.
     const auto survives = [&] {
         const float size = max_value(estimate);
-        if (size >= roulette_threshold) {
+        if (size >= roulette_threshold || (exact && size > 0)) {
             return true;
         }
         if (!(random.uniform() * roulette_threshold < size)) {
@@ -48,7 +49,9 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
     constexpr double countable = 1e30;
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
         const double most = double{largest} * (t_out - t_in);
-        if (most * (cell.maximum - cell.minimum) > most_tentative_collisions || most * cell.maximum > countable) {
+        const double tentative_collisions = most * (cell.maximum - cell.minimum);
+        if ((exact && tentative_collisions > 0) || tentative_collisions > most_tentative_collisions ||
+            most * cell.maximum > countable) {
             return cross_exactly(t_in, t_out);
         }
         if (cell.minimum > 0) {
