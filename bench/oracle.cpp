@@ -1,8 +1,8 @@
 // How much of what a perfect guide would bring the learned field does bring. An oracle is a field that was taught by
 // sixteen times the records and then stays as it is; a guide from it errs by what its form cannot tell, not by noise.
 #include <wend/film/metrics.h>
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/render/render.h>
 
 #include <benchmark/benchmark.h>
 
@@ -26,11 +26,11 @@ public:
 
     struct Take {
         Image image;
-        std::shared_ptr<const GuidingFields> fields;
+        std::shared_ptr<const guide::Fields> fields;
     };
     /// With given fields they are followed and not taught.
     Take shoot(const char* preset, int spp, std::uint64_t seed,
-               std::shared_ptr<const GuidingFields> fields = nullptr) const {
+               std::shared_ptr<const guide::Fields> fields = nullptr) const {
         RenderSettings settings;
         settings.preset = parse_preset(preset);
         settings.samples = spp;

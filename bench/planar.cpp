@@ -1,9 +1,9 @@
 // Plane-parallel walks: what a flight and a set-up cost, and how much better than classical ones they estimate.
-#include <wend/decision/planar_modes.h>
-#include <wend/integrator/planar_lab.h>
+#include <wend/lab/lab.h>
+#include <wend/planar/discrete_ordinates.h>
+#include <wend/planar/eigenvalue.h>
+#include <wend/planar/modal_decisions.h>
 #include <wend/stats/figure_of_merit.h>
-#include <wend/theory/discrete_ordinates.h>
-#include <wend/theory/eigenvalue.h>
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // Rays, walks and camera samples per second on three of the project's scenes. Google Benchmark's items are those.
-#include <wend/integrator/path_tracer.h>
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/render/render.h>
+#include <wend/transport/path_tracer.h>
 
 #include <benchmark/benchmark.h>
 
@@ -52,8 +52,8 @@ void walks(benchmark::State& state, const char* name) {
     const Loaded& loaded = scene_named(name);
     const ClassicalDecisions decisions;
     const SubsurfaceGuides unguided;
-    const LightChoices lights(loaded.scene);
-    const ReflectionChoices reflections(loaded.scene.bounds());
+    const LightSelection lights(loaded.scene);
+    const ReflectionProbability reflections(loaded.scene.bounds());
     const PathTracer<ClassicalDecisions> tracer(loaded.scene, decisions, unguided, lights, reflections,
                                                 loaded.max_depth);
     std::uint32_t i = 0;

@@ -1,7 +1,7 @@
 // What a segment of a walk costs once its guide is trained, by preset, beside what a classical one does: the renderer's
 // own passes, on one thread, through homogeneous media: a thin one among surfaces and a dense one.
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/render/render.h>
 
 #include <benchmark/benchmark.h>
 

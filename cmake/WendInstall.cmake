@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wend)
 
 install(TARGETS wend_guide EXPORT wend-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
-foreach(room IN LISTS wend_guide_rooms)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wend/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library
+foreach(module IN LISTS wend_guide_modules)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wend/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library
     FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE)
 endforeach()
 install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)

@@ -4,7 +4,7 @@
 #include <wend/core/parallel.h>
 #include <wend/core/random.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/survival.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/decision/volume_scattering.h>
 #include <wend/guide/field.h>
 #include <wend/guide/fit.h>
@@ -78,7 +78,7 @@ Hit intersect(const Vec3& origin, const Vec3& direction) {
 }
 
 /// Of choosing a direction by choosing a point of the lamp, per steradian; `cosine` is the lamp's.
-float lamp_density(float distance, float cosine) {
+float emitter_density(float distance, float cosine) {
     return distance * distance / (cosine * lamp_area);
 }
 
@@ -132,7 +132,7 @@ private:
             if (cosine > 0) {
                 // The balance heuristic against connect(): the walk might have been connected to this point.
                 const float own = density_ * std::exp(-extinction * hit.distance);
-                gather(lamp_radiance * (depth_ == 0 ? 1 : own / (own + lamp_density(hit.distance, cosine))));
+                gather(lamp_radiance * (depth_ == 0 ? 1 : own / (own + emitter_density(hit.distance, cosine))));
             }
             return false;
         }
@@ -154,11 +154,11 @@ private:
         throughput_ *= s->weight();
         log_.scatter(position, s->direction, s->density, s->weight(), F::in_volume, s->classical_density,
                      s->guided_density);
-        boost_ *= s->boost;
+        boost_ *= s->density_ratio;
         origin_ = position;
         direction_ = s->direction;
         density_ = s->density;
-        const float survival = wend::ClassicalSurvival().after_direction({throughput_, boost_, 1, ++depth_});
+        const float survival = wend::ClassicalRoulette().after_direction({throughput_, boost_, 1, ++depth_});
         if (random_.uniform() >= survival) {
             return false;
         }
@@ -177,7 +177,7 @@ private:
             return Rgb();
         }
         const float transmittance = std::exp(-extinction * distance);
-        const float both = lamp_density(distance, w.x) + distribution.density(w) * transmittance;
+        const float both = emitter_density(distance, w.x) + distribution.density(w) * transmittance;
         return f.evaluate(w) * lamp_radiance * (transmittance / both);
     }
 

@@ -4,10 +4,10 @@
 #include <wend/core/frame.h>
 #include <wend/core/random.h>
 #include <wend/core/ray.h>
-#include <wend/decision/slab_walk.h>
 #include <wend/sampling/warp.h>
 #include <wend/stats/moments.h>
-#include <wend/theory/slab_modes.h>
+#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@
 namespace {
 
 using wend::dot, wend::normalize;
+using wend::InteriorFlight, wend::InteriorGuide, wend::InteriorWalk;
 using wend::Ray, wend::Rgb, wend::Vec2, wend::Vec3;
-using wend::SlabFlight, wend::SlabGuide, wend::SlabWalk;
 
 // ---- The scene: a ball of radius 1 around the origin, which does not refract, and light from everywhere ----
 
@@ -57,7 +57,7 @@ bool is_in_sun(const Vec3& w) {
 /// Light that arrives along a ray that hits the ball, by a random walk through it.
 class Walk {
 public:
-    Walk(const SlabGuide& guide, const Ray& ray, wend::Pcg32& random) : ray_(ray), random_(random) {
+    Walk(const InteriorGuide& guide, const Ray& ray, wend::Pcg32& random) : ray_(ray), random_(random) {
         // 2. At the boundary, going in: enter, aim, head.
         ray_.origin = ray.at(intersect(ray)->x);
         const Vec3 normal = normalize(ray_.origin);
@@ -77,7 +77,7 @@ public:
 private:
     bool step() {
         // 3. Fly to the next collision or to the boundary.
-        const SlabFlight step = slab_.fly(distance_to_exit(ray_), random_.uniform(), random_);
+        const InteriorFlight step = slab_.fly(distance_to_exit(ray_), random_.uniform(), random_);
         throughput_ *= step.flight.weight;
         if (!step.flight.scatters) {
             leave(step.pass_probability);
@@ -85,7 +85,7 @@ private:
         }
         // 4. Scatter: draw a direction, and tell the walk.
         const Vec3 position = ray_.at(step.flight.distance);
-        const SlabWalk::Directions directions(slab_, ray_.direction, random_);
+        const InteriorWalk::Directions directions(slab_, ray_.direction, random_);
         radiance_ += throughput_ * connect(directions, position);
         const float u = random_.uniform();
         const auto s = directions.sample(u, random_.uniform2());
@@ -114,10 +114,10 @@ private:
 
     /// 6. Next-event estimation: what a straight line from a collision to the sun brings, with the balance heuristic
     /// against the walk that might have gone the same way.
-    Rgb connect(const SlabWalk::Directions& directions, const Vec3& position) {
+    Rgb connect(const InteriorWalk::Directions& directions, const Vec3& position) {
         const Vec3 w = sun.to_world(wend::to_cone(random_.uniform2(), sun_width));
         const float length = distance_to_exit({position, w});
-        SlabWalk there = slab_;
+        InteriorWalk there = slab_;
         there.turn(directions, w);
         const float own = directions.density(w) * there.pass(length);
         const Rgb transmittance = wend::exp(wax.extinction() * -length);
@@ -126,7 +126,7 @@ private:
 
     Ray ray_;
     wend::Pcg32& random_;
-    SlabWalk slab_;
+    InteriorWalk slab_;
     Rgb throughput_{1}, radiance_;
     float density_ = 0;  ///< of the direction drawn last
 };
@@ -136,7 +136,7 @@ private:
 using Measured = std::array<wend::Moments, 3>;
 
 /// Radiance along one ray, by channel.
-Measured measure(const SlabGuide& guide, int walks) {
+Measured measure(const InteriorGuide& guide, int walks) {
     const Ray ray{{0.3f, 0.2f, -3}, {0, 0, 1}};
     Measured radiance;
     wend::Pcg32 random(1);
@@ -154,7 +154,7 @@ Measured measure(const SlabGuide& guide, int walks) {
 int main() {
     // 1. Once a medium: solve for its modes, and say how walks are guided. Without strategies a walk is classical.
     constexpr int walks = 100000;
-    const auto modes = wend::slab_modes(wax);
+    const auto modes = wend::half_space_modes(wax);
     const Measured classical = measure(wend::slab_guide(wax, modes, 0), walks);
     const Measured guided = measure(wend::slab_guide(wax, modes, 1), walks);
 

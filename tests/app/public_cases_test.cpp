@@ -3,8 +3,8 @@
 #include "tests/support/channel_means.h"
 #include "tests/support/paths.h"
 
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/render/render.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

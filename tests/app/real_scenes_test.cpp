@@ -116,8 +116,8 @@ TEST(SlowRealScenes, TheCornellBoxIsThatOfTungsten) {
     const Image theirs = read_image(folder / "TungstenRender.png", ColourEncoding::linear);
     ASSERT_EQ(theirs.width, 1024);
     ASSERT_EQ(theirs.height, 1024);
-    // Squares of 8 x 8 of our pixels, in the picture's own encoding. Edges of objects are blurred before the tone curve
-    // here and after it there, which is much where the lamp is.
+    // Squares of 8 x 8 of our pixels, in the picture's own encoding. Edges of objects are convolved before the tone
+    // curve here and after it there, which is much where the lamp is.
     constexpr int squares = 8;
     int far_off = 0;
     double difference = 0;

@@ -1,7 +1,7 @@
 // --subsurface: its names on the command line, in messages and in what is reported.
 #include "program_support.h"
 
-#include <wend/integrator/subsurface.h>
+#include <wend/transport/subsurface_guides.h>
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 #include <tests/support/block_means.h>
 #include <tests/support/paths.h>
 
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
 #include <wend/io/pbrt/parser.h>
+#include <wend/render/render.h>
 #include <wend/stats/significance.h>
 
 #include <gtest/gtest.h>

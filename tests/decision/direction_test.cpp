@@ -1,7 +1,7 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/heaviest_walk.h>
+#include <wend/decision/weight_bound.h>
 #include <wend/guide/product.h>
 #include <wend/medium/phase_lobes.h>
 
@@ -76,7 +76,7 @@ struct LobeAdjoint {
     guide::VmfMixture incident(const Vec3&) const { return guide::VmfMixture(std::array{guide::WeightedVmf{1, lobe}}); }
     float fluence() const { return 1; }
     Rgb in_scattered(const guide::MixtureProduct& product) const { return Rgb(product.integral()); }
-    float classical_share() const { return share; }
+    float defensive_fraction() const { return share; }
     float share = 0.25f;
 };
 
@@ -86,20 +86,20 @@ struct LobeField {
 };
 
 const Vec3 here(1, 2, 3);
-/// Glints that have nothing to do with what there is.
-const GlintMap glints = [] {
-    std::vector<Glint> around;
+/// CausticLobes that have nothing to do with what there is.
+const CausticMap caustics = [] {
+    std::vector<CausticLobe> around;
     Pcg32 random(9);
     for (int i = 0; i < 30; ++i) {
         const Vec3 towards = i % 3 > 0 ? Vec3(0.3f, 0.9f, 0.4f) : Vec3(0.2f, -0.4f, 0.9f);
         const Vec3 moved(random.uniform(), random.uniform(), random.uniform());
         around.push_back({here + moved * 0.1f, normalize(towards + moved * 0.3f), 2, Rgb(0.2f)});
     }
-    return GlintMap(around);
+    return CausticMap(around);
 }();
 const LobeField wrong{LobeAdjoint{{normalize(Vec3(-1, 0.5f, 0.2f)), 6}}};
 const LobeField nothing{};
-constexpr float classical_share = 0.3f;
+constexpr float defensive_fraction = 0.3f;
 
 /// An incident radiance with which nothing above is in proportion.
 double radiance(const Vec3& w) {
@@ -143,13 +143,13 @@ template <class F>
 void expect_unbiased(const F& f) {
     const Rgb expected = integral_of(f);
     const auto classical = estimate(ClassicalDirection().at(here, f));
-    const auto guided = estimate(GuidedDirection(&wrong, &wrong, classical_share).at(here, f));
-    const auto by_glints = estimate(GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, f));
-    const auto by_all = estimate(GuidedDirection(&wrong, &wrong, classical_share, &glints, &glints).at(here, f));
+    const auto guided = estimate(GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, f));
+    const auto by_caustics = estimate(GuidedDirection(&nothing, &nothing, {}, &caustics, &caustics).at(here, f));
+    const auto by_all = estimate(GuidedDirection(&wrong, &wrong, defensive_fraction, &caustics, &caustics).at(here, f));
     for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(test::is_within_one_percent(classical[static_cast<std::size_t>(c)], expected[c], 1e-4));
         EXPECT_TRUE(test::is_within_one_percent(guided[static_cast<std::size_t>(c)], expected[c], 1e-4));
-        EXPECT_TRUE(test::is_within_one_percent(by_glints[static_cast<std::size_t>(c)], expected[c], 1e-4));
+        EXPECT_TRUE(test::is_within_one_percent(by_caustics[static_cast<std::size_t>(c)], expected[c], 1e-4));
         EXPECT_TRUE(test::is_within_one_percent(by_all[static_cast<std::size_t>(c)], expected[c], 1e-4));
     }
 }
@@ -162,7 +162,7 @@ TEST(SlowDirection, GuidedAndClassicalHaveTheSameMean) {
 
 TEST(Direction, AWeightByTheWrongDensityIsRejected) {
     const Volume f;
-    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
+    const auto guided = GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, f);
     Pcg32 random(1);
     Moments moments;
     for (int i = 0; i < 100000; ++i) {
@@ -185,7 +185,7 @@ test::SphereTest direction_test(const Distribution& distribution, const test::Di
 }
 
 TEST(Direction, GuidedSamplesFollowTheirDensity) {
-    const GuidedDirection guided(&wrong, &wrong, classical_share);
+    const GuidedDirection guided(&wrong, &wrong, defensive_fraction);
     const Volume volume;
     const auto in_volume = guided.at(here, volume);
     EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
@@ -204,22 +204,22 @@ TEST(Direction, GuidedSamplesFollowTheirDensity) {
 
 TEST(Direction, SamplesAmongGlintsFollowTheirDensity) {
     const Volume volume;
-    const GuidedDirection all(&wrong, &wrong, classical_share, &glints, &glints);
+    const GuidedDirection all(&wrong, &wrong, defensive_fraction, &caustics, &caustics);
     const auto in_volume = all.at(here, volume);
     EXPECT_TRUE(test::follows_density(direction_test(in_volume, [&](const Vec3& w) { return in_volume.density(w); }),
-                                      "glints_volume", 3));
+                                      "caustics_volume", 3));
     const Wall wall;
-    const auto alone = GuidedDirection(&nothing, &nothing, {}, &glints, &glints).at(here, wall);
+    const auto alone = GuidedDirection(&nothing, &nothing, {}, &caustics, &caustics).at(here, wall);
     const auto above = [&](const Vec3& w) { return dot(wall.normal, w) > 0 ? alone.density(w) : 0.0f; };
-    EXPECT_TRUE(test::follows_density(direction_test(alone, above), "glints_wall", 3));
+    EXPECT_TRUE(test::follows_density(direction_test(alone, above), "caustics_wall", 3));
 }
 
 TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
     const Volume f;
-    for (const GlintMap* known : {static_cast<const GlintMap*>(nullptr), &glints}) {
+    for (const CausticMap* known : {static_cast<const CausticMap*>(nullptr), &caustics}) {
         const GuidedDirection guide(&wrong, &wrong, 0.01f, known, known);
         for (const float weight : {0.2f, 1.0f, 2.0f, 2.9f, 3.0f, 5.0f}) {
-            SCOPED_TRACE(testing::Message() << "weight " << weight << (known ? ", glints" : ""));
+            SCOPED_TRACE(testing::Message() << "weight " << weight << (known ? ", caustics" : ""));
             const auto distribution = guide.at(here, f, weight);
             Pcg32 random(7);
             float heaviest = 0;
@@ -229,8 +229,8 @@ TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
                 ASSERT_TRUE(s);
                 heaviest = std::max(heaviest, weight * s->weight().r);
             }
-            EXPECT_LE(heaviest, std::max(weight, heaviest_walk) * 1.0001f);
-            EXPECT_GE(heaviest, 0.9f * heaviest_walk);
+            EXPECT_LE(heaviest, std::max(weight, weight_bound) * 1.0001f);
+            EXPECT_GE(heaviest, 0.9f * weight_bound);
         }
         const Vec3 against = -wrong.adjoint->lobe.mean;
         EXPECT_LT(guide.at(here, f).density(against), 0.011f * f.density(against)) << "of unknown weight";
@@ -239,7 +239,7 @@ TEST(Direction, NoDirectionMakesAWalkTooHeavy) {
 
 TEST(Direction, AnotherClassicalShareIsRejected) {
     const Volume f;
-    const auto actual = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
+    const auto actual = GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, f);
     const auto claimed = GuidedDirection(&wrong, &wrong, 0.33f).at(here, f);
     EXPECT_LT(direction_test(actual, [&](const Vec3& w) { return claimed.density(w); }).result.p_value, test::failing);
 }
@@ -258,22 +258,22 @@ TEST(Direction, SampleReportsValueAndDensityOfItsDirection) {
             }
         }
     };
-    const GuidedDirection guided(&wrong, &wrong, classical_share);
-    check(Volume{}, guided, classical_share);
-    check(Wall{}, guided, classical_share);
-    check(Coat{}, guided, classical_share);
-    // Glints never have more than a quarter.
-    const GuidedDirection among_glints(&wrong, &wrong, classical_share, &glints, &glints);
-    check(Volume{}, among_glints, 0.75f * classical_share);
-    check(Wall{}, among_glints, 0.75f * classical_share);
-    check(Coat{}, among_glints, 0.75f * classical_share);
+    const GuidedDirection guided(&wrong, &wrong, defensive_fraction);
+    check(Volume{}, guided, defensive_fraction);
+    check(Wall{}, guided, defensive_fraction);
+    check(Coat{}, guided, defensive_fraction);
+    // CausticLobes never have more than a quarter.
+    const GuidedDirection among_caustic_lobes(&wrong, &wrong, defensive_fraction, &caustics, &caustics);
+    check(Volume{}, among_caustic_lobes, 0.75f * defensive_fraction);
+    check(Wall{}, among_caustic_lobes, 0.75f * defensive_fraction);
+    check(Coat{}, among_caustic_lobes, 0.75f * defensive_fraction);
 }
 
 TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {
     const Volume f;
     const auto own = GuidedDirection(&wrong, &wrong).at(here, f);
     const auto same = GuidedDirection(&wrong, &wrong, LobeAdjoint().share).at(here, f);
-    const auto other = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
+    const auto other = GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, f);
     const Vec3 w = normalize(Vec3(1, 1, 0.5f));
     EXPECT_EQ(own.density(w), same.density(w));
     EXPECT_NE(own.density(w), other.density(w));
@@ -281,7 +281,7 @@ TEST(Direction, TheAdjointChoosesTheShareUnlessOneIsGiven) {
 
 TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
     const Volume f;
-    const auto guided = GuidedDirection(&wrong, &wrong, classical_share).at(here, f);
+    const auto guided = GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, f);
     Pcg32 random(5);
     for (int i = 0; i < 100; ++i) {
         const float u = random.uniform();
@@ -289,7 +289,8 @@ TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
         const auto s = guided.sample(u, u2);
         ASSERT_TRUE(s);
         EXPECT_EQ(s->classical_density, f.density(s->direction));
-        EXPECT_FLOAT_EQ(s->density, classical_share * s->classical_density + (1 - classical_share) * s->guided_density);
+        EXPECT_FLOAT_EQ(s->density,
+                        defensive_fraction * s->classical_density + (1 - defensive_fraction) * s->guided_density);
         const auto alone = ClassicalDirection().at(here, f).sample(u, u2);
         EXPECT_EQ(alone->guided_density, 0);
     }
@@ -297,7 +298,7 @@ TEST(Direction, SamplesTellWhatTheirDensityIsMixedOf) {
 
 TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {
     const Coat coat;
-    const auto distribution = GuidedDirection(&wrong, &wrong, classical_share).at(here, coat);
+    const auto distribution = GuidedDirection(&wrong, &wrong, defensive_fraction).at(here, coat);
     Pcg32 random(3);
     Moments mirror;
     for (int i = 0; i < 4000000; ++i) {
@@ -310,7 +311,7 @@ TEST(Direction, TheMirrorOfACoatKeepsItsWeight) {
 
 TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
     const Volume f;
-    const auto guided = GuidedDirection(&nothing, &nothing, classical_share).at(here, f);
+    const auto guided = GuidedDirection(&nothing, &nothing, defensive_fraction).at(here, f);
     const auto classical = ClassicalDirection().at(here, f);
     Pcg32 random(4);
     for (int i = 0; i < 100; ++i) {
@@ -323,9 +324,9 @@ TEST(Direction, WhereNothingIsKnownGuidedIsClassical) {
 
 TEST(Direction, AHeavyWalkIsUnguidedButKnowsWhatToExpect) {
     const Volume f;
-    const GuidedDirection guide(&wrong, &wrong, classical_share);
-    const auto light = guide.at(here, f, 0.99f * heaviest_walk);
-    const auto heavy = guide.at(here, f, heaviest_walk);
+    const GuidedDirection guide(&wrong, &wrong, defensive_fraction);
+    const auto light = guide.at(here, f, 0.99f * weight_bound);
+    const auto heavy = guide.at(here, f, weight_bound);
     const auto classical = ClassicalDirection().at(here, f);
     ASSERT_TRUE(light.in_scattered() && heavy.in_scattered());
     for (int c = 0; c < 3; ++c) {
@@ -339,7 +340,7 @@ TEST(Direction, AHeavyWalkIsUnguidedButKnowsWhatToExpect) {
         ASSERT_TRUE(s);
         EXPECT_EQ(s->direction, classical.sample(u, u2)->direction);
         EXPECT_EQ(s->density, classical.sample(u, u2)->density);
-        EXPECT_EQ(s->boost, 1);
+        EXPECT_EQ(s->density_ratio, 1);
         EXPECT_NE(light.density(s->direction), s->density);
     }
 }

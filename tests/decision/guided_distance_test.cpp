@@ -1,5 +1,5 @@
 // Guided flights through media as a made-up field tells them: unbiased whatever it says, and told apart from classical
-// ones by their boost.
+// ones by their density_ratio.
 #include <tests/medium/smooth_medium.h>
 #include <tests/sampling/verdicts.h>
 #include <wend/decision/guided_distance.h>
@@ -25,7 +25,7 @@ class Slices {
 public:
     struct Light {
         float brightness = 0;
-        float trust = 1;
+        float confidence = 1;
         guide::NearLight near;
         template <class Phase>
         float in_scattered_from_afar(const Vec3&, const Phase&) const {
@@ -177,8 +177,8 @@ TEST_P(GuidedWeights, AreUnbiasedInEveryBinAndChannel) {
     for (int i = 0; i < c.samples; ++i) {
         const float u = random.uniform();
         const Flight flight = distance.sample(c.medium, start, u, random);
-        finite = finite && is_finite(flight.weight) && std::isfinite(flight.boost) && flight.boost > 0;
-        inverse_boost.add(1 / flight.boost);
+        finite = finite && is_finite(flight.weight) && std::isfinite(flight.density_ratio) && flight.density_ratio > 0;
+        inverse_boost.add(1 / flight.density_ratio);
         const auto bin =
             flight.scatters ? std::min(static_cast<std::size_t>(flight.distance / segment * bins), bins - 1) : bins;
         for (std::size_t k = 0; k < bins + 2; ++k) {
@@ -250,18 +250,18 @@ TEST(GuidedDistance, TheBoostIsDensityOverClassical) {
         for (int i = 0; i < 4000; ++i) {
             const float u = random.uniform();
             const Flight flight = distance.sample(i % 2 == 0 ? medium : grid, start_with(nothing(0.3f)), u, random);
-            ASSERT_NEAR(flight.weight.g * flight.boost, flight.scatters ? 0.75f : 1.0f, 2e-4f);
-            ASSERT_GE(flight.boost, i % 2 == 0 ? share : 0.0f);
-            least = std::min(least, flight.boost);
-            most = std::max(most, flight.boost);
+            ASSERT_NEAR(flight.weight.g * flight.density_ratio, flight.scatters ? 0.75f : 1.0f, 2e-4f);
+            ASSERT_GE(flight.density_ratio, i % 2 == 0 ? share : 0.0f);
+            least = std::min(least, flight.density_ratio);
+            most = std::max(most, flight.density_ratio);
         }
         EXPECT_LT(least, 0.9f);
         EXPECT_GT(most, 1.1f);
     }
 }
 
-/// The boost of a flight to the end through grey fog that is equally bright everywhere, with light A ahead: α + (1 - α)
-/// A / Z, with Z the light of the fog and what comes through.
+/// The density_ratio of a flight to the end through grey fog that is equally bright everywhere, with light A ahead: α +
+/// (1 - α) A / Z, with Z the light of the fog and what comes through.
 float boost_at_end(float ahead) {
     const float passed = std::exp(-0.8f * segment), brightness = 2;
     return share + (1 - share) * ahead / (brightness * 0.75f * (1 - passed) + ahead * passed);
@@ -270,7 +270,7 @@ float boost_at_end(float ahead) {
 TEST(GuidedDistance, LooksAhead) {
     const Slices volume({}, {2}), surface({}, {7}), blank({}, {});
     const Medium medium = homogeneous(Rgb(0.2f), Rgb(0.6f));
-    const auto boost = [&](const Slices& surfaces, FlightEnd::Kind kind, const Vec3& normal) {
+    const auto density_ratio = [&](const Slices& surfaces, FlightEnd::Kind kind, const Vec3& normal) {
         const GuidedDistance distance(&surfaces, &volume, share, DistanceGuiding::scatter_and_distance, 1);
         FlightEnd end = nothing(0.5f);
         end.kind = kind;
@@ -280,17 +280,17 @@ TEST(GuidedDistance, LooksAhead) {
         for (;;) {
             const float u = random.uniform();
             if (const Flight flight = distance.sample(medium, start_with(end), u, random); !flight.scatters) {
-                return flight.boost;
+                return flight.density_ratio;
             }
         }
     };
     using Kind = FlightEnd::Kind;
     const Vec3 front(1, 0, 0), back(-1, 0, 0);
-    EXPECT_NEAR(boost(surface, Kind::nothing, front), boost_at_end(0.5f), 1e-4f);
-    EXPECT_NEAR(boost(surface, Kind::surface, front), boost_at_end(7.5f), 1e-4f);
-    EXPECT_NEAR(boost(surface, Kind::surface, back), boost_at_end(14.5f), 1e-4f);
-    EXPECT_NEAR(boost(blank, Kind::surface, front), boost_at_end(0.5f), 1e-4f);
-    EXPECT_NEAR(boost(surface, Kind::interface, front), boost_at_end(2.5f), 1e-4f);
+    EXPECT_NEAR(density_ratio(surface, Kind::nothing, front), boost_at_end(0.5f), 1e-4f);
+    EXPECT_NEAR(density_ratio(surface, Kind::surface, front), boost_at_end(7.5f), 1e-4f);
+    EXPECT_NEAR(density_ratio(surface, Kind::surface, back), boost_at_end(14.5f), 1e-4f);
+    EXPECT_NEAR(density_ratio(blank, Kind::surface, front), boost_at_end(0.5f), 1e-4f);
+    EXPECT_NEAR(density_ratio(surface, Kind::interface, front), boost_at_end(2.5f), 1e-4f);
 }
 
 /// Whether flights are those of classical sampling, number for number.
@@ -305,7 +305,7 @@ bool is_classical(const Slices& field, const Medium& medium, float weight, int d
         classical.uniform();
         const Flight a = distance.sample(medium, start, u, guided);
         const Flight b = ClassicalDistance().sample(medium, start, u, classical);
-        if (a.scatters != b.scatters || a.distance != b.distance || a.weight != b.weight || a.boost != 1) {
+        if (a.scatters != b.scatters || a.distance != b.distance || a.weight != b.weight || a.density_ratio != 1) {
             return false;
         }
     }
@@ -317,8 +317,8 @@ TEST(GuidedDistance, IsClassicalForHeavyWalksAndWhereNothingIsKnownOrScattered) 
     for (const Medium& medium :
          {Medium(homogeneous(Rgb(0.2f), Rgb(0.6f))), Medium(test::smooth_medium(Rgb(0.2f), Rgb(0.6f)))}) {
         EXPECT_TRUE(is_classical(blank, medium, 1));
-        EXPECT_TRUE(is_classical(field, medium, heaviest_walk));
-        EXPECT_FALSE(is_classical(field, medium, 0.9f * heaviest_walk));
+        EXPECT_TRUE(is_classical(field, medium, weight_bound));
+        EXPECT_FALSE(is_classical(field, medium, 0.9f * weight_bound));
     }
     for (const Medium& medium :
          {Medium(homogeneous(Rgb(0.8f), Rgb(0.0f))), Medium(test::smooth_medium(Rgb(0.8f), Rgb(0.0f)))}) {
@@ -339,8 +339,8 @@ TEST(GuidedDistance, NoFlightMakesAWalkTooHeavy) {
             const float u = random.uniform();
             heaviest = std::max(heaviest, weight * distance.sample(medium, start, u, random).weight.g);
         }
-        EXPECT_LE(heaviest, std::max(weight, heaviest_walk) * 1.0001f) << weight;
-        EXPECT_GE(heaviest, std::max(0.9999f * weight, 0.9f * heaviest_walk)) << weight;
+        EXPECT_LE(heaviest, std::max(weight, weight_bound) * 1.0001f) << weight;
+        EXPECT_GE(heaviest, std::max(0.9999f * weight, 0.9f * weight_bound)) << weight;
     }
 }
 
@@ -381,7 +381,8 @@ TEST(GuidedDistance, ASegmentBeyondAnyScene) {
                 for (int i = 0; i < 2000; ++i) {
                     const float u = random.uniform();
                     const Flight flight = distance.sample(medium, start, u, random);
-                    ASSERT_TRUE(is_finite(flight.weight) && is_finite(flight.emitted) && std::isfinite(flight.boost));
+                    ASSERT_TRUE(is_finite(flight.weight) && is_finite(flight.emitted) &&
+                                std::isfinite(flight.density_ratio));
                     ASSERT_TRUE(!flight.scatters || flight.distance < 1e4f);
                 }
             }

@@ -35,8 +35,8 @@ struct Case {
 
 class Tracker {
 public:
-    Tracker(const GridMedium& medium, const Told& told, float classical_share, const Rgb& throughput = Rgb(1))
-        : medium_(medium), told_(told), share_(classical_share), start_{ray, segment, throughput, 1, {}} {}
+    Tracker(const GridMedium& medium, const Told& told, float defensive_fraction, const Rgb& throughput = Rgb(1))
+        : medium_(medium), told_(told), share_(defensive_fraction), start_{ray, segment, throughput, 1, {}} {}
 
     Flight fly(Pcg32& random) const {
         GuidedTracking tracking(medium_, start_, share_);
@@ -76,8 +76,8 @@ TEST_P(TrackedWeights, AreUnbiasedInEveryBinAndChannel) {
     bool finite = true;
     for (int i = 0; i < c.samples; ++i) {
         const Flight flight = tracker.fly(random);
-        finite = finite && is_finite(flight.weight) && std::isfinite(flight.boost) && flight.boost > 0;
-        inverse_boost.add(1 / flight.boost);
+        finite = finite && is_finite(flight.weight) && std::isfinite(flight.density_ratio) && flight.density_ratio > 0;
+        inverse_boost.add(1 / flight.density_ratio);
         const auto bin =
             flight.scatters ? std::min(static_cast<std::size_t>(flight.distance / segment * bins), bins - 1) : bins;
         for (std::size_t k = 0; k < bins + 2; ++k) {
@@ -154,7 +154,7 @@ TEST(GuidedTracking, InUniformLightHasNoNoiseOfItsOwn) {
     for (int i = 0; i < 10000; ++i) {
         const Flight flight = tracker.fly(random);
         ASSERT_NEAR(flight.weight.g, 1, 1e-4f);
-        ASSERT_NEAR(flight.boost, 1, 1e-4f);
+        ASSERT_NEAR(flight.density_ratio, 1, 1e-4f);
     }
 }
 

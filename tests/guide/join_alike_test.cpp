@@ -57,7 +57,7 @@ double light_in(const std::vector<Told>& cells) {
     return sum_over_volume(cells, [](const ScatteredLight& light) { return light.walked.fluence; });
 }
 double trust_in(const std::vector<Told>& cells) {
-    return sum_over_volume(cells, [](const ScatteredLight& light) { return light.trust; });
+    return sum_over_volume(cells, [](const ScatteredLight& light) { return light.confidence; });
 }
 
 std::vector<float> fluences_along(const Field& field, const Ray& ray, float length) {
@@ -89,7 +89,7 @@ TEST(JoinAlike, CellsThatDifferStayApart) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_LE(std::abs(before[i].light.walked.fluence - after[i].light.walked.fluence),
                   0.5f * after[i].light.walked.fluence);
-        EXPECT_GT(after[i].light.trust, 0);
+        EXPECT_GT(after[i].light.confidence, 0);
     }
     EXPECT_NEAR(light_in(after), light_in(before), 1e-4 * light_in(before));
     EXPECT_NEAR(trust_in(after), trust_in(before), 1e-4 * trust_in(before));

@@ -195,8 +195,8 @@ TEST(PathRecords, ConserveEnergyInAFurnace) {
     }
 }
 
-/// The furnace with walks that end by chance, each vertex's record; `boost` says whether survivors are raised.
-Moments furnace_with_roulette(bool boost) {
+/// The furnace with walks that end by chance, each vertex's record; `density_ratio` says whether survivors are raised.
+Moments furnace_with_roulette(bool density_ratio) {
     constexpr float albedo = 0.75f;
     Moments radiance;
     PathLog log;
@@ -206,7 +206,7 @@ Moments furnace_with_roulette(bool boost) {
         do {
             log.scatter(Vec3(0, 0, 0), Vec3(0, 0, 1), inv_4pi, Rgb(1.0f), true);
             log.gather(Rgb(1 - albedo));
-            log.weigh(Rgb(boost ? 1.0f : albedo));
+            log.weigh(Rgb(density_ratio ? 1.0f : albedo));
         } while (random.uniform() < albedo);
         PathRecords records;
         records.add(log.vertices());

@@ -127,18 +127,18 @@ TEST(Share, IsKeptByTheFieldAndForgottenWithTime) {
     settings.leaf_samples = 1e9;
     Field field = Field::empty(Box3(Vec3(-1), Vec3(1)));
     field = fit(field, records(beside), settings, 1).field;
-    EXPECT_GT(field.find(Vec3(0))->classical_share(), 0.7f);
+    EXPECT_GT(field.find(Vec3(0))->defensive_fraction(), 0.7f);
     for (int pass = 0; pass < 20; ++pass) {
         field = fit(field, records(right), settings, 1).field;
     }
-    EXPECT_LT(field.find(Vec3(0))->classical_share(), 0.3f);
+    EXPECT_LT(field.find(Vec3(0))->defensive_fraction(), 0.3f);
     // Records that had no choice teach nothing about it.
     Records unguided = records(right);
     for (Record& r : unguided) {
         r.classical_density = r.guided_density = 0;
     }
     field = fit(Field::empty(field.bounds()), unguided, settings, 1).field;
-    EXPECT_EQ(field.find(Vec3(0))->classical_share(), 0.3f);
+    EXPECT_EQ(field.find(Vec3(0))->defensive_fraction(), 0.3f);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <wend/io/image_file.h>
 #include <wend/medium/fresnel.h>
-#include <wend/theory/albedo_inversion.h>
+#include <wend/planar/albedo_inversion.h>
 
 #include <gtest/gtest.h>
 

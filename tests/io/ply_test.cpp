@@ -196,6 +196,9 @@ TEST_F(Ply, AbsurdCountsAreRefusedBeforeTheyAreAllocated) {
         expect_error(
             start + "element vertex 0\n" + vertex + "element face 18446744073709551615\n" + face + header_end + "0",
             "too short");
+        EXPECT_TRUE(
+            read(start + "element vertex 0\n" + vertex + "element face 6666666660\n" + header_end).indices.empty())
+            << "faces without properties";
         expect_error(start + "element nothing 18446744073709551615\nelement vertex 1\n" + vertex + "element face 0\n" +
                          face + header_end,
                      "too short for 1 ");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Refuses an include that goes up: a room of src/wend may include itself and lower rooms only (docs/architecture.md).
+"""Refuses an include that goes up: a module of src/wend may include itself and lower modules only (docs/architecture.md).
 
 usage: check_layers.py ROOT    checks ROOT/src/wend; exit status 1 and one line per offence
 """
@@ -14,37 +14,38 @@ LEVEL = {
     "sampling": 2,
     "medium": 3,
     "adjoint": 4,
-    "theory": 5, "guide": 5, "decision": 5,
-    "capi": 6, "scene": 6, "film": 6,
-    "integrator": 7,
-    "io": 8,
-    "app": 9,
+    "guide": 5, "planar": 5, "decision": 5,
+    "subsurface": 6, "lab": 6, "scene": 6, "film": 6,
+    "capi": 7, "light": 7, "io": 7,
+    "transport": 8,
+    "render": 9,
+    "app": 10,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def may_include(room, other):
-    """Rooms of one level do not see each other: that is what keeps decisions free of any particular supplier of answers."""
-    return room == other or LEVEL[other] < LEVEL[room]
+def may_include(module, other):
+    """Modules of one level do not see each other: that is what keeps decisions free of any particular supplier of answers."""
+    return module == other or LEVEL[other] < LEVEL[module]
 
 
-def offence_of_line(room, line):
-    """What is wrong with one line of a file in the given room, or None."""
+def offence_of_line(module, line):
+    """What is wrong with one line of a file in the given module, or None."""
     match = INCLUDE.match(line)
     if not match:
         return None
     bracket, path = match.groups()
     if bracket == '"':
-        return f'"{path}": the include path is <wend/room/file.h>'
+        return f'"{path}": the include path is <wend/module/file.h>'
     parts = path.split("/")
     if parts[0] != "wend":
         return None
     other = parts[1]
     if other not in LEVEL:
-        return f"<{path}>: unknown room '{other}'"
-    if not may_include(room, other):
-        return f"<{path}>: {room} (level {LEVEL[room]}) must not see {other} (level {LEVEL[other]})"
+        return f"<{path}>: unknown module '{other}'"
+    if not may_include(module, other):
+        return f"<{path}>: {module} (level {LEVEL[module]}) must not see {other} (level {LEVEL[other]})"
     return None
 
 
@@ -52,9 +53,9 @@ def offences(root):
     source = Path(root) / "src" / "wend"
     for entry in sorted(source.iterdir()):
         if not entry.is_dir():
-            yield f"{entry}: every file belongs to a room"
+            yield f"{entry}: every file belongs to a module"
         elif entry.name not in LEVEL:
-            yield f"{entry}: unknown room '{entry.name}'; known are {', '.join(LEVEL)}"
+            yield f"{entry}: unknown module '{entry.name}'; known are {', '.join(LEVEL)}"
         else:
             for file in sorted(p for p in entry.rglob("*") if p.suffix in (".h", ".inl", ".cpp")):
                 for number, line in enumerate(file.read_text().splitlines(), 1):

@@ -32,14 +32,14 @@ class Layers(Tree):
         self.write(path, text)
         return list(check_layers.offences(self.root))
 
-    def test_down_and_sideways_into_the_same_room_is_allowed(self):
+    def test_down_and_sideways_into_the_same_module_is_allowed(self):
         text = "#include <wend/medium/phase.h>\n#include <wend/core/ray.h>\n#include <vector>\n#include <Imath/ImathVec.h>\n"
         self.assertEqual(self.offences("src/wend/medium/grid.cpp", text), [])
 
     def test_up_is_refused_with_its_place(self):
         found = self.offences("src/wend/medium/grid.cpp", "#include <vector>\n#include <wend/io/volume.h>\n")
         self.assertEqual(len(found), 1)
-        self.assertIn("grid.cpp:2: <wend/io/volume.h>: medium (level 3) must not see io (level 8)", found[0])
+        self.assertIn("grid.cpp:2: <wend/io/volume.h>: medium (level 3) must not see io (level 7)", found[0])
 
     def test_odd_spacing_does_not_hide_an_include(self):
         self.assertEqual(len(self.offences("src/wend/core/a.h", "  #  include<wend/stats/moments.h>\n")), 1)
@@ -49,12 +49,12 @@ class Layers(Tree):
             self.write(f"src/wend/core/a.{ending}", "#include <wend/io/volume.h>\n")
         self.assertEqual(len(list(check_layers.offences(self.root))), 3)
 
-    def test_rooms_of_one_level_do_not_see_each_other(self):
-        for room, other in [("theory", "guide"), ("guide", "theory"), ("decision", "theory"), ("decision", "guide")]:
-            self.assertFalse(check_layers.may_include(room, other), f"{room} sees {other}")
+    def test_modules_of_one_level_do_not_see_each_other(self):
+        for module, other in [("planar", "guide"), ("guide", "planar"), ("decision", "planar"), ("decision", "guide")]:
+            self.assertFalse(check_layers.may_include(module, other), f"{module} sees {other}")
         self.assertTrue(check_layers.may_include("decision", "adjoint"))
 
-    def test_unknown_rooms_and_loose_files_are_refused(self):
+    def test_unknown_modules_and_loose_files_are_refused(self):
         self.assertEqual(len(self.offences("src/wend/misc/a.h", "")), 1)
         self.assertEqual(len(self.offences("src/wend/loose.h", "")), 2)
 

@@ -147,7 +147,7 @@ TEST(PhaseFunction, PositiveGScattersStraightOn) {
 
 /// ∫ p(before, ω) h(ω) dω for the function h around a mean direction, by the midpoint rule.
 template <class Phase>
-double blurred_by_quadrature(const Phase& phase, const Vec3& before, const Vec3& mean) {
+double convolved_by_quadrature(const Phase& phase, const Vec3& before, const Vec3& mean) {
     constexpr int rows = 600;
     const HenyeyGreenstein around{length(mean)};
     const Vec3 axis = normalize(mean);
@@ -165,25 +165,25 @@ double blurred_by_quadrature(const Phase& phase, const Vec3& before, const Vec3&
 }
 
 template <class Phase>
-void expect_blurred(const Phase& phase) {
+void expect_convolved(const Phase& phase) {
     const Vec3 before = normalize(Vec3(1, 2, -1));
     for (const float size : {0.01f, 0.4f, 0.9f}) {
         for (const Vec3& towards : {Vec3(1, 0, 0), Vec3(1, 2, -0.9f), Vec3(-1, -2, 1.2f)}) {
             const Vec3 mean = normalize(towards) * size;
-            const double expected = blurred_by_quadrature(phase, before, mean);
-            EXPECT_NEAR(phase.blurred(before, mean), expected, 2e-3 * expected) << size << ' ' << towards;
-            EXPECT_NEAR(PhaseFunction(phase).blurred(before, mean), expected, 2e-3 * expected);
+            const double expected = convolved_by_quadrature(phase, before, mean);
+            EXPECT_NEAR(phase.convolved(before, mean), expected, 2e-3 * expected) << size << ' ' << towards;
+            EXPECT_NEAR(PhaseFunction(phase).convolved(before, mean), expected, 2e-3 * expected);
         }
     }
-    EXPECT_NEAR(phase.blurred(before, Vec3(0, 0, 0)), inv_4pi, 1e-6);
+    EXPECT_NEAR(phase.convolved(before, Vec3(0, 0, 0)), inv_4pi, 1e-6);
 }
 
 TEST(HenyeyGreenstein, BlurredIsTheConvolution) {
     for (const float g : {0.0f, 0.3f, -0.6f, 0.9f}) {
         SCOPED_TRACE(g);
-        expect_blurred(HenyeyGreenstein{g});
+        expect_convolved(HenyeyGreenstein{g});
     }
-    expect_blurred(mixture());
+    expect_convolved(mixture());
 }
 
 TEST(HenyeyGreenstein, BlurredByNothingIsItself) {
@@ -191,10 +191,10 @@ TEST(HenyeyGreenstein, BlurredByNothingIsItself) {
     for (const float g : {0.5f, -0.8f, 0.95f}) {
         for (const Vec3& w : {Vec3(0, 0, 1), Vec3(0.6f, 0, 0.8f), Vec3(0, 0, -1)}) {
             const float sharp = HenyeyGreenstein{g}.evaluate(w.z);
-            EXPECT_NEAR(HenyeyGreenstein{g}.blurred(before, w), sharp, 1e-4f * sharp);
+            EXPECT_NEAR(HenyeyGreenstein{g}.convolved(before, w), sharp, 1e-4f * sharp);
         }
     }
-    EXPECT_TRUE(std::isfinite(HenyeyGreenstein{0.999999f}.blurred(before, before)));
+    EXPECT_TRUE(std::isfinite(HenyeyGreenstein{0.999999f}.convolved(before, before)));
 }
 
 }  // namespace

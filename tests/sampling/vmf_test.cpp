@@ -107,9 +107,9 @@ TEST(Vmf, ConcentrationInvertsMeanCosine) {
 }
 
 TEST(Vmf, ConvolutionMultipliesMeanCosines) {
-    const Vmf blurred = convolve({tilted, 12}, 3);
-    EXPECT_NEAR(vmf_mean_cosine(blurred.kappa), vmf_mean_cosine(12) * vmf_mean_cosine(3), 1e-6);
-    EXPECT_EQ(blurred.mean, tilted);
+    const Vmf convolved = convolve({tilted, 12}, 3);
+    EXPECT_NEAR(vmf_mean_cosine(convolved.kappa), vmf_mean_cosine(12) * vmf_mean_cosine(3), 1e-6);
+    EXPECT_EQ(convolved.mean, tilted);
 }
 
 }  // namespace

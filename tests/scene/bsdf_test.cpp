@@ -183,10 +183,10 @@ TEST(Dielectric, OddsChangeHowOftenLightIsReflectedAndNothingElse) {
                     plainly.add(plain_one ? 1 : 0);
                     weight.add(reflects ? s->value.r / s->density : 0);
                     plain_weight.add(plain_one ? t->value.r / t->density : 0);
-                    kept.add(s ? 1 / static_cast<double>(s->boost) : 0);
+                    kept.add(s ? 1 / static_cast<double>(s->density_ratio) : 0);
                     plainly_kept.add(t ? 1 : 0);
                     if (s && !s->specular && i % 100 == 0) {
-                        EXPECT_NEAR(s->density, s->boost * plain.density(wo, s->direction), 1e-4f * s->density);
+                        EXPECT_NEAR(s->density, s->density_ratio * plain.density(wo, s->direction), 1e-4f * s->density);
                         EXPECT_EQ(s->value, plain.evaluate(wo, s->direction));
                     }
                 }

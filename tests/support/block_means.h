@@ -1,7 +1,7 @@
 // Means of pictures and of their square blocks over independent renders, against a reference by classical sampling.
 #pragma once
 
-#include <wend/integrator/render.h>
+#include <wend/render/render.h>
 #include <wend/stats/chi_square.h>
 #include <wend/stats/moments.h>
 

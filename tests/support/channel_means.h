@@ -1,7 +1,7 @@
 // Means of pictures by colour channel, over independent renders.
 #pragma once
 
-#include <wend/integrator/render.h>
+#include <wend/render/render.h>
 #include <wend/stats/moments.h>
 
 #include <algorithm>

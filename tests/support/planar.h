@@ -1,11 +1,11 @@
 // Adjoints of plane-parallel media for tests, and verdicts on the planar decisions that follow them.
 #pragma once
 
-#include <wend/decision/planar.h>
 #include <wend/medium/averaged_phase.h>
 #include <wend/numeric/quadrature.h>
+#include <wend/planar/decisions.h>
+#include <wend/planar/discrete_ordinates.h>
 #include <wend/stats/chi_square.h>
-#include <wend/theory/discrete_ordinates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ double adaptive_integral(const F& f, double begin, double end, double tolerance,
 struct PlanarVerdict {
     double total = 0;         ///< integral of the claimed density over all outcomes
     double p_value = 0;       ///< of drawn samples, if the claimed density is theirs
-    double disagreement = 0;  ///< largest relative difference between the boosts of sample() and boost()
+    double disagreement = 0;  ///< largest relative difference between the boosts of sample() and density_ratio()
 };
 
 /// Counts of samples in cells between `edges` (the last one open) against integrals of a density over them. `rest` is
@@ -80,7 +80,7 @@ PlanarVerdict judge_flights(const D& drawn, const D& claimed, double thickness, 
     const double length = mu > 0 ? (thickness - depth) / mu : depth / -mu;
     const auto density = [&](double s) {
         claimed.at(std::clamp(depth + s * mu, 0.0, thickness), to);
-        return std::exp(-s) * claimed.boost(from, mu, {true, s, 1}, to);
+        return std::exp(-s) * claimed.density_ratio(from, mu, {true, s, 1}, to);
     };
     Pcg32 random(seed);
     std::vector<double> pilot;
@@ -111,15 +111,15 @@ PlanarVerdict judge_flights(const D& drawn, const D& claimed, double thickness, 
         probabilities.push_back(sum);
     }
     const double boundary =
-        std::isinf(length) ? 0 : std::exp(-length) * claimed.boost(from, mu, {false, length, 1}, from);
+        std::isinf(length) ? 0 : std::exp(-length) * claimed.density_ratio(from, mu, {false, length, 1}, from);
 
     std::vector<double> samples;
     double disagreement = 0;
     for (int i = 0; i < count; ++i) {
         const PlanarFlight flight = drawn.sample(drawn_from, mu, random, to);
         samples.push_back(flight.scatters ? flight.length : std::numeric_limits<double>::infinity());
-        const double again = drawn.boost(drawn_from, mu, flight, to);
-        disagreement = std::max(disagreement, std::abs(again / flight.boost - 1));
+        const double again = drawn.density_ratio(drawn_from, mu, flight, to);
+        disagreement = std::max(disagreement, std::abs(again / flight.density_ratio - 1));
     }
     PlanarVerdict verdict = judge(samples, edges, probabilities, boundary);
     verdict.disagreement = disagreement;
@@ -131,7 +131,7 @@ template <PlanarDirectionDecision D>
 PlanarVerdict judge_directions(const D& drawn, const D& claimed, double g, double depth, double before,
                                std::uint64_t seed, int count = 20000) {
     const auto density = [&](double after) {
-        return averaged_henyey_greenstein(g, before, after) * claimed.boost(depth, before, after);
+        return averaged_henyey_greenstein(g, before, after) * claimed.density_ratio(depth, before, after);
     };
     Pcg32 random(seed);
     std::vector<double> pilot;
@@ -150,8 +150,8 @@ PlanarVerdict judge_directions(const D& drawn, const D& claimed, double g, doubl
     for (int i = 0; i < count; ++i) {
         const PlanarDirection direction = drawn.sample(depth, before, random);
         samples.push_back(direction.cosine);
-        const double again = drawn.boost(depth, before, direction.cosine);
-        disagreement = std::max(disagreement, std::abs(again / direction.boost - 1));
+        const double again = drawn.density_ratio(depth, before, direction.cosine);
+        disagreement = std::max(disagreement, std::abs(again / direction.density_ratio - 1));
     }
     PlanarVerdict verdict = judge(samples, edges, probabilities, 0);
     verdict.disagreement = disagreement;

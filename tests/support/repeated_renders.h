@@ -1,7 +1,7 @@
 // Independent renders of a small scene: their mean, and how noisy they are.
 #pragma once
 
-#include <wend/integrator/render.h>
+#include <wend/render/render.h>
 #include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
 

@@ -1,7 +1,7 @@
 // Small scenes with known answers, made of values.
 #pragma once
 
-#include <wend/integrator/render.h>
+#include <wend/render/render.h>
 #include <wend/scene/scene.h>
 
 #include <memory>

@@ -30,7 +30,8 @@ concept IncidentRadiance = requires(const T& radiance, const AxialLobes& lobes) 
 ///  - incident(x): the distribution of the incident radiance at x;
 ///  - fluence(): its scale, ∫ L dω, in radiance times sr;
 ///  - in_scattered(product): ∫ f L dω by colour channel, for a product of the incident radiance with the lobes of f;
-///  - classical_share(): how far its directions are to be trusted, as the share in (0,1] that sampling the scattering
+///  - defensive_fraction(): how far its directions are to be trusted, as the share in (0,1] that sampling the
+///  scattering
 ///    function alone should keep beside them.
 /// The mean of the channels of in_scattered(product) is fluence() · product.integral(). The expected contribution of a
 /// continuation is the in-scattered radiance times throughput and albedo, channel by channel.
@@ -39,7 +40,7 @@ concept Adjoint = requires(const T& adjoint, const Vec3& position, const AxialLo
     { adjoint.incident(position) } -> IncidentRadiance;
     { adjoint.fluence() } -> std::convertible_to<float>;
     { adjoint.in_scattered(adjoint.incident(position).product(lobes)) } -> std::same_as<Rgb>;
-    { adjoint.classical_share() } -> std::convertible_to<float>;
+    { adjoint.defensive_fraction() } -> std::convertible_to<float>;
 };
 
 /// In-scattered radiance at a point, ∫ f(ω) L(x, ω) dω, for the lobes of f.

@@ -31,7 +31,7 @@ public:
         return Rgb(fluence() * product.integral());
     }
     /// Any would do, both ways of sampling being the same; half costs least if they differ by rounding.
-    static constexpr float classical_share() { return 0.5f; }
+    static constexpr float defensive_fraction() { return 0.5f; }
 
 private:
     float radiance_;

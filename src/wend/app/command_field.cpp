@@ -41,7 +41,7 @@ struct Part {
     const guide::Field* field;
 };
 
-std::array<Part, 2> parts_of(const GuidingFields& fields) {
+std::array<Part, 2> parts_of(const guide::Fields& fields) {
     return {{{"surface", &fields.surface}, {"volume", &fields.volume}}};
 }
 
@@ -152,7 +152,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
         streams.out
             << fmt::format(
                    "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
-                   options.at, part.name, region->fluence(), region->classical_share(), region->reference().x,
+                   options.at, part.name, region->fluence(), region->defensive_fraction(), region->reference().x,
                    region->reference().y, region->reference().z)
             << fmt::format("light from connections {:.4g}, extinction {:.4g}, vertices of a walk from here on {:.3g}\n",
                            light.connected.fluence, means.extinction, means.cost)
@@ -168,7 +168,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     return {{"position", vector_json(position)},
             {"part", part.name},
             {"fluence", region->fluence()},
-            {"classical_share", region->classical_share()},
+            {"classical_share", region->defensive_fraction()},
             {"connected_fluence", light.connected.fluence},
             {"extinction", means.extinction},
             {"cost", means.cost},
@@ -183,7 +183,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     struct Cell {
         Box3 box;
         float fluence;
-        float classical_share;
+        float defensive_fraction;
         double samples;
         int lobes;
         int part;
@@ -191,7 +191,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
     std::vector<Cell> cells;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].field->for_each_cell([&](const Box3& box, const guide::Region& region, double samples) {
-            cells.push_back({box, region.fluence(), region.classical_share(), samples, region.mixture().size(),
+            cells.push_back({box, region.fluence(), region.defensive_fraction(), samples, region.mixture().size(),
                              static_cast<int>(p)});
         });
     }
@@ -227,7 +227,7 @@ std::string vtk_text(const std::array<Part, 2>& parts) {
         }
     };
     scalars("fluence", [](const Cell& cell) { return cell.fluence; });
-    scalars("classical_share", [](const Cell& cell) { return cell.classical_share; });
+    scalars("classical_share", [](const Cell& cell) { return cell.defensive_fraction; });
     scalars("samples", [](const Cell& cell) { return cell.samples; });
     scalars("lobes", [](const Cell& cell) { return cell.lobes; });
     scalars("volume", [](const Cell& cell) { return cell.part; });
@@ -243,7 +243,7 @@ void show_field(const FieldOptions& options, const Streams& streams) {
     }
     require_distinct({options.file, options.records},
                      {options.vtk, options.at.empty() ? "" : options.picture, options.common.json});
-    const GuidingFields fields = read_fields(options.file);
+    const guide::Fields fields = read_fields(options.file);
     const std::optional<RecordSamples> samples =
         options.records.empty() ? std::nullopt : std::optional(read_records(options.records));
     const std::array<Part, 2> parts = parts_of(fields);

@@ -87,9 +87,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     }
     const std::vector<std::string> inputs{options.scene.file, options.load_field};
     require_distinct(inputs, {options.output, options.common.json, options.save_field, options.save_records});
-    std::shared_ptr<const GuidingFields> fields;
+    std::shared_ptr<const guide::Fields> fields;
     if (!options.load_field.empty()) {
-        fields = std::make_shared<const GuidingFields>(read_fields(options.load_field));
+        fields = std::make_shared<const guide::Fields>(read_fields(options.load_field));
     }
     const Session session(options.scene, options.common, streams);
     const std::filesystem::path output =

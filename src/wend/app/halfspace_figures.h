@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/app/halfspace_table.h>
-#include <wend/integrator/planar_lab.h>
+#include <wend/lab/lab.h>
 
 #include <string>
 #include <vector>

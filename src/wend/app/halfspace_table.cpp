@@ -1,8 +1,8 @@
 #include <wend/app/halfspace_table.h>
 #include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
+#include <wend/planar/half_space.h>
 #include <wend/stats/figure_of_merit.h>
-#include <wend/theory/half_space.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/app/options.h>
-#include <wend/integrator/planar_lab.h>
+#include <wend/lab/lab.h>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/program.h>
 #include <wend/core/error.h>
-#include <wend/integrator/preset.h>
+#include <wend/render/preset.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wend/integrator/render.h>
+#include <wend/render/render.h>
 
 #include <chrono>
 #include <iosfwd>

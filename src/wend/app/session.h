@@ -3,8 +3,8 @@
 
 #include <wend/app/options.h>
 #include <wend/film/film.h>
-#include <wend/integrator/render.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/render/render.h>
 #include <wend/scene/scene.h>
 
 #include <filesystem>

@@ -106,7 +106,7 @@ wend_status wend_field_classical_share(const wend_field* field, wend_vec3 positi
         if (!region) {
             return answer(error, WEND_NOTHING_LEARNED, nothing_learned);
         }
-        *share = region->classical_share();
+        *share = region->defensive_fraction();
         return WEND_OK;
     });
 }

@@ -3,8 +3,8 @@
 
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
-#include <wend/decision/glints.h>
-#include <wend/decision/heaviest_walk.h>
+#include <wend/decision/caustic_map.h>
+#include <wend/decision/weight_bound.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace wend {
 
 /// A direction drawn from a scattering function or a decision about it.
 struct DirectionSample {
-    Vec3 direction;         ///< of propagation, unit length
-    Rgb value;              ///< the scattering function there, cosine included
-    float density = 0;      ///< per steradian; a probability if specular
-    bool specular = false;  ///< drawn from a discrete set of directions
-    float boost = 1;        ///< density over what the scattering function's own sampling would have had
+    Vec3 direction;           ///< of propagation, unit length
+    Rgb value;                ///< the scattering function there, cosine included
+    float density = 0;        ///< per steradian; a probability if specular
+    bool specular = false;    ///< drawn from a discrete set of directions
+    float density_ratio = 1;  ///< density over what the scattering function's own sampling would have had
     /// The densities that the scattering function's own sampling and the guide had, where it was drawn from a mixture
     /// of both; otherwise 0.
     float classical_density = 0;
@@ -73,7 +73,7 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 };
 
 /// Directions from a mixture of the scattering function and its product with an adjoint's incident radiance
-/// (herholz2019), and towards glints where there are some. Surfaces and volumes have a field each.
+/// (herholz2019), and towards caustic lobes where there are some. Surfaces and volumes have a field each.
 template <AdjointField Field>
 class GuidedDirection {
 public:
@@ -81,76 +81,79 @@ public:
     /// The distribution of what scatters times incident radiance.
     using Product = std::remove_cvref_t<decltype(std::declval<LocalAdjoint>().incident(Vec3()).product(AxialLobes()))>;
 
-    /// The fields are not owned. `classical_share` in (0,1] is the probability of sampling the scattering function
-    /// alone, where glints have nothing to say: it bounds the weight by 1/classical_share times the classical one.
-    /// Nothing: each adjoint's own. Glints may be null.
-    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> classical_share = std::nullopt,
-                    const GlintMap* surface_glints = nullptr, const GlintMap* volume_glints = nullptr)
+    /// The fields are not owned. `defensive_fraction` in (0,1] is the probability of sampling the scattering function
+    /// alone, where caustic lobes have nothing to say: it bounds the weight by 1/defensive_fraction times the classical
+    /// one. Nothing: each adjoint's own. CausticLobes may be null.
+    GuidedDirection(const Field* surface, const Field* volume, std::optional<float> defensive_fraction = std::nullopt,
+                    const CausticMap* surface_caustics = nullptr, const CausticMap* volume_caustics = nullptr)
         : surface_(surface),
           volume_(volume),
-          classical_share_(classical_share),
-          surface_glints_(surface_glints),
-          volume_glints_(volume_glints) {}
+          defensive_fraction_(defensive_fraction),
+          surface_caustics_(surface_caustics),
+          volume_caustics_(volume_caustics) {}
 
     template <ScatteringFunction F>
     class Distribution {
     public:
-        /// `adjoint` and `glints` may be null. `least_classical` in [0,1]: of the density of `f` alone, what is always
-        /// left of it.
-        Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float classical_share,
-                     const GlintMap::Cell* glints, float least_classical)
+        /// `adjoint` and `caustic lobes` may be null. `least_defensive_fraction` in [0,1]: of the density of `f` alone,
+        /// what is always left of it.
+        Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float defensive_fraction,
+                     const CausticMap::Cell* caustics, float least_defensive_fraction)
             : f_(f), adjoint_(adjoint) {
-            if (glints) {
-                glints_ = GlintMixture(*glints, position, f);
-                glint_share_ =
-                    glints_.is_empty() ? 0.0f : std::min(share_of(glints->fluence(F::in_volume)), 1 - least_classical);
+            if (caustics) {
+                caustic_lobes_ = CausticLobeMixture(*caustics, position, f);
+                caustic_share_ = caustic_lobes_.is_empty() ? 0.0f
+                                                           : std::min(share_of(caustics->fluence(F::in_volume)),
+                                                                      1 - least_defensive_fraction);
             }
-            classical_share_ = std::max(classical_share, least_classical / (1 - glint_share_));
+            defensive_fraction_ = std::max(defensive_fraction, least_defensive_fraction / (1 - caustic_share_));
             if (adjoint) {
                 product_.emplace(InPlace{*adjoint, position, f});
             }
         }
 
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
-            if (!product_ && glint_share_ == 0) {
+            if (!product_ && caustic_share_ == 0) {
                 return f_.sample(u, u2);
             }
-            const float own_share = product_ ? classical_share_ : 1.0f;
-            const bool by_glints = u < glint_share_;
-            u = std::min(by_glints ? u / glint_share_ : (u - glint_share_) / (1 - glint_share_), one_minus_epsilon);
+            const float own_share = product_ ? defensive_fraction_ : 1.0f;
+            const bool by_caustics = u < caustic_share_;
+            u = std::min(by_caustics ? u / caustic_share_ : (u - caustic_share_) / (1 - caustic_share_),
+                         one_minus_epsilon);
             DirectionSample s;
-            if (!by_glints && u < own_share) {
+            if (!by_caustics && u < own_share) {
                 const auto classical = f_.sample(u / own_share, u2);
                 if (!classical) {
                     return std::nullopt;
                 }
                 s = *classical;
                 if (s.specular) {
-                    s.boost = (1 - glint_share_) * own_share;
-                    s.density *= s.boost;
+                    s.density_ratio = (1 - caustic_share_) * own_share;
+                    s.density *= s.density_ratio;
                     return s;
                 }
             } else {
-                s.direction = by_glints ? glints_.sample(u, u2) : product_->sample(u2);
+                s.direction = by_caustics ? caustic_lobes_.sample(u, u2) : product_->sample(u2);
                 s.value = f_.evaluate(s.direction);
                 s.density = f_.density(s.direction);
             }
             const float own = s.density;
-            const float glint = glint_share_ > 0 ? glint_share_ * glints_.density(s.direction) : 0.0f;
-            const float classical = (1 - glint_share_) * own + glint;
+            const float lobe = caustic_share_ > 0 ? caustic_share_ * caustic_lobes_.density(s.direction) : 0.0f;
+            const float classical = (1 - caustic_share_) * own + lobe;
             if (product_) {
                 s.classical_density = classical;
-                s.guided_density = (1 - glint_share_) * product_->density(s.direction) + glint;
+                s.guided_density = (1 - caustic_share_) * product_->density(s.direction) + lobe;
                 s.density = mixed(s.classical_density, s.guided_density);
             } else {
                 s.density = classical;
             }
-            s.boost = own > 0 ? s.density / own : 1.0f;
+            s.density_ratio = own > 0 ? s.density / own : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
         float density(const Vec3& w) const {
             const float others = product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
-            return glint_share_ > 0 ? (1 - glint_share_) * others + glint_share_ * glints_.density(w) : others;
+            return caustic_share_ > 0 ? (1 - caustic_share_) * others + caustic_share_ * caustic_lobes_.density(w)
+                                      : others;
         }
 
         /// The adjoint's ∫ f L dω over the albedo of f, by channel; nothing where it is not known.
@@ -159,8 +162,8 @@ public:
         }
 
     private:
-        /// Of directions, for glints of that fluence. They are never many: it suffices that what chance would not find
-        /// is tried at all, and what is found by other means as well suffers.
+        /// Of directions, for caustic lobes of that fluence. They are never many: it suffices that what chance would
+        /// not find is tried at all, and what is found by other means as well suffers.
         float share_of(float fluence) const {
             constexpr float least = 0.1f, most = 0.25f;
             const float all = adjoint_ ? adjoint_->fluence() : 0.0f;
@@ -168,7 +171,7 @@ public:
         }
 
         float mixed(float classical, float guided) const {
-            return classical_share_ * classical + (1 - classical_share_) * guided;
+            return defensive_fraction_ * classical + (1 - defensive_fraction_) * guided;
         }
 
         /// Becomes the product where it is needed: that is large, and is not copied on its way.
@@ -182,28 +185,28 @@ public:
         const F& f_;
         std::optional<Product> product_;
         const LocalAdjoint* adjoint_;
-        float classical_share_;
-        float glint_share_ = 0;
-        GlintMixture glints_;
+        float defensive_fraction_;
+        float caustic_share_ = 0;
+        CausticLobeMixture caustic_lobes_;
     };
 
-    /// `weight` is the walk's (Outlook::weight) and raises the classical share of one that has become heavy; 0 leaves
-    /// it alone. From heaviest_walk on the adjoint tells no more than what is to be expected.
+    /// `weight` is the walk's (ExpectedContribution::weight) and raises the classical share of one that has become
+    /// heavy; 0 leaves it alone. From weight_bound on the adjoint tells no more than what is to be expected.
     template <ScatteringFunction F>
     Distribution<F> at(const Vec3& position, const F& f, float weight = 0) const {
         const LocalAdjoint* adjoint = f.is_guidable() ? (F::in_volume ? volume_ : surface_)->find(position) : nullptr;
-        const GlintMap* glints = F::in_volume ? volume_glints_ : surface_glints_;
-        const GlintMap::Cell* known = glints && f.is_guidable() ? glints->find(position) : nullptr;
-        const float share = adjoint ? classical_share_.value_or(adjoint->classical_share()) : 1.0f;
-        return Distribution<F>(f, adjoint, position, share, known, least_classical(weight));
+        const CausticMap* caustics = F::in_volume ? volume_caustics_ : surface_caustics_;
+        const CausticMap::Cell* known = caustics && f.is_guidable() ? caustics->find(position) : nullptr;
+        const float share = adjoint ? defensive_fraction_.value_or(adjoint->defensive_fraction()) : 1.0f;
+        return Distribution<F>(f, adjoint, position, share, known, least_defensive_fraction(weight));
     }
 
 private:
     const Field* surface_;
     const Field* volume_;
-    std::optional<float> classical_share_;
-    const GlintMap* surface_glints_;
-    const GlintMap* volume_glints_;
+    std::optional<float> defensive_fraction_;
+    const CausticMap* surface_caustics_;
+    const CausticMap* volume_caustics_;
 };
 
 }  // namespace wend

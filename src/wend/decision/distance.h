@@ -14,9 +14,9 @@ struct Flight {
     bool scatters = false;
     float distance = 0;  ///< of the collision; the segment's length if it does not scatter
     Rgb weight;
-    Rgb emitted;      ///< radiance picked up from an emissive medium on the way, before `weight`
-    float glow = 0;   ///< the mean channel of `emitted`, each part over the distance it came from
-    float boost = 1;  ///< density over what classical sampling would have had
+    Rgb emitted;              ///< radiance picked up from an emissive medium on the way, before `weight`
+    float glow = 0;           ///< the mean channel of `emitted`, each part over the distance it came from
+    float density_ratio = 1;  ///< density over what classical sampling would have had
 };
 
 /// Adds to a flight what the medium emits at a distance.
@@ -44,11 +44,11 @@ struct FlightEnd {
 
 /// What of a glowing medium's light a flight may keep, by multiple importance sampling: connections from the vertex
 /// before find it as well.
-struct GlowShare {
-    const Glow* glow = nullptr;  ///< null: it keeps all
-    Vec3 from{0, 0, 0};          ///< the vertex
-    float own = 0;               ///< density of the flight's direction there, per steradian
-    float connected = 0;         ///< how often the vertex is connected to the medium
+struct EmissionShare {
+    const EmissionSampler* glow = nullptr;  ///< null: it keeps all
+    Vec3 from{0, 0, 0};                     ///< the vertex
+    float own = 0;                          ///< density of the flight's direction there, per steradian
+    float connected = 0;                    ///< how often the vertex is connected to the medium
 
     /// At a point of the flight.
     float operator()(const Vec3& position) const {
@@ -66,12 +66,12 @@ struct FlightStart {
     float length = 0;  ///< to the end of the segment; may be beyond any scene
     /// Of the walk so far: chooses among colour channels.
     Rgb throughput{1.0f};
-    /// Of the walk so far (Outlook::weight); 0 where the share of classical flights does not depend on it.
+    /// Of the walk so far (ExpectedContribution::weight); 0 where the share of classical flights does not depend on it.
     float weight = 0;
     FlightEnd end;
     /// Vertices of the walk so far.
     int depth = 0;
-    GlowShare keeps{};
+    EmissionShare keeps{};
 };
 
 /// A decision about flights: draws one, and tells the probability, under each colour channel, of flying through a

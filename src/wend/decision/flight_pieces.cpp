@@ -104,49 +104,50 @@ float FlightPieces::near_at(const Piece& piece, float distance) const {
     return 0;
 }
 
-FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float distance, float classical_share) const {
+FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float distance, float defensive_fraction) const {
     const Rgb passed = transmitted(distance);
     Outcome o{true, distance, 0, dot(rate_, passed)};
-    o.density = classical_share * o.classical;
-    if (classical_share < 1) {
-        o.density += (1 - classical_share) / total_ *
+    o.density = defensive_fraction * o.classical;
+    if (defensive_fraction < 1) {
+        o.density += (1 - defensive_fraction) / total_ *
                      (piece.in_scattered * dot(scattering_rate_, passed) + near_at(piece, distance));
     }
     return o;
 }
 
-FlightPieces::Outcome FlightPieces::collision(float distance, float classical_share) const {
+FlightPieces::Outcome FlightPieces::collision(float distance, float defensive_fraction) const {
     const Piece* piece =
         std::partition_point(pieces_, pieces_ + count_ - 1, [&](const Piece& p) { return p.t_out <= distance; });
-    return collision_in(*piece, distance, classical_share);
+    return collision_in(*piece, distance, defensive_fraction);
 }
 
-FlightPieces::Outcome FlightPieces::end(float classical_share) const {
+FlightPieces::Outcome FlightPieces::end(float defensive_fraction) const {
     const float length = pieces_[count_ - 1].t_out;
     Outcome o{false, length, 0, dot(channels_, transmitted(length))};
-    o.density = o.classical * (classical_share < 1 ? classical_share + (1 - classical_share) * ahead_ / total_ : 1.0f);
+    o.density =
+        o.classical * (defensive_fraction < 1 ? defensive_fraction + (1 - defensive_fraction) * ahead_ / total_ : 1.0f);
     return o;
 }
 
-FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const {
+FlightPieces::Outcome FlightPieces::sample(float defensive_fraction, float u) const {
     const float length = pieces_[count_ - 1].t_out;
-    if (u < classical_share) {
-        u = into_unit(u / classical_share);
+    if (u < defensive_fraction) {
+        u = into_unit(u / defensive_fraction);
         const float rate = extinction_[choose_channel(channels_, u)];
         const float distance = rate > 0 ? -std::log1p(-u) / rate : std::numeric_limits<float>::infinity();
-        return distance < length ? collision(distance, classical_share) : end(classical_share);
+        return distance < length ? collision(distance, defensive_fraction) : end(defensive_fraction);
     }
-    u = into_unit((u - classical_share) / (1 - classical_share)) * total_;
+    u = into_unit((u - defensive_fraction) / (1 - defensive_fraction)) * total_;
     const Piece* piece =
         std::partition_point(pieces_, pieces_ + count_, [&](const Piece& p) { return p.cumulative <= u; });
     if (piece == pieces_ + count_) {
         const auto* near =
             std::find_if(near_, near_ + near_count_, [&](const auto& candidate) { return candidate->cumulative > u; });
         if (near == near_ + near_count_) {
-            return end(classical_share);
+            return end(defensive_fraction);
         }
         u = into_unit((u - ((*near)->cumulative - (*near)->part)) / (*near)->part);
-        return collision_in(pieces_[(*near)->piece], (*near)->along.sample(u), classical_share);
+        return collision_in(pieces_[(*near)->piece], (*near)->along.sample(u), defensive_fraction);
     }
     const float below = piece == pieces_ ? 0.0f : (piece - 1)->cumulative;
     u = into_unit((u - below) / (piece->cumulative - below));
@@ -156,7 +157,7 @@ FlightPieces::Outcome FlightPieces::sample(float classical_share, float u) const
         grey_ ? 0 : choose_channel(channel_probabilities(albedo_ * transmitted(from) * shares_in(*piece).stopped), u);
     const float sigma = extinction_[channel];
     const float distance = from - std::log1p(u * std::expm1(-sigma * size)) / sigma;
-    return collision_in(*piece, std::min(distance, piece->t_out), classical_share);
+    return collision_in(*piece, std::min(distance, piece->t_out), defensive_fraction);
 }
 
 }  // namespace wend

@@ -47,11 +47,11 @@ public:
 
     /// Draws a flight; `u` in [0,1) picks the technique and what it needs. The classical share is in [0,1], and 1 where
     /// nothing is lit.
-    Outcome sample(float classical_share, float u) const;
+    Outcome sample(float defensive_fraction, float u) const;
 
     /// The density of a collision within the segment, and the probability of the end.
-    Outcome collision(float distance, float classical_share) const;
-    Outcome end(float classical_share) const;
+    Outcome collision(float distance, float defensive_fraction) const;
+    Outcome end(float defensive_fraction) const;
 
     /// Whether there is anything to be guided to.
     bool is_lit() const { return total_ > 0; }
@@ -80,7 +80,7 @@ private:
     Rgb transmitted(float distance) const;
     float t_in(const Piece& piece) const { return &piece == pieces_ ? 0.0f : (&piece - 1)->t_out; }
     Shares shares_in(const Piece& piece) const;
-    Outcome collision_in(const Piece& piece, float distance, float classical_share) const;
+    Outcome collision_in(const Piece& piece, float distance, float defensive_fraction) const;
     /// The contributions of the piece's near light, per unit of distance.
     float near_at(const Piece& piece, float distance) const;
 

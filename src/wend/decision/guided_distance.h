@@ -4,7 +4,7 @@
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
 #include <wend/decision/guided_tracking.h>
-#include <wend/decision/heaviest_walk.h>
+#include <wend/decision/weight_bound.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
     { field.scattered_light(p)->in_scattered_from_afar(p, phase) } -> std::same_as<float>;
     { field.scattered_light(p)->near.intensity } -> std::convertible_to<float>;
     { field.leaving(p, p) } -> std::same_as<float>;
-    { field.scattered_light(p)->trust } -> std::convertible_to<float>;
+    { field.scattered_light(p)->confidence } -> std::convertible_to<float>;
     field.walk(
-        ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.trust > 0; }, 0.1f);
+        ray, 0.0f, 1.0f, [](const auto& light, float, float) { return light.confidence > 0; }, 0.1f);
     { field.find(p)->incident(p).density(p) } -> std::same_as<float>;
 };
 
@@ -34,21 +34,21 @@ enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
-    /// The fields are not owned. `classical_share` in (0,1] bounds the weight by 1/classical_share times the classical
-    /// one. Through grids the flights before a walk's first `guided_in_grids` vertices are guided: later ones gain less
-    /// than the cells on their way cost (docs/theory/distance.md).
-    GuidedDistance(const Field* surface, const Field* volume, float classical_share, DistanceGuiding guiding,
+    /// The fields are not owned. `defensive_fraction` in (0,1] bounds the weight by 1/defensive_fraction times the
+    /// classical one. Through grids the flights before a walk's first `guided_in_grids` vertices are guided: later ones
+    /// gain less than the cells on their way cost (docs/theory/distance.md).
+    GuidedDistance(const Field* surface, const Field* volume, float defensive_fraction, DistanceGuiding guiding,
                    int guided_in_grids)
         : surface_(surface),
           volume_(volume),
-          classical_share_(classical_share),
+          defensive_fraction_(defensive_fraction),
           guiding_(guiding),
           guided_in_grids_(guided_in_grids) {}
 
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
         const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
-        return guidable && scatters(medium) && start.weight < heaviest_walk && start.length > 0;
+        return guidable && scatters(medium) && start.weight < weight_bound && start.length > 0;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
@@ -75,23 +75,23 @@ private:
     static constexpr float finest = 1.0f / 20;
 
     /// What the guide is not trusted with is added to the classical flights.
-    float classical_share(float trust, float weight) const {
-        return std::max(1 - (1 - classical_share_) * trust, least_classical(weight));
+    float defensive_fraction(float confidence, float weight) const {
+        return std::max(1 - (1 - defensive_fraction_) * confidence, least_defensive_fraction(weight));
     }
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
-        float trust = 0;
+        float confidence = 0;
         const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
-        medium.phase.visit([&](const auto& phase) { trust = look_along(start, phase, reach, pieces); });
+        medium.phase.visit([&](const auto& phase) { confidence = look_along(start, phase, reach, pieces); });
         pieces.finish(start.length, ahead(start), levels());
         const FlightPieces::Outcome outcome =
-            pieces.sample(pieces.is_lit() ? classical_share(trust, start.weight) : 1.0f, u);
+            pieces.sample(pieces.is_lit() ? defensive_fraction(confidence, start.weight) : 1.0f, u);
         Flight flight;
         flight.scatters = outcome.scatters;
         flight.distance = outcome.distance;
-        flight.boost = outcome.classical > 0 ? outcome.density / outcome.classical : 1.0f;
+        flight.density_ratio = outcome.classical > 0 ? outcome.density / outcome.classical : 1.0f;
         const Rgb transmitted = transmittance(medium, flight.distance);
         flight.weight = (flight.scatters ? medium.scattering * transmitted : transmitted) *
                         (outcome.density > 0 ? 1 / outcome.density : 0.0f);
@@ -103,10 +103,10 @@ private:
     template <class Phase>
     float look_along(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
         const Vec3& before = start.ray.direction;
-        float trust = 0;
+        float confidence = 0;
         const auto look = [&](const auto& light, float t_in, float t_out) {
             if (!(t_in > 0)) {
-                trust = light.trust;
+                confidence = light.confidence;
             }
             if (light.near.intensity > 0) {
                 const ClosestApproach approach(start.ray, light.near.position, light.near.extent_squared);
@@ -125,12 +125,12 @@ private:
             return pieces.add(t_out, light.in_scattered(before, phase));
         };
         volume_->walk(start.ray, 0, start.length, look, finest * std::min(start.length, reach));
-        return trust;
+        return confidence;
     }
 
     Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
-        const float trust = volume_->scattered_light(start.ray.origin)->trust;
-        GuidedTracking tracking(medium, start, classical_share(share_in_grids * trust, start.weight));
+        const float confidence = volume_->scattered_light(start.ray.origin)->confidence;
+        GuidedTracking tracking(medium, start, defensive_fraction(share_in_grids * confidence, start.weight));
         volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
             tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
             return true;
@@ -155,7 +155,7 @@ private:
 
     const Field* surface_;
     const Field* volume_;
-    float classical_share_;
+    float defensive_fraction_;
     DistanceGuiding guiding_;
     int guided_in_grids_;
     ClassicalDistance classical_;

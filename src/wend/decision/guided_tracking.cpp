@@ -17,8 +17,8 @@ constexpr float deepest = 3;
 
 }  // namespace
 
-GuidedTracking::GuidedTracking(const GridMedium& medium, const FlightStart& start, float classical_share)
-    : medium_(medium), start_(start), classical_share_(classical_share) {
+GuidedTracking::GuidedTracking(const GridMedium& medium, const FlightStart& start, float defensive_fraction)
+    : medium_(medium), start_(start), defensive_fraction_(defensive_fraction) {
     const Rgb channels = channel_probabilities(start.throughput);
     extinction_ = dot(channels, medium.extinction());
     albedo_ = extinction_ > 0 ? dot(channels, medium.scattering()) / extinction_ : 0.0f;
@@ -123,16 +123,16 @@ Flight GuidedTracking::fly(float ahead, bool level, Pcg32& random) {
             const float here = classical * bright;
             const float on = (1 - classical) * expected(piece, piece.t_out - t);
             const float guided = here + on > 0 ? here / (here + on) : classical;
-            const float real = classical_share_ * classical + (1 - classical_share_) * guided;
+            const float real = defensive_fraction_ * classical + (1 - defensive_fraction_) * guided;
             if (random.uniform() < real) {
                 flight.scatters = true;
                 flight.distance = t;
                 flight.weight *= medium_.scattering() * (density / (rate * real));
-                flight.boost *= real / classical;
+                flight.density_ratio *= real / classical;
                 return flight;
             }
             flight.weight *= (Rgb(1.0f) - extinction * (density / rate)) * (1 / (1 - real));
-            flight.boost *= classical < 1 ? (1 - real) / (1 - classical) : 1.0f;
+            flight.density_ratio *= classical < 1 ? (1 - real) / (1 - classical) : 1.0f;
             if (!grey) {
                 channels = channel_probabilities(start_.throughput * flight.weight);
             }

@@ -13,9 +13,9 @@ namespace wend {
 /// where nothing is scattered. What few flights reach is flown classically. A value of fixed size without heap memory.
 class GuidedTracking {
 public:
-    /// `classical_share` in (0, 1]: real and null collisions keep this share of their classical probability. Both are
-    /// referred to.
-    GuidedTracking(const GridMedium& medium, const FlightStart& start, float classical_share);
+    /// `defensive_fraction` in (0, 1]: real and null collisions keep this share of their classical probability. Both
+    /// are referred to.
+    GuidedTracking(const GridMedium& medium, const FlightStart& start, float defensive_fraction);
 
     /// To where along the ray the light is to be told; 0 in an empty medium.
     float reach() const { return count_ > 0 ? pieces_[count_ - 1].t_out : 0.0f; }
@@ -49,7 +49,7 @@ private:
 
     const GridMedium& medium_;
     const FlightStart& start_;
-    float classical_share_;
+    float defensive_fraction_;
     /// Means over the colour channels, at density 1, by what the walk carries.
     float extinction_, albedo_;
     int count_ = 0;

@@ -174,7 +174,7 @@ private:
         const LearnedLobes learned = learning.learn(start(region), earlier, view.observations);
         statistics.keep(earlier);
         region = Region(region.reference(), learned.model.mixture, learned.model.inverse_distance, region.fluence(),
-                        colours_of(learned), region.classical_share());
+                        colours_of(learned), region.defensive_fraction());
         const Vec3 mean = seen.offset / seen.located;
         return split_evidence(learned.model, learned.sums, {mean, seen.offset_square / seen.located - mean * mean});
     }
@@ -349,8 +349,8 @@ private:
             sums.offset = Vec3(0, 0, 0);
             memory.statistics.lobes[static_cast<std::size_t>(i)] = sums;
         }
-        region =
-            Region(reference, mixture, inverse_distance, region.fluence(), region.colours(), region.classical_share());
+        region = Region(reference, mixture, inverse_distance, region.fluence(), region.colours(),
+                        region.defensive_fraction());
     }
 
     Field field_;

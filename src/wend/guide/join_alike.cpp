@@ -19,7 +19,7 @@ struct Light {
 
     double volume = 0;
     ArrivingLight walked, connected;
-    float trust = 0;
+    float confidence = 0;
     Values least{}, most{};
     bool alike = true;
 
@@ -27,7 +27,7 @@ struct Light {
         : volume(size),
           walked(light.walked),
           connected(light.connected),
-          trust(light.trust),
+          confidence(light.confidence),
           alike(light.near.intensity == 0) {
         const Vec3 flux = walked.fluence * walked.mean + connected.fluence * connected.mean;
         least = most = {walked.fluence, connected.fluence, flux.x, flux.y, flux.z};
@@ -36,7 +36,7 @@ struct Light {
         const auto part = static_cast<float>(volume > 0 ? a.volume / volume : 0.5);
         walked = mix(a.walked, b.walked, part);
         connected = mix(a.connected, b.connected, part);
-        trust = part * a.trust + (1 - part) * b.trust;
+        confidence = part * a.confidence + (1 - part) * b.confidence;
         for (std::size_t i = 0; i < least.size(); ++i) {
             least[i] = std::min(a.least[i], b.least[i]);
             most[i] = std::max(a.most[i], b.most[i]);
@@ -93,7 +93,7 @@ private:
             ScatteredLight& cell = field_.scattered_[node.child];
             cell.walked = light.walked;
             cell.connected = light.connected;
-            cell.trust = light.trust;
+            cell.confidence = light.confidence;
             return;
         }
         tell_all(node.child, light);

@@ -71,14 +71,14 @@ double likely_inverse_distance(const LobeSums& s, double kappa, double radius) {
     const double told = s.inverse_distance / s.weight;
     const double told_variance =
         s.inverse_distance_square / s.weight - told * told + least_relative_variance * told * told;
-    const double told_precision = told > 0 ? records / (told_variance * (records + 8)) : 0;
+    const double recorded_precision = told > 0 ? records / (told_variance * (records + 8)) : 0;
 
     const double turned = s.spread > 0 ? s.turn / s.spread : 0;
     const double turned_precision = kappa * s.spread / s.weight * records;
 
     const double far_precision = radius * radius;
-    const double likely =
-        (told * told_precision + turned * turned_precision) / (told_precision + turned_precision + far_precision);
+    const double likely = (told * recorded_precision + turned * turned_precision) /
+                          (recorded_precision + turned_precision + far_precision);
     return std::max(0.0, likely) * ramp_down(likely * radius, 0.75, 1.0);
 }
 

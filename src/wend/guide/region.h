@@ -17,13 +17,13 @@ public:
 
     /// `inverse_distance`: 1/distance of each lobe's source from the reference point; 0 where it is far or not known.
     Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence,
-           const LobeColours& colours = {}, float classical_share = float{ShareSums::unproven})
+           const LobeColours& colours = {}, float defensive_fraction = float{ShareSums::unproven})
         : reference_(reference),
           fluence_(fluence),
           mixture_(mixture),
           inverse_distance_(inverse_distance),
           colours_(colours),
-          classical_share_(classical_share) {}
+          defensive_fraction_(defensive_fraction) {}
 
     /// Distribution of the incident radiance at a position of the cell, as a view of this region.
     MixtureView incident(const Vec3& position) const {
@@ -57,7 +57,7 @@ public:
     }
 
     /// How much of directions is best drawn by classical sampling, as measured (share.h).
-    float classical_share() const { return classical_share_; }
+    float defensive_fraction() const { return defensive_fraction_; }
 
     const Vec3& reference() const { return reference_; }
     const VmfMixture& mixture() const { return mixture_; }
@@ -70,7 +70,7 @@ private:
     VmfMixture mixture_;
     Lanes inverse_distance_;
     LobeColours colours_;
-    float classical_share_ = float{ShareSums::unproven};
+    float defensive_fraction_ = float{ShareSums::unproven};
 };
 
 static_assert(IncidentRadiance<VmfMixture>);

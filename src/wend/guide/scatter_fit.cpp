@@ -127,7 +127,7 @@ ScatteredLight light_of(const ScatterSums& sums, const NearLight& near, const Re
     light.near = near;
     if (statistics.fluence_square > 0) {
         const double effective = sqr(statistics.fluence) / statistics.fluence_square;  // kish1965
-        light.trust = static_cast<float>(effective / (effective + enough));
+        light.confidence = static_cast<float>(effective / (effective + enough));
     }
     light.walked = {region.fluence(), mean_direction(region.mixture())};
     if (const float records = sums.all_records(); records > 0) {

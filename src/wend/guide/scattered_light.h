@@ -49,7 +49,7 @@ struct ScatteredLight {
     /// Part of what was connected.
     NearLight near;
     /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
-    float trust = 0;
+    float confidence = 0;
 
     /// ∫ p(before, ω) L(ω) dω, in radiance. The phase function is a PhaseFunction or one of its kinds.
     template <class Phase>
@@ -65,8 +65,8 @@ struct ScatteredLight {
 private:
     template <class Phase>
     float in_scattered(const Vec3& before, const Phase& phase, float share_of_connected) const {
-        return walked.fluence * phase.blurred(before, walked.mean) +
-               share_of_connected * connected.fluence * phase.blurred(before, connected.mean);
+        return walked.fluence * phase.convolved(before, walked.mean) +
+               share_of_connected * connected.fluence * phase.convolved(before, connected.mean);
     }
 };
 

@@ -79,7 +79,7 @@ void put(std::string& out, const Vec3& v) {
 void put_region(std::string& out, const Region& region) {
     put(out, region.reference());
     put(out, region.fluence());
-    put(out, region.classical_share());
+    put(out, region.defensive_fraction());
     put(out, region.mixture().size());
     for (int i = 0; i < region.mixture().size(); ++i) {
         const auto [weight, vmf] = region.mixture().lobe(i);
@@ -95,9 +95,10 @@ void put_region(std::string& out, const Region& region) {
 Region take_region(Reader& in) {
     const Vec3 reference = in.take_vector();
     const auto fluence = in.take_finite<float>();
-    const auto classical_share = in.take_finite<float>();
+    const auto defensive_fraction = in.take_finite<float>();
     const int size = in.take<int>();
-    Reader::require(size >= 1 && size <= max_lobes && fluence >= 0 && classical_share > 0 && classical_share <= 1);
+    Reader::require(size >= 1 && size <= max_lobes && fluence >= 0 && defensive_fraction > 0 &&
+                    defensive_fraction <= 1);
     std::array<WeightedVmf, max_lobes> lobes{};
     Lanes inverse_distance;
     LobeColours colours;
@@ -119,7 +120,7 @@ Region take_region(Reader& in) {
     Reader::require(total > 0);
     return {reference,        VmfMixture(std::span(lobes.data(), static_cast<std::size_t>(size))),
             inverse_distance, fluence,
-            colours,          classical_share};
+            colours,          defensive_fraction};
 }
 
 void put_statistics(std::string& out, const Statistics& statistics) {

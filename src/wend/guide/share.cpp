@@ -7,7 +7,7 @@ namespace {
 
 /// As effective records, what they assume unseen: of ways that only classical sampling finds, and that only the guide
 /// does. For these parts the parabola below is least at ShareSums::unproven.
-constexpr double doubting_records = 32, found_by_classical = 1.0 / 16, found_by_guide = 9.0 / 16;
+constexpr double prior_records = 32, found_by_classical = 1.0 / 16, found_by_guide = 9.0 / 16;
 
 /// Where the parabola through three points at x - h, x and x + h, the middle one the lowest, is least.
 double lowest(double x, double h, double left, double middle, double right) {
@@ -36,7 +36,7 @@ float ShareSums::best() const {
         return static_cast<float>(unproven);
     }
     // What one record says, where they differ: the sum over their effective number.
-    const double doubt = doubting_records * square / moment[half];
+    const double doubt = prior_records * square / moment[half];
     std::array<double, shares.size()> total = moment;
     for (std::size_t k = 0; k < shares.size(); ++k) {
         total[k] += doubt * (found_by_classical / shares[k] + found_by_guide / (1 - shares[k]));

@@ -11,11 +11,11 @@ constexpr std::string_view signature = "WENDFIELDS\n";
 
 }  // namespace
 
-void write_fields(const std::filesystem::path& file, const GuidingFields& fields) {
+void write_fields(const std::filesystem::path& file, const guide::Fields& fields) {
     write_parts(file, signature, std::array{guide::to_bytes(fields.surface), guide::to_bytes(fields.volume)});
 }
 
-GuidingFields read_fields(const std::filesystem::path& file) {
+guide::Fields read_fields(const std::filesystem::path& file) {
     const PartsFile parts(file, signature, 2, "guiding fields");
     return {parts.decode(0, guide::field_from_bytes), parts.decode(1, guide::field_from_bytes)};
 }

@@ -1,17 +1,17 @@
 // Files of guiding fields: what a render learned, to look at or to go on with.
 #pragma once
 
-#include <wend/integrator/training.h>
+#include <wend/guide/fields.h>
 
 #include <filesystem>
 
 namespace wend {
 
 /// Writes both fields of a render. The file appears whole or not at all.
-void write_fields(const std::filesystem::path& file, const GuidingFields& fields);
+void write_fields(const std::filesystem::path& file, const guide::Fields& fields);
 
 /// Reads them again, the same bit for bit. Throws InputError naming the file when it is missing, of another kind or
 /// version, truncated or changed.
-GuidingFields read_fields(const std::filesystem::path& file);
+guide::Fields read_fields(const std::filesystem::path& file);
 
 }  // namespace wend

@@ -159,9 +159,11 @@ public:
             check_count(element);
             if (element.name == "vertex") {
                 read_vertices(element);
+            } else if (element.properties.empty()) {
+                // It takes no bytes, however many it claims to have.
             } else if (element.name == "face") {
                 read_faces(element);
-            } else if (!element.properties.empty()) {
+            } else {
                 for (std::uint64_t i = 0; i < element.count; ++i) {
                     for (const Property& property : element.properties) {
                         skip(property);

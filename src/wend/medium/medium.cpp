@@ -45,8 +45,8 @@ GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& ind
       emission_(std::move(emission)) {
     WEND_EXPECT(min_value(absorption) >= 0 && min_value(scattering) >= 0);
     if (emission_) {
-        const auto glow = std::make_shared<const Glow>(box, index_from_world.inverse(),
-                                                       [this](const Vec3& p) { return mean_value(emitted_at(p)); });
+        const auto glow = std::make_shared<const EmissionSampler>(
+            box, index_from_world.inverse(), [this](const Vec3& p) { return mean_value(emitted_at(p)); });
         if (glow->power() > 0) {
             glow_ = glow;
         }

@@ -4,7 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/ray.h>
 #include <wend/core/transform.h>
-#include <wend/medium/glow.h>
+#include <wend/medium/emission_sampler.h>
 #include <wend/medium/grid.h>
 #include <wend/medium/majorant_grid.h>
 #include <wend/medium/phase.h>
@@ -60,7 +60,7 @@ public:
     const PhaseFunction& phase() const { return phase_; }
     const GridEmission* emission() const { return emission_.get(); }
     /// Where the medium can be connected to for its light; null where it emits none.
-    const Glow* glow() const { return glow_.get(); }
+    const EmissionSampler* glow() const { return glow_.get(); }
     /// Radiance emitted per unit length at a point in the world; the medium must have an emission.
     Rgb emitted_at(const Vec3& p) const {
         return absorption_ * emission_->at(p) * density_->interpolate(index_from_world_.point(p));
@@ -90,7 +90,7 @@ private:
     Rgb extinction_;
     PhaseFunction phase_;
     std::shared_ptr<const GridEmission> emission_;
-    std::shared_ptr<const Glow> glow_;
+    std::shared_ptr<const EmissionSampler> glow_;
 };
 
 /// The closed set of media.

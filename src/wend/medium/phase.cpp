@@ -54,10 +54,10 @@ double HenyeyGreensteinMixture::moment(int degree) const {
     return sum / static_cast<double>(total_);
 }
 
-float HenyeyGreensteinMixture::blurred(const Vec3& before, const Vec3& mean) const {
+float HenyeyGreensteinMixture::convolved(const Vec3& before, const Vec3& mean) const {
     float sum = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-        sum += weight_[i] * lobe_[i].blurred(before, mean);
+        sum += weight_[i] * lobe_[i].convolved(before, mean);
     }
     return sum / total_;
 }

@@ -39,7 +39,7 @@ struct HenyeyGreenstein {
 
     /// Convolved with a function of this kind with mean cosine length(mean), around the direction of `mean`, which is
     /// shorter than 1: the mean cosines multiply.
-    float blurred(const Vec3& before, const Vec3& mean) const {
+    float convolved(const Vec3& before, const Vec3& mean) const {
         const float square = std::min(g * g * dot(mean, mean), 0.9999f);
         const float d = std::max(1 + square - 2 * g * dot(before, mean), 1e-8f);
         return inv_4pi * (1 - square) / (d * std::sqrt(d));
@@ -64,7 +64,7 @@ public:
     float mean_cosine() const;
     bool is_isotropic() const;
     double moment(int degree) const;
-    float blurred(const Vec3& before, const Vec3& mean) const;
+    float convolved(const Vec3& before, const Vec3& mean) const;
 
 private:
     int count_ = 0;
@@ -108,8 +108,8 @@ public:
     }
     /// ∫ p(before, ω) h(ω) dω for Henyey and Greenstein's function h around the direction of `mean`, whose mean cosine
     /// is the length of `mean`, less than 1.
-    float blurred(const Vec3& before, const Vec3& mean) const {
-        return std::visit([&](const auto& p) { return p.blurred(before, mean); }, kind_);
+    float convolved(const Vec3& before, const Vec3& mean) const {
+        return std::visit([&](const auto& p) { return p.convolved(before, mean); }, kind_);
     }
     /// Its picture in von Mises-Fisher lobes (phase_lobes.h), given the direction of propagation before the collision.
     AxialLobes lobes(const Vec3& before) const { return lobes_.around(before); }

@@ -66,7 +66,7 @@ float vmf_mean_cosine(float kappa);
 /// outside [0, 1) are clamped; the result is at most Vmf::max_kappa.
 float vmf_kappa(float mean_cosine);
 
-/// The lobe blurred by another of concentration `kappa`, approximately: the kind is not closed under convolution, but
+/// The lobe convolved by another of concentration `kappa`, approximately: the kind is not closed under convolution, but
 /// mean cosines multiply exactly.
 Vmf convolve(const Vmf& lobe, float kappa);
 

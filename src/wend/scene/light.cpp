@@ -119,9 +119,9 @@ std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Ve
                    light);
 }
 
-std::optional<LightSample> sample(const GlowLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32& random) {
-    const Glow& glow = *l.grid->glow();
-    const Glow::Sample point = glow.sample(u, random.uniform());
+std::optional<LightSample> sample(const MediumLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32& random) {
+    const EmissionSampler& glow = *l.grid->glow();
+    const EmissionSampler::Sample point = glow.sample(u, random.uniform());
     const float distance = length(point.position - p);
     const Rgb radiance = l.grid->emitted_at(point.position) * glow.unit();
     if (!(distance > 0) || is_black(radiance)) {
@@ -166,8 +166,8 @@ float light_density(const Light& light, const Vec3& p, const Vec3& direction, co
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->density(direction);
     }
-    if (const auto* glowing = std::get_if<GlowLight>(&light)) {
-        const Glow& glow = *glowing->grid->glow();
+    if (const auto* glowing = std::get_if<MediumLight>(&light)) {
+        const EmissionSampler& glow = *glowing->grid->glow();
         return glow.seen_from(p, hit, glow.density(hit));
     }
     return 0;
@@ -214,7 +214,7 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const QuadricLight& l) const {
             return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean(l.radiance);
         }
-        float operator()(const GlowLight& l) const { return 4 * pi * l.grid->glow()->power(); }
+        float operator()(const MediumLight& l) const { return 4 * pi * l.grid->glow()->power(); }
     };
     return std::visit(Power{pi * scene_radius * scene_radius}, light);
 }

@@ -85,14 +85,14 @@ struct QuadricLight {
 };
 
 /// A heterogeneous medium that glows. Connections lead to points in it, whose radiance is that of a line as long as
-/// the unit of Glow, and whose density is per steradian and such a unit.
-struct GlowLight {
+/// the unit of EmissionSampler, and whose density is per steradian and such a unit.
+struct MediumLight {
     int medium;              ///< its index in the scene
     const GridMedium* grid;  ///< the same; its glow() is not null
 };
 
 using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight,
-                           QuadricLight, GlowLight>;
+                           QuadricLight, MediumLight>;
 
 /// A connection from `p` to the light; none where it cannot shine. `u` places it on the light, `random` in its depth.
 std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random);

@@ -90,7 +90,7 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
             }
             return b;
         }
-        Bounds operator()(const GlowLight& l) const {
+        Bounds operator()(const MediumLight& l) const {
             return {l.grid->glow()->bounds(), {0, 0, 1}, -1, 0, light_power(l, 0), false};
         }
         Bounds operator()(const DistantLight&) const { return {}; }

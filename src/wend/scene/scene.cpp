@@ -34,7 +34,7 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     regions_ = MediumRegions(d_);
     camera_medium_ = medium_of_camera();
     lights_ = d_.lights;
-    add_glowing_media();
+    add_emitting_media();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         if (is_at_infinity(lights_[i])) {
             infinite_lights_.push_back(static_cast<int>(i));
@@ -94,7 +94,7 @@ MediumState Scene::medium_of_camera() const {
     return state;
 }
 
-void Scene::add_glowing_media() {
+void Scene::add_emitting_media() {
     std::vector<bool> is_used(d_.media.size(), false);
     const auto use = [&](MediumId id) {
         if (id != vacuum) {
@@ -106,12 +106,12 @@ void Scene::add_glowing_media() {
         use(surface.interior);
         use(surface.exterior);
     }
-    glow_lights_.assign(d_.media.size(), -1);
+    medium_lights_.assign(d_.media.size(), -1);
     for (std::size_t id = 0; id < d_.media.size(); ++id) {
         const auto* grid = std::get_if<GridMedium>(&d_.media[id]);
         if (grid && grid->glow() && is_used[id]) {
-            glow_lights_[id] = static_cast<int>(lights_.size());
-            lights_.push_back(GlowLight{static_cast<int>(id), grid});
+            medium_lights_[id] = static_cast<int>(lights_.size());
+            lights_.push_back(MediumLight{static_cast<int>(id), grid});
         }
     }
 }

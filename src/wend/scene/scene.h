@@ -151,7 +151,7 @@ public:
     /// Those of the description, and then the media that glow.
     const std::vector<Light>& lights() const { return lights_; }
     /// The light that a medium is, as an index of lights(); -1: none.
-    int glow_light(MediumId id) const { return glow_lights_[static_cast<std::size_t>(id)]; }
+    int medium_light(MediumId id) const { return medium_lights_[static_cast<std::size_t>(id)]; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }
     /// Whether there are lights that only connections find.
     bool has_point_like_lights() const { return has_point_like_lights_; }
@@ -160,7 +160,7 @@ public:
     const Box3& bounds() const { return bounds_; }
 
 private:
-    void add_glowing_media();
+    void add_emitting_media();
     MediumState medium_of_camera() const;
 
     SceneDescription d_;
@@ -170,7 +170,7 @@ private:
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<Light> lights_;
     std::vector<SurfaceElement> flat_lights_;  ///< by light
-    std::vector<int> glow_lights_;             ///< by medium
+    std::vector<int> medium_lights_;           ///< by medium
     std::vector<int> infinite_lights_;
     bool has_point_like_lights_ = false;
     Box3 bounds_;

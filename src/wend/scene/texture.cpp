@@ -1,6 +1,6 @@
 #include <wend/core/contracts.h>
+#include <wend/planar/albedo_inversion.h>
 #include <wend/scene/texture.h>
-#include <wend/theory/albedo_inversion.h>
 
 #include <algorithm>
 #include <cmath>

@@ -143,7 +143,7 @@ bool is_dark(const Light& light) {
         bool operator()(const UniformInfiniteLight& l) const { return is_black(l.radiance); }
         bool operator()(const TriangleLight& l) const { return is_black(l.radiance); }
         bool operator()(const QuadricLight& l) const { return is_black(l.radiance); }
-        bool operator()(const GlowLight& l) const { return !(l.grid->glow()->power() > 0); }
+        bool operator()(const MediumLight& l) const { return !(l.grid->glow()->power() > 0); }
     };
     return std::visit(Dark{}, light);
 }

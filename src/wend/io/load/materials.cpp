@@ -3,7 +3,7 @@
 #include <wend/io/load/media.h>
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
-#include <wend/theory/albedo_inversion.h>
+#include <wend/planar/albedo_inversion.h>
 
 #include <fmt/format.h>
 

@@ -121,8 +121,9 @@ std::shared_ptr<const Grid> make_grid(LoadContext& context, const std::vector<fl
 }
 
 /// A medium that glows by its temperature. `scale` multiplies the black body.
-std::shared_ptr<GridEmission> make_glow(const pbrt::ParameterSet& p, std::shared_ptr<const Grid> temperature,
-                                        const Transform& index_from_world, float scale) {
+std::shared_ptr<GridEmission> make_emission_sampler(const pbrt::ParameterSet& p,
+                                                    std::shared_ptr<const Grid> temperature,
+                                                    const Transform& index_from_world, float scale) {
     auto emission = std::make_shared<GridEmission>();
     emission->radiance = Rgb(scale);
     emission->field_from_world = AffineMap(index_from_world);
@@ -160,7 +161,7 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
             context.warnings.add(p.place_of(scales_name),
                                  "a grid of emission scales beside one of temperatures is ignored");
         }
-        return make_glow(p, grid_of(temperature, "temperature"), index_from_world, scale);
+        return make_emission_sampler(p, grid_of(temperature, "temperature"), index_from_world, scale);
     }
     if (is_black(emitted)) {
         return nullptr;
@@ -269,8 +270,8 @@ Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) 
         }
     }
     if (temperature) {
-        emission = make_glow(p, std::make_shared<const Grid>(std::move(temperature->grid)),
-                             temperature->world_from_index.inverse() * medium_from_world, scale);
+        emission = make_emission_sampler(p, std::make_shared<const Grid>(std::move(temperature->grid)),
+                                         temperature->world_from_index.inverse() * medium_from_world, scale);
     }
     const Vec3i first = density.grid.first();
     const Vec3i last = first + density.grid.size();

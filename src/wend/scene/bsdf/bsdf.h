@@ -18,7 +18,7 @@ struct BsdfSample {
     Rgb value;          ///< BSDF times cosine (for specular: the coefficient times `density`)
     float density = 0;  ///< per steradian; a probability if specular
     bool specular = false;
-    float boost = 1;  ///< density over what it would be without DielectricBsdf::odds
+    float density_ratio = 1;  ///< density over what it would be without DielectricBsdf::odds
 };
 
 /// Ideal diffuse reflection.

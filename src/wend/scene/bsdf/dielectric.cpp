@@ -95,31 +95,31 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const 
     const float f = fresnel_dielectric(dot(wo, m), ior);
     const float reflection = reflection_probability(f);
     if (u < reflection) {
-        const float boost = reflection / f;
+        const float density_ratio = reflection / f;
         const Vec3 wi = m * (2 * dot(wo, m)) - wo;
         if (specular) {
-            return BsdfSample{wi, Rgb(f), reflection, true, boost};
+            return BsdfSample{wi, Rgb(f), reflection, true, density_ratio};
         }
         const float p = density(wo, wi);
         if (!(wo.z * wi.z > 0) || !(p > 0)) {
             return std::nullopt;
         }
-        return BsdfSample{wi, evaluate(wo, wi), p, false, boost};
+        return BsdfSample{wi, evaluate(wo, wi), p, false, density_ratio};
     }
     const auto refraction = refract(wo, m, ior);
     if (!refraction || wo.z * refraction->direction.z > 0 || refraction->direction.z == 0) {
         return std::nullopt;
     }
     const Vec3& wi = refraction->direction;
-    const float boost = (1 - reflection) / (1 - f);
+    const float density_ratio = (1 - reflection) / (1 - f);
     if (specular) {
-        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - reflection, true, boost};
+        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - reflection, true, density_ratio};
     }
     const float p = density(wo, wi);
     if (!(p > 0)) {
         return std::nullopt;
     }
-    return BsdfSample{wi, evaluate(wo, wi), p, false, boost};
+    return BsdfSample{wi, evaluate(wo, wi), p, false, density_ratio};
 }
 
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {

@@ -1,0 +1,129 @@
+// Decision 3: how many continuations a walk has. Fewer than one is Russian roulette, more is splitting.
+#pragma once
+
+#include <wend/core/colour.h>
+#include <wend/decision/weight_window.h>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <optional>
+
+namespace wend {
+
+/// What a walk knows of itself when it decides whether to go on.
+struct WalkState {
+    Rgb throughput;
+    /// Product of the boosts of guided directions (DirectionSample::density_ratio): throughput times density_ratio is
+    /// what the walk would carry had it gone the same way unguided. A direction that is rich in light is drawn often
+    /// and so has little weight; to end it for that would undo the guiding.
+    float density_ratio = 1;
+    /// Product of the squared ratios of refractive indices passed: radiance is scaled by them on the way, its
+    /// importance is not.
+    float index_scale = 1;
+    int depth = 0;  ///< vertices so far
+    /// Nothing is known of what to expect here, at a mirror or a boundary that refracts, but elsewhere.
+    bool is_judged_elsewhere = false;
+};
+
+/// What is known of a walk at a vertex before its direction is drawn.
+struct ExpectedContribution {
+    /// The walk's expected contribution from here on, over the value that it estimates.
+    std::optional<float> ratio;
+    /// What the walk carries over what it began with: the throughput's mean over the channels, times
+    /// WalkState::index_scale.
+    float weight = 1;
+    int room = 1;  ///< for continuations, at least 1
+};
+
+/// Is asked twice at a vertex. `before_direction`: how many directions to draw; nothing if that is to be judged by the
+/// weight, once a direction is drawn. Then `after_direction` tells the probability of going on, at most 1.
+template <class D>
+concept RouletteSplittingDecision = requires(const D& d, const ExpectedContribution& outlook, Pcg32& random,
+                                             const WalkState& state) {
+    { d.before_direction(outlook, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
+    { d.after_direction(state) } -> std::same_as<float>;
+};
+
+/// Classical roulette: survive in proportion to the throughput that unguided directions would have left, once the walk
+/// has made a start and has less than `ends_below` of it.
+class ClassicalRoulette {
+public:
+    /// Ends walks as absorption would, from their first loss on.
+    constexpr ClassicalRoulette() = default;
+    /// In (0,1].
+    constexpr explicit ClassicalRoulette(float ends_below) : ends_below_(ends_below) {}
+
+    /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
+    static constexpr float max_density_ratio = 1e4f;
+
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& /*outlook*/,
+                                                          Pcg32& /*random*/) const {
+        return std::nullopt;
+    }
+    float after_direction(const WalkState& state) const {
+        if (state.depth <= 1) {
+            return 1;
+        }
+        return std::min(1.0f, max_value(state.throughput) * std::min(state.density_ratio, max_density_ratio) *
+                                  state.index_scale / ends_below_);
+    }
+
+private:
+    float ends_below_ = 1;
+};
+
+/// Classical roulette of a guided walk. It is on its way to light, and to end it at its first losses would be a noise
+/// that its directions had just avoided. An eighth is a compromise over several scenes (docs/experiments/survival.md).
+inline constexpr ClassicalRoulette guided_walks_end{1.0f / 8};
+
+/// Roulette and splitting by expected contribution (vorba2016), classical roulette where it is not known. Of walks that
+/// are judged elsewhere that ends but the worthless: what it lets through would come back with many times its weight.
+///
+/// A walk gets heavier than it began only on ways that were drawn less often than scattering would have it, since
+/// little was expected of them; should they lead to light all the same, it stands out. So the window's upper edge holds
+/// for its weight too, known contribution or not. As weights do not grow in the mean, few walks are so heavy.
+class AdjointRouletteSplitting {
+public:
+    /// With either of the two off, its side of the window is open. `sample_variance`: of one sample of a pixel,
+    /// relative and as a mean over the picture, >= 0.
+    ///
+    /// Where it is low, roulette is reluctant. By rath2022 the probability that pays best follows the root of what the
+    /// rest of a walk has in second moment, over cost, relative to what a sample has in variance. The second
+    /// moment of a sample is 1 + V; taking its rest to have it too, all else being equal, leaves sqrt((1 + V) / V).
+    AdjointRouletteSplitting(bool roulette, bool splitting, double sample_variance)
+        : roulette_(roulette), splitting_(splitting) {
+        window_.low *= std::max(least_roulette, 1 / std::sqrt(1 + 1 / sample_variance));
+    }
+
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& outlook, Pcg32& random) const {
+        std::optional<float> ratio = outlook.ratio;
+        if (splitting_ && outlook.weight > window_.high) {
+            ratio = std::max(outlook.weight, ratio.value_or(0));
+        }
+        if (!ratio || (*ratio < window_.low && !roulette_) || (*ratio > window_.high && !splitting_)) {
+            return std::nullopt;
+        }
+        WeightWindow window = window_;
+        window.most = std::min(window.most, outlook.room);
+        return window.sample(*ratio, random);
+    }
+    float after_direction(const WalkState& state) const {
+        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end)
+            .after_direction(state);
+    }
+
+private:
+    /// Where there is no noise, walks have to end all the same.
+    static constexpr double least_roulette = 0.1;
+
+    bool roulette_, splitting_;
+    /// An estimate learned from noise calls too much worthless: what survives a less likely roulette would stand out.
+    WeightWindow window_{.least = 0.5};
+    ClassicalRoulette worthless_walks_end_{1e-4f};
+};
+
+static_assert(RouletteSplittingDecision<ClassicalRoulette>);
+static_assert(RouletteSplittingDecision<AdjointRouletteSplitting>);
+
+}  // namespace wend

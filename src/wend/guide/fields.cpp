@@ -1,0 +1,20 @@
+#include <wend/guide/fields.h>
+#include <wend/guide/fit.h>
+#include <wend/guide/join_alike.h>
+#include <wend/guide/scatter_fit.h>
+
+#include <utility>
+
+namespace wend::guide {
+
+Fields learn(const Fields& fields, std::vector<PathRecords> records, int threads) {
+    const PathRecords all = PathRecords::joined(std::move(records));
+    const auto next = [&](const Field& field, const Records& arrived, const ScatterRecords& scattered) {
+        const FitSettings settings;
+        return fit_scattered(fit(field, arrived, settings, threads).field, scattered, settings.decay, threads);
+    };
+    return {next(fields.surface, all.surface(), all.surface_scattered()),
+            join_alike(next(fields.volume, all.volume(), all.volume_scattered()))};
+}
+
+}  // namespace wend::guide

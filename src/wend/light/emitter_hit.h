@@ -1,0 +1,123 @@
+// Light that a walk runs into, weighted against the connections that could have found it.
+#pragma once
+
+#include <wend/decision/channels.h>
+#include <wend/decision/distance.h>
+#include <wend/light/light_selection.h>
+#include <wend/light/specular_chain.h>
+#include <wend/scene/scene.h>
+
+namespace wend {
+
+/// The last vertex of a walk and the way from there, as multiple importance sampling wants it.
+struct LastVertex {
+    LightReceiver receiver{};
+    /// Whether nothing was connected to lights there: before the first vertex, and after a mirror.
+    bool unconnected = true;
+    /// Of the direction drawn there, per steradian, times what it counts for against connections.
+    float density = 0;
+    /// How often it was connected, straight and along ways that boundaries refract, as a mean.
+    float connected = 1;
+    float connected_through = 0;
+    /// Probabilities of the walk's colour channels, and under each of them of flying as far as the walk has.
+    Rgb channels;
+    Rgb pass_probability;
+    /// The direction drawn there, in which medium that is, and how often the walk was refracted since, where it met
+    /// nothing else.
+    Vec3 direction{0, 0, 1};
+    MediumState medium;
+    int refractions = 0;
+
+    float own_density() const { return density * dot(channels, pass_probability); }
+};
+
+/// Light with its weight of multiple importance sampling.
+struct EmitterHit {
+    Rgb radiance;
+    float by_connections = 0;  ///< the same, the part left to connections
+
+    void add(const Rgb& emitted, float weight) {
+        radiance += emitted * weight;
+        by_connections += mean_value(emitted) * weight * (1 - weight);
+    }
+};
+
+/// Answers for walks that go from a last vertex into a direction.
+class EmitterHits {
+public:
+    EmitterHits(const Scene& scene, const LightSelection& choices) : scene_(scene), choices_(choices) {}
+
+    /// Of a surface that shines.
+    EmitterHit at(const Hit& hit, const LastVertex& last, const Vec3& direction) const {
+        EmitterHit arriving;
+        const Rgb emitted =
+            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -direction);
+        if (!is_black(emitted)) {
+            arriving.add(emitted, weight(hit.light, last, direction, hit.position, hit.normal));
+        }
+        return arriving;
+    }
+
+    /// From beyond the scene.
+    EmitterHit beyond(const LastVertex& last, const Vec3& direction) const {
+        EmitterHit arriving;
+        for (const int light : scene_.infinite_lights()) {
+            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], direction);
+            if (!is_black(emitted)) {
+                arriving.add(emitted, weight(light, last, direction, {}, {}));
+            }
+        }
+        return arriving;
+    }
+
+    /// What a flight through a medium may keep of its light.
+    EmissionShare in(MediumId medium, const LastVertex& last) const {
+        const int light = scene_.medium_light(medium);
+        if (light < 0 || last.unconnected || last.refractions > 0) {
+            return {};
+        }
+        return {std::get<MediumLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
+                last.receiver.position, last.own_density(),
+                last.connected * choices_.probability(last.receiver, light)};
+    }
+
+private:
+    float weight(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
+        if (last.unconnected) {
+            return 1;
+        }
+        const float other =
+            choices_.probability(last.receiver, light) *
+            (last.refractions > 0 ? last.connected_through * refracted_density(light, last, direction, hit, normal)
+                                  : last.connected * density(light, last, direction, hit, normal));
+        const float own = last.own_density();
+        return own > 0 ? own / (own + other) : 0.0f;
+    }
+
+    float density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
+        return light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position, direction, hit,
+                             normal);
+    }
+
+    /// Of the first direction of a refracted way that ends with `direction`: 0 where connections do not find it.
+    float refracted_density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit,
+                            const Vec3& normal) const {
+        const Light& source = scene_.lights()[static_cast<std::size_t>(light)];
+        const bool is_far = is_at_infinity(source);
+        const Vec3 straight = is_far ? direction : normalize(hit - last.receiver.position);
+        if (!is_seen_through_boundaries(source) || (!is_far && is_black(emitted_radiance(source, normal, -straight)))) {
+            return 0;
+        }
+        const float distance = is_far ? infinity : length(hit - last.receiver.position);
+        const auto way = find_specular_chain(scene_, {last.receiver.position, straight}, distance, last.medium);
+        constexpr float same = 1e-3f;
+        return way && way->refractions == last.refractions && length(way->direction - last.direction) < same
+                   ? way->density_ratio * density(light, last, straight, hit, normal)
+                   : 0.0f;
+    }
+
+    const Scene& scene_;
+    const LightSelection& choices_;
+};
+
+}  // namespace wend

@@ -1,0 +1,142 @@
+// One pass over the picture, tile by tile.
+#pragma once
+
+#include <wend/film/film.h>
+#include <wend/render/render.h>
+#include <wend/transport/path_tracer.h>
+#include <wend/transport/subsurface_guides.h>
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+namespace wend {
+
+/// A block of pixels, rendered by one thread at a time.
+struct Tile {
+    PixelRect pixels;
+    WalkCounts counts;
+    guide::PathRecords records;
+    SecondMoments interior_walks;
+    std::vector<LightRecord> lights;
+    std::vector<ReflectionRecord> reflections;
+};
+
+inline std::vector<Tile> tiles_of(const PixelRect& crop) {
+    constexpr int side = 16;
+    std::vector<Tile> tiles;
+    for (int y = crop.min.y; y < crop.max.y; y += side) {
+        for (int x = crop.min.x; x < crop.max.x; x += side) {
+            tiles.push_back(
+                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}, {}});
+        }
+    }
+    return tiles;
+}
+
+/// What one pass does.
+struct PassPlan {
+    int first;  ///< sample of each pixel
+    int count;
+    bool record;
+    bool record_interior_walks;
+    bool record_lights;
+    bool record_reflections;
+    /// Of the walks, those whose vertices are recorded.
+    double recorded_share;
+    /// Of each pixel of the crop, without exposure; empty where not known.
+    std::vector<float> estimates;
+};
+
+/// One pass, with the same decisions for all walks.
+template <class Decisions>
+class Pass {
+public:
+    Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
+         const SubsurfaceGuides& subsurface, const LightSelection& lights, const ReflectionProbability& reflections,
+         const CausticPhotons& caustics, const PassPlan& plan, const std::atomic<bool>& stop)
+        : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth, &stop),
+          subsurface_(subsurface),
+          caustics_(caustics),
+          camera_(scene.camera()),
+          film_(film),
+          settings_(settings),
+          plan_(plan),
+          stop_(stop) {}
+
+    void run(Tile& tile) const {
+        guide::PathLog log;
+        std::vector<InteriorWalkRecord> interior_walks;
+        for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
+            for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
+                for (int i = 0; i < plan_.count && !stop_; ++i) {
+                    sample({x, y}, plan_.first + i, tile, log, interior_walks);
+                }
+            }
+        }
+    }
+
+private:
+    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log,
+                std::vector<InteriorWalkRecord>& interior_walks) const {
+        const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
+                            static_cast<std::uint64_t>(pixel.x);
+        Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
+        const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
+        const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
+                              static_cast<float>(pixel.y) + 0.5f + place.offset.y);
+        const Ray ray = camera_.ray(film_point, sampler.uniform2());
+        const bool is_recorded = records_walk(number, index);
+        WalkResult result = tracer_.trace(
+            ray, estimate(pixel), sampler,
+            {is_recorded && plan_.record ? &log : nullptr, plan_.record_interior_walks ? &interior_walks : nullptr,
+             is_recorded && plan_.record_lights ? &tile.lights : nullptr,
+             is_recorded && plan_.record_reflections ? &tile.reflections : nullptr, &caustics_});
+        if (stop_) {
+            return;  // the walk may be a part of one
+        }
+        for (const InteriorWalkRecord& interior_walk : std::exchange(interior_walks, {})) {
+            subsurface_.count(interior_walk, tile.interior_walks);
+        }
+        ++tile.counts.paths;
+        tile.counts.segments += result.sample.segments;
+        if (!is_finite(result.sample.radiance)) {
+            ++tile.counts.rejected;
+            film_.reject(pixel);
+            return;
+        }
+        if (is_recorded && plan_.record) {
+            // More vertices of one walk say little that is new: they are correlated.
+            constexpr std::size_t most_records = 64;
+            tile.records.add(log.vertices(), most_records);
+            tile.records.add_hints(log.hints(), most_records);
+        }
+        result.sample.radiance *= place.weight * settings_.exposure;
+        film_.add(pixel, result.sample);
+    }
+
+    /// By a number of its own: what a walk does must not depend on whether it is recorded.
+    bool records_walk(std::uint64_t pixel, int index) const {
+        constexpr std::uint64_t purpose = 0x7265636f7264;
+        return Pcg32(hash_of(settings_.seed, pixel, index, purpose)).uniform_double() < plan_.recorded_share;
+    }
+
+    float estimate(const Vec2i& pixel) const {
+        const PixelRect& crop = film_.crop();
+        return plan_.estimates.empty() ? 0.0f
+                                       : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
+                                                             static_cast<std::size_t>(crop.width()) +
+                                                         static_cast<std::size_t>(pixel.x - crop.min.x)];
+    }
+
+    PathTracer<Decisions> tracer_;
+    const SubsurfaceGuides& subsurface_;
+    const CausticPhotons& caustics_;
+    const Camera& camera_;
+    Film& film_;
+    const RenderSettings& settings_;
+    const PassPlan& plan_;
+    const std::atomic<bool>& stop_;
+};
+
+}  // namespace wend

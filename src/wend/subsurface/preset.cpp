@@ -1,0 +1,47 @@
+#include <wend/core/error.h>
+#include <wend/subsurface/preset.h>
+
+#include <algorithm>
+
+namespace wend {
+namespace {
+
+struct Entry {
+    std::string_view name;
+    std::vector<InteriorStrategy> strategies;
+};
+
+const std::vector<Entry>& entries() {
+    using enum InteriorStrategy;
+    static const std::vector<Entry> table = {{"classical", {}},           {"dwivedi", {entry}}, {"closest", {closest}},
+                                             {"incident", {incident}},    {"planar", {planar}}, {"learned", {learned}},
+                                             {"auto", {closest, learned}}};
+    return table;
+}
+
+}  // namespace
+
+std::string subsurface_names() {
+    std::string names;
+    for (const Entry& e : entries()) {
+        names += (names.empty() ? "" : ", ") + std::string(e.name);
+    }
+    return names;
+}
+
+SubsurfacePreset parse_subsurface(std::string_view text) {
+    for (const Entry& e : entries()) {
+        if (e.name == text) {
+            return {e.strategies};
+        }
+    }
+    throw InputError("unknown subsurface sampling '" + std::string(text) + "': expected one of " + subsurface_names());
+}
+
+std::string to_string(const SubsurfacePreset& preset) {
+    const auto found = std::find_if(entries().begin(), entries().end(),
+                                    [&](const Entry& e) { return e.strategies == preset.strategies; });
+    return std::string(found->name);
+}
+
+}  // namespace wend

@@ -1,0 +1,59 @@
+// Which ways to sample an interior walk in a dense medium pay, by the place where it begins: learned from what interior
+// walks brought.
+#pragma once
+
+#include <wend/core/vector.h>
+#include <wend/subsurface/interior_walk_record.h>
+#include <wend/subsurface/second_moments.h>
+#include <wend/subsurface/technique_mix.h>
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace wend {
+
+/// Plans in a grid of cells.
+class TechniqueMixes {
+public:
+    TechniqueMixes(const Box3& box, const InteriorGuide::Shares& start);
+
+    int cell_at(const Vec3& entry) const;
+    const TechniqueMix& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
+    /// The interior walk with what it brought over what is expected in its cell, as errors of a picture count relative
+    /// to it, but no more than SecondMoments::most_expected. What moments are to be made of.
+    InteriorWalkRecord relative(const InteriorWalkRecord& interior_walk) const;
+
+    /// `moments` by cell, of relative() interior walks. Moves the logarithms of each share, and of the preference, down
+    /// the slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
+    /// interior walks began in follow all others. Where no connection has ever succeeded, behind a boundary that
+    /// refracts, hardly any is made. A strategy that has become useless is dropped, and so is one without which
+    /// variance times cost is clearly less, as others do the same; classical sampling keeps a share that bounds all
+    /// weights. A few interior walks are left unguided, to compare variance times cost. Where that is clearly less for
+    /// those that follow the learned field all are from then on, and if `next` is rendering unless it is clearly more.
+    void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
+
+private:
+    struct Brought {
+        double interior_walks = 0, light = 0;
+    };
+    /// Everywhere.
+    Brought all_brought() const;
+    /// Techniques beside classical sampling that have a share anywhere.
+    std::vector<std::size_t> strategies() const;
+    /// Learns what interior walks bring.
+    void expect(const std::map<int, SecondMoments::Sums>& moments);
+
+    static constexpr int side = 6;
+
+    Box3 box_;
+    std::vector<TechniqueMix> plans_;
+    NextWalks seen_ = NextWalks::beside_classical;
+    bool is_given_up_ = false;
+    std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
+    std::vector<float> expected_;   // by cell; empty before the first lesson
+    bool connects_ = false;
+    bool connects_through_ = false;
+};
+
+}  // namespace wend

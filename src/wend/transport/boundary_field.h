@@ -1,0 +1,86 @@
+// Where the boundary of a dense medium is, and from where it is lit, seen from inside.
+#pragma once
+
+#include <wend/subsurface/layer_guide.h>
+#include <wend/transport/boundary_light.h>
+
+#include <vector>
+
+namespace wend {
+
+/// A direction in which more light is to be expected, and how fast the light grows that way.
+struct InteriorAim {
+    Vec3 normal{0, 0, 1};
+    float steepness = 1;  ///< decay over that of a wide plane, in [0, 1]
+};
+
+/// How fast light falls off inwards at a depth beneath a curved boundary, over its `decay` beneath a plane: in a ball
+/// lit evenly the fluence at a distance r from the centre is sinh(decay r) / r, which falls off L(decay r) times as
+/// fast, L(x) = coth x - 1/x. 1 in hollows.
+float steepness(float decay, float curvature, float depth);
+
+/// Tables over a grid around an object, made once from points of its boundary. They only guide: an object may be open
+/// or badly oriented.
+class BoundaryField {
+public:
+    /// `box` holds all points; `decay`, per scene unit: how fast light falls off inside.
+    BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads);
+
+    class View;
+    /// What is known where a walk is; the field is referred to.
+    View at(const Vec3& position) const;
+    /// Over the whole boundary, that of its points.
+    float mean_curvature() const;
+    /// Whether a lamp shines on any of its points.
+    bool sees_emitters() const;
+
+private:
+    static constexpr int side = 24;
+    static constexpr int candidates = 6;
+    struct Cell {
+        std::array<std::uint16_t, candidates> nearest;
+        InteriorAim incident;
+        float irradiance = 0;  ///< mean over the boundary, as it counts from here
+    };
+    std::size_t cell_at(const Vec3& position) const;
+    std::size_t closest_point(const Cell& cell, const Vec3& position) const;
+    /// Square of that to the flat piece of surface that a point stands for.
+    float distance2_to(std::size_t point, const Vec3& position) const;
+
+    Box3 box_;
+    float decay_;    ///< beneath a plane
+    float spacing_;  ///< of the points
+    std::vector<LitPoint> points_;
+    std::vector<BoundaryPoint> places_;  ///< of the points, side by side for the search
+    std::vector<Cell> cells_;
+};
+
+/// A place within the field.
+class BoundaryField::View {
+public:
+    View(const LitPoint& closest, const Cell& cell, const Vec3& position, float decay)
+        : closest_(closest),
+          cell_(cell),
+          decay_(decay),
+          depth_(dot(closest.point.position - position, closest.point.normal)) {}
+
+    /// The outward normal of the nearest piece of boundary, and how steep it is for its curvature.
+    InteriorAim closest() const { return {closest_.point.normal, steepness(decay_, closest_.curvature, depth_)}; }
+    /// The layer between that piece and the boundary behind it.
+    LayerPlace layer() const;
+    /// The direction in which the light grows that diffuses inwards from all boundary points, each as a source of
+    /// exp(-decay r) / r: with many lights around they share one direction, and where they cancel it has little
+    /// steepness (after meng2016, who draws one of the normals).
+    const InteriorAim& incident() const { return cell_.incident; }
+    /// The lamps seen from the nearest piece of boundary, and the diffuse light: of the irradiance around, `returned`
+    /// is the radiance that comes back at the boundary, by channel, and falls off with `decay`, per scene unit.
+    EmitterView lamps(const Rgb& returned, const Rgb& decay) const;
+
+private:
+    const LitPoint& closest_;
+    const Cell& cell_;
+    float decay_;
+    float depth_;
+};
+
+}  // namespace wend

@@ -1,0 +1,207 @@
+#include <wend/core/parallel.h>
+#include <wend/decision/channels.h>
+#include <wend/medium/fresnel.h>
+#include <wend/planar/half_space.h>
+#include <wend/planar/lit_layers.h>
+#include <wend/subsurface/half_space_modes.h>
+#include <wend/transport/subsurface_guides.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace wend {
+namespace {
+
+constexpr float defensive_fraction = 0.25f;
+
+// Points of a boundary, and rays for the light that each gets.
+constexpr int points_of_boundary = 1024;
+constexpr int rays_to_lights = 64;
+
+// Mean free paths in a mean chord from which on a medium is dense: below, most walks end after a few collisions, and
+// there is little to guide.
+constexpr float least_depth = 4;
+// Nor where nearly all that collides is absorbed; or where the phase function is too peaked for a direction to matter.
+constexpr float least_scattering = 0.2f;
+constexpr float most_peaked = 0.96f;
+
+bool may_be_dense(const HomogeneousMedium& medium) {
+    const Rgb extinction = medium.extinction();
+    return is_black(medium.emission) && max_value(medium.scattering) > least_scattering * max_value(extinction) &&
+           std::abs(medium.phase.mean_cosine()) < most_peaked;
+}
+
+bool looks_around(InteriorStrategy strategy) {
+    return strategy != InteriorStrategy::entry;
+}
+
+/// That of the first surface around a medium.
+BoundarySurface surface_of_boundary(const SceneDescription& scene, MediumId medium) {
+    const auto found = std::find_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+        return (surface.interior == medium) != (surface.exterior == medium);
+    });
+    if (found == scene.surfaces.end()) {
+        return {};
+    }
+    const auto* dielectric =
+        std::get_if<DielectricMaterial>(&scene.materials[static_cast<std::size_t>(found->material)]);
+    if (!dielectric) {
+        return {};
+    }
+    const float roughness = scene.textures.evaluate_grey(dielectric->roughness.u, {});
+    return {std::clamp(dielectric->ior, 1.0f, 3.0f), dielectric->roughness.remap ? safe_sqrt(roughness) : roughness};
+}
+
+/// The rates of decay of diffuse light, per scene unit.
+Rgb decay_of(const InteriorGuide& guide) {
+    Rgb decay;
+    for (int c = 0; c < 3; ++c) {
+        decay[c] = guide.mode(std::min(c, guide.channels() - 1), guide.level(1)).k() * guide.medium.extinction()[c];
+    }
+    return decay;
+}
+
+/// Of an irradiance on the boundary, the radiance that a walk may expect inside that turns away from it.
+Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary) {
+    const double g = medium.phase.mean_cosine();
+    const double inner = boundary.ior > 1 ? static_cast<double>(fresnel_diffuse_reflectance(1 / boundary.ior)) : 0.0;
+    Rgb result;
+    for (int c = 0; c < 3; ++c) {
+        const float extinction = medium.extinction()[c];
+        if (extinction == 0) {
+            result[c] = 0;
+            continue;
+        }
+        const double albedo = static_cast<double>(medium.scattering[c] / extinction);
+        const double reflected = diffuse_reflectance(std::clamp(albedo * (1 - g) / (1 - albedo * g), 0.05, 1.0));
+        result[c] = static_cast<float>(reflected / (1 - inner * reflected) / std::numbers::pi);
+    }
+    return result;
+}
+
+/// One of each channel. `decay` is that of diffuse light.
+std::vector<LayerGuide> layers_of(const HomogeneousMedium& medium, const Rgb& decay, const BoundarySurface& boundary,
+                                  float curvature, int channels, int threads) {
+    std::vector<LayerGuide> layers(static_cast<std::size_t>(channels));
+    const double g = medium.phase.mean_cosine(), ior = static_cast<double>(boundary.ior);
+    parallel_for(layers.size(), threads, [&](std::size_t i) {
+        const int c = static_cast<int>(i);
+        const double extinction = medium.extinction()[c];
+        const double albedo = static_cast<double>(medium.scattering[c]) / extinction;
+        // By diffusion theory the square of the decay is in proportion to 1 - albedo.
+        const double flat = steepness(decay[c], curvature, 0);
+        layers[i] = LayerGuide(extinction, g, lit_layers(1 - flat * flat * (1 - albedo), g, ior));
+    });
+    return layers;
+}
+
+}  // namespace
+
+SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
+    : strategies_(preset.strategies) {
+    if (preset.is_classical()) {
+        return;
+    }
+    media_.resize(scene.media().size());
+    for (std::size_t id = 0; id < media_.size(); ++id) {
+        const auto* medium = std::get_if<HomogeneousMedium>(&scene.media()[id]);
+        if (!medium || !may_be_dense(*medium)) {
+            continue;
+        }
+        Pcg32 random(id);
+        const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
+        const float depth =
+            mean_chord(scene, static_cast<MediumId>(id), points, random) * mean_value(medium->extinction());
+        if (!points.empty() && depth >= least_depth) {
+            media_[id] = explore(scene, static_cast<MediumId>(id), *medium, points, random, threads);
+        }
+    }
+}
+
+auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
+                               const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const
+    -> std::unique_ptr<Dense> {
+    const auto slot_of = [this](InteriorStrategy strategy) {
+        const auto found = std::find(strategies_.begin(), strategies_.end(), strategy);
+        return found == strategies_.end() ? -1 : static_cast<int>(found - strategies_.begin());
+    };
+    InteriorGuide guide =
+        slab_guide(medium, half_space_modes(medium), static_cast<int>(strategies_.size()), defensive_fraction);
+    const Box3 box = bounds_of(points);
+    const BoundarySurface boundary = surface_of_boundary(scene.description(), id);
+    const Rgb decay = decay_of(guide);
+    std::optional<BoundaryField> field;
+    if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
+        field.emplace(box, lit_points(scene, id, points, boundary, rays_to_lights, random), min_value(decay), threads);
+    }
+    // A channel that nothing hits has no layers.
+    const int layered = slot_of(InteriorStrategy::planar);
+    if (layered >= 0 && min_value(medium.extinction()) > 0) {
+        guide.layered = layered;
+        guide.layers = layers_of(medium, decay, boundary, field->mean_curvature(), guide.channels(), threads);
+    }
+    guide.lit = field && field->sees_emitters() ? slot_of(InteriorStrategy::learned) : -1;
+    guide.connects_at_boundary = !boundary.bsdf().is_specular();
+    TechniqueMixes plans(box, guide.share);
+    return std::make_unique<Dense>(
+        Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(medium, boundary)});
+}
+
+const TechniqueMix* SubsurfaceGuides::plan(MediumId medium, const Vec3& entry) const {
+    if (medium == vacuum || media_.empty() || !media_[static_cast<std::size_t>(medium)]) {
+        return nullptr;
+    }
+    const TechniqueMixes& plans = media_[static_cast<std::size_t>(medium)]->plans;
+    return &plans.plan(plans.cell_at(entry));
+}
+
+void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels,
+                             InteriorWalk& walk) const {
+    const Dense& dense = *media_[static_cast<std::size_t>(medium)];
+    if (walk.guide() != &dense.guide) {
+        walk.enter(dense.guide, channels, plan(medium, hit.position)->shares);
+        for (int slot = 0; slot < walk.slots(); ++slot) {
+            walk.aim(slot, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
+        }
+    }
+    aim(medium, hit.position, walk);
+    walk.head(direction);
+}
+
+void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, InteriorWalk& walk) const {
+    const Dense& dense = *media_[static_cast<std::size_t>(medium)];
+    if (!dense.field) {
+        return;
+    }
+    const BoundaryField::View around = dense.field->at(position);
+    for (int slot = 0; slot < walk.slots(); ++slot) {
+        const InteriorStrategy strategy = strategies_[static_cast<std::size_t>(walk.strategy(slot))];
+        if (walk.is_layered(slot)) {
+            walk.aim(around.layer());
+        } else if (looks_around(strategy)) {
+            const InteriorAim aim = strategy == InteriorStrategy::closest ? around.closest() : around.incident();
+            walk.aim(slot, aim.normal, aim.steepness);
+        }
+        if (walk.is_lit(slot)) {
+            walk.aim(around.lamps(dense.returned, dense.decay));
+        }
+    }
+}
+
+void SubsurfaceGuides::count(const InteriorWalkRecord& interior_walk, SecondMoments& moments) const {
+    const TechniqueMixes& plans = media_[static_cast<std::size_t>(interior_walk.medium)]->plans;
+    const int cell = plans.cell_at(interior_walk.entry);
+    moments.add(cell, plans.relative(interior_walk), plans.plan(cell).shares);
+}
+
+void SubsurfaceGuides::learn(const SecondMoments& moments, NextWalks next) {
+    for (std::size_t id = 0; id < media_.size(); ++id) {
+        if (media_[id]) {
+            media_[id]->plans.learn(moments.of(static_cast<int>(id)), next);
+        }
+    }
+}
+
+}  // namespace wend

@@ -1,0 +1,77 @@
+// Guides made for another albedo: where their variance is finite, and where it is not.
+#include <tests/lab/experiments.h>
+#include <wend/planar/half_space.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace wend {
+namespace {
+
+using test::half_space;
+using test::run;
+
+// Effective albedo c² nu atanh(1/nu) = c²/a, for the nu of a guide's albedo a.
+TEST(GuideForAnotherAlbedo, IsFiniteFromTheSquareOfTheAlbedoOn) {
+    for (const double c : {0.2, 0.5, 0.8, 0.95, 0.99}) {
+        for (const double a : {0.1, 0.3, 0.5, 0.64, 0.8, 0.9025, 0.95, 0.999}) {
+            const double effective = effective_albedo(c, discrete_eigenvalue(a));
+            EXPECT_NEAR(effective, c * c / a, 1e-9 * c * c / a);
+            EXPECT_EQ(effective <= 1 + 1e-9, a >= c * c * (1 - 1e-9)) << c << " guided by " << a;
+        }
+    }
+}
+
+/// Median over repetitions of the sample variance of so many walks: with a finite variance it does not depend on their
+/// number; without, the largest value seen rules it, and it grows.
+double typical_variance(PlanarExperiment e, std::uint64_t walks) {
+    std::vector<double> variances;
+    for (std::uint64_t seed = 0; seed < 9; ++seed) {
+        variances.push_back(run(e, walks, seed).channels[0].variance());
+    }
+    std::nth_element(variances.begin(), variances.begin() + 4, variances.end());
+    return variances[4];
+}
+
+double growth(double albedo, double guide) {
+    PlanarExperiment e = half_space(albedo, "dwivedi");
+    e.guide_albedo = guide;
+    return typical_variance(e, 64000) / typical_variance(e, 1000);
+}
+
+TEST(GuideForAnotherAlbedo, VarianceGrowsBelowTheBound) {
+    EXPECT_GT(growth(0.95, 0.6), 1.5);
+    EXPECT_GT(growth(0.95, 0.75), 1.5);
+    EXPECT_GT(growth(0.8, 0.5), 1.5);
+}
+
+TEST(GuideForAnotherAlbedo, VarianceDoesNotGrowAboveTheBound) {
+    for (const auto& [albedo, guide] :
+         {std::pair(0.95, 0.95), std::pair(0.95, 0.97), std::pair(0.8, 0.8), std::pair(0.8, 0.95)}) {
+        EXPECT_NEAR(growth(albedo, guide), 1, 0.15) << albedo << " guided by " << guide;
+    }
+}
+
+TEST(GuideForAnotherAlbedo, SecondMomentIsItsClosedForm) {
+    for (const auto& [albedo, guide] : {std::pair(0.8, 0.9), std::pair(0.8, 0.95), std::pair(0.4, 0.6)}) {
+        PlanarExperiment e = half_space(albedo, "dwivedi");
+        e.guide_albedo = guide;
+        const PlanarResult result = run(e, 100000);
+        EXPECT_TRUE(test::is_exact(result));
+        const double exact = reflectance(albedo, 1);
+        const double variance =
+            stretched_second_moment(albedo, discrete_eigenvalue(guide), 1, FirstFlight::stretched) - exact * exact;
+        EXPECT_NEAR(result.channels[0].variance(), variance, 0.03 * variance) << albedo << " guided by " << guide;
+    }
+}
+
+// Of three channels, none is guided by a darker one's mode alone: the bright one's variance stays.
+TEST(GuideForAnotherAlbedo, BrightChannelsAreNotLeftToDarkGuides) {
+    PlanarExperiment e = half_space(0.95, "dwivedi");
+    e.albedo = {0.95, 0.5, 0.1};
+    EXPECT_NEAR(typical_variance(e, 64000) / typical_variance(e, 1000), 1, 0.15);
+    EXPECT_LT(typical_variance(e, 4000), 3 * dwivedi_variance(0.95, 1, FirstFlight::stretched) + 0.3);
+}
+
+}  // namespace
+}  // namespace wend

@@ -1,0 +1,149 @@
+// Choices between reflection and refraction that were learned: what they learn, and that pictures interior walk the
+// same.
+#include <tests/support/repeated_renders.h>
+#include <tests/support/scenes.h>
+
+#include <wend/light/scattering.h>
+#include <wend/transport/reflection_probability.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace wend {
+namespace {
+
+const Box3 room(Vec3(-1), Vec3(1));
+const LightReceiver here{{0.5f, 0.5f, 0.5f}, {0, 0, 1}}, there{{0.5f, 0.5f, 0.5f}, {0, 0, -1}};
+
+TEST(ReflectionProbability, AreFresnelsUntilSomethingIsKnown) {
+    ReflectionProbability choices(room);
+    EXPECT_EQ(choices.odds(here), 1);
+    choices.learn();
+    EXPECT_EQ(choices.odds(here), 1);
+    const std::vector<ReflectionRecord> dark(100, choices.record(here, true, 0));
+    choices.add(dark);
+    choices.learn();
+    EXPECT_EQ(choices.odds(here), 1);
+}
+
+TEST(ReflectionProbability, FollowTheRatioOfWhatWasBrought) {
+    ReflectionProbability choices(room);
+    std::vector<ReflectionRecord> records;
+    for (int i = 0; i < 10000; ++i) {
+        // Five on the one way, one on the other, as means.
+        records.push_back(choices.record(here, i % 4 == 0, i % 4 == 0 ? 5 : i % 2 == 0 ? 3.0f : 0.0f));
+        records.push_back(choices.record(there, i % 4 == 0, i % 4 == 0 ? 0.0f : 1));
+    }
+    records.push_back(choices.record(here, true, std::numeric_limits<float>::infinity()));
+    records.push_back(choices.record(here, true, std::numeric_limits<float>::quiet_NaN()));
+    choices.add(records);
+    EXPECT_EQ(choices.odds(here), 1) << "before the lesson";
+    choices.learn();
+    EXPECT_NEAR(choices.odds(here), 5, 0.1f);
+    // No way is ruled out.
+    EXPECT_GT(choices.odds(there), 1.0f / 65);
+    EXPECT_LT(choices.odds(there), 1.0f / 60);
+    EXPECT_EQ(choices.odds({{-0.5f, 0.5f, 0.5f}, {0, 0, 1}}), 1) << "elsewhere";
+}
+
+TEST(ReflectionProbability, FewRecordsSayLittle) {
+    ReflectionProbability choices(room);
+    const std::vector<ReflectionRecord> records = {choices.record(here, true, 100), choices.record(here, false, 1)};
+    choices.add(records);
+    choices.learn();
+    EXPECT_GT(choices.odds(here), 1);
+    EXPECT_LT(choices.odds(here), 1.5f);
+}
+
+TEST(ReflectionProbability, NoneMakesAWalkTooHeavy) {
+    const Vec3 before = normalize(Vec3(0.2f, 0, -1));
+    for (const float odds : {1.0f / 64, 64.0f}) {
+        for (const float weight : {0.2f, 1.0f, 2.0f, 5.0f}) {
+            SurfaceScattering f(DielectricBsdf{1.5f, 0, 0}, Frame::from_z({0, 0, 1}), before);
+            f.prefer_reflection(odds, weight);
+            float least = 1;
+            for (int i = 0; i < 1000; ++i) {
+                least = std::min(least, f.sample(static_cast<float>(i) / 1000, {0.5f, 0.5f})->density_ratio);
+            }
+            EXPECT_GE(least, std::min(1.0f, weight / weight_bound) * 0.9999f) << odds << ' ' << weight;
+            EXPECT_LT(least, std::max(0.8f, weight / weight_bound)) << odds << ' ' << weight;
+        }
+    }
+}
+
+TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
+    const ReflectionProbability choices(room);
+    ReflectionLog log;
+    log.start();
+    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 0.5f);
+    log.bring(first, 1);
+    const int left = log.note(first, choices.record(here, false, 0), 0.25f);
+    const int right = log.note(first, choices.record(there, true, 0), 2);
+    log.bring(left, 3);
+    log.bring(right, 8);
+    log.bring(ReflectionLog::none, 100);
+    std::vector<ReflectionRecord> records;
+    log.finish(records);
+    ASSERT_EQ(records.size(), 3u);
+    EXPECT_EQ(records[0].brought, 4);
+    EXPECT_TRUE(records[0].reflected);
+    EXPECT_EQ(records[1].brought, 12);
+    EXPECT_FALSE(records[1].reflected);
+    EXPECT_EQ(records[2].brought, 24);
+    log.finish(records);
+    EXPECT_EQ(records.size(), 3u) << "a walk is told once";
+}
+
+TEST(ReflectionLog, KeepsWhatIsFoundAfterItIsFull) {
+    const ReflectionProbability choices(room);
+    ReflectionLog log;
+    log.start();
+    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 1);
+    for (std::size_t i = 1; i < ReflectionLog::most; ++i) {
+        log.note(first, choices.record(here, false, 0), 1);
+    }
+    log.bring(log.note(first, choices.record(there, false, 0), 1), 5);
+    std::vector<ReflectionRecord> records;
+    log.finish(records);
+    ASSERT_EQ(records.size(), ReflectionLog::most);
+    EXPECT_EQ(records.back().brought, 5) << "the first boundary's";
+}
+
+constexpr int resolution = 6;
+
+class DarkGlass : public testing::TestWithParam<float> {};
+
+// Three ways, eight renders of 6 x 6 pixels by 4096 samples each: 3.5 million samples.
+TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
+    // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
+    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, resolution);
+    const MediumId murk = test::add_homogeneous(s, Rgb(6.0f), Rgb(10.0f), 0.3f);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam()), murk);
+    test::add_environment(s, Rgb(1.0f));
+    const Scene scene(std::move(s));
+    RenderSettings settings;
+    settings.samples = 4096;
+    settings.max_depth = 200;
+    // What a choice adds to the noise of one sample, not how well samples are spread over it.
+    settings.sampler = SamplerKind::independent;
+    settings.seed = 1000;
+    const test::RepeatedRenders classical(scene, settings, resolution);
+    settings.seed = 2000;
+    for (const auto& [sampling, subsurface] : {std::pair("direction", "classical"), {"full", "auto"}}) {
+        SCOPED_TRACE(testing::Message() << sampling << ", " << subsurface);
+        settings.preset = parse_preset(sampling);
+        settings.subsurface = parse_subsurface(subsurface);
+        const test::RepeatedRenders guided(scene, settings, resolution);
+        test::expect_same_mean(classical, guided);
+        EXPECT_LT(guided.noise, 0.7 * classical.noise) << classical.noise;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowRoughness, DarkGlass, testing::Values(0.0f, 0.2f));
+
+}  // namespace
+}  // namespace wend
