@@ -36,12 +36,12 @@ struct Continuations {
     bool judged = true;
 };
 
-Continuations mean_continuations(const AdjointRouletteSplitting& survival, const ExpectedContribution& outlook) {
+Continuations mean_continuations(const AdjointRouletteSplitting& survival, const ExpectedContribution& expected) {
     constexpr int count = 40000;
     Pcg32 random(1);
     Continuations mean;
     for (int i = 0; i < count; ++i) {
-        const std::optional<WeightWindow::Outcome> outcome = survival.before_direction(outlook, random);
+        const std::optional<WeightWindow::Outcome> outcome = survival.before_direction(expected, random);
         mean.judged = mean.judged && outcome;
         mean.weight += outcome ? outcome->copies / outcome->expected / count : 0;
         mean.copies += outcome ? outcome->copies / static_cast<double>(count) : 0;

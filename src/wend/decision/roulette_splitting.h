@@ -33,15 +33,15 @@ struct ExpectedContribution {
     /// What the walk carries over what it began with: the throughput's mean over the channels, times
     /// WalkState::index_scale.
     float weight = 1;
-    int room = 1;  ///< for continuations, at least 1
+    int split_capacity = 1;  ///< for continuations, at least 1
 };
 
 /// Is asked twice at a vertex. `before_direction`: how many directions to draw; nothing if that is to be judged by the
 /// weight, once a direction is drawn. Then `after_direction` tells the probability of going on, at most 1.
 template <class D>
-concept RouletteSplittingDecision = requires(const D& d, const ExpectedContribution& outlook, Pcg32& random,
+concept RouletteSplittingDecision = requires(const D& d, const ExpectedContribution& expected, Pcg32& random,
                                              const WalkState& state) {
-    { d.before_direction(outlook, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
+    { d.before_direction(expected, random) } -> std::same_as<std::optional<WeightWindow::Outcome>>;
     { d.after_direction(state) } -> std::same_as<float>;
 };
 
@@ -57,7 +57,7 @@ public:
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_density_ratio = 1e4f;
 
-    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& /*outlook*/,
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& /*expected*/,
                                                           Pcg32& /*random*/) const {
         return std::nullopt;
     }
@@ -96,16 +96,16 @@ public:
         window_.low *= std::max(least_roulette, 1 / std::sqrt(1 + 1 / sample_variance));
     }
 
-    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& outlook, Pcg32& random) const {
-        std::optional<float> ratio = outlook.ratio;
-        if (splitting_ && outlook.weight > window_.high) {
-            ratio = std::max(outlook.weight, ratio.value_or(0));
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected, Pcg32& random) const {
+        std::optional<float> ratio = expected.ratio;
+        if (splitting_ && expected.weight > window_.high) {
+            ratio = std::max(expected.weight, ratio.value_or(0));
         }
         if (!ratio || (*ratio < window_.low && !roulette_) || (*ratio > window_.high && !splitting_)) {
             return std::nullopt;
         }
         WeightWindow window = window_;
-        window.most = std::min(window.most, outlook.room);
+        window.most = std::min(window.most, expected.split_capacity);
         return window.sample(*ratio, random);
     }
     float after_direction(const WalkState& state) const {

@@ -1,4 +1,4 @@
-// OpenEXR pictures. Other rooms use image_file.h.
+// OpenEXR pictures. Other modules use image_file.h.
 #pragma once
 
 #include <wend/film/picture.h>

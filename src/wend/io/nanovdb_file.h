@@ -1,4 +1,4 @@
-// NanoVDB files. Other rooms use volume_file.h.
+// NanoVDB files. Other modules use volume_file.h.
 #pragma once
 
 #include <wend/io/volume_file.h>

@@ -1,4 +1,4 @@
-// OpenVDB files, through its library. Other rooms use volume_file.h.
+// OpenVDB files, through its library. Other modules use volume_file.h.
 #pragma once
 
 #include <wend/io/volume_file.h>

@@ -1,4 +1,4 @@
-// The picture formats that stb reads and writes. Other rooms use image_file.h.
+// The picture formats that stb reads and writes. Other modules use image_file.h.
 #pragma once
 
 #include <wend/io/image_file.h>

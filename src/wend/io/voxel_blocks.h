@@ -1,4 +1,4 @@
-// What the tree-shaped volume formats have in common. Other rooms use volume_file.h.
+// What the tree-shaped volume formats have in common. Other modules use volume_file.h.
 #pragma once
 
 #include <wend/core/transform.h>

@@ -260,7 +260,7 @@ private:
         constexpr float free_copies = 8;
         return now_.interior.is_inside() ? 0.0f : weight() * std::max(1.0f, now_.copies / free_copies);
     }
-    int room() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
+    int split_capacity() const { return 1 + max_pending - static_cast<int>(pending_.size()); }
 
     void leave_pending() {
         now_.recorded = recorder_.branch();

@@ -24,7 +24,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
         connect_through_boundaries(f, directions, v);
     }
     const std::optional<WeightWindow::Outcome> outcome =
-        d_.survival.before_direction({expected_ratio(f, directions), weight(), room()}, sampler_.random());
+        d_.survival.before_direction({expected_ratio(f, directions), weight(), split_capacity()}, sampler_.random());
     if (!outcome) {
         return draw_direction(f, directions, v, false);
     }
