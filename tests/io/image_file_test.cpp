@@ -242,6 +242,9 @@ TEST_F(ImageFile, JpegWithATooLargeHuffmanTableIsRefused) {
     // A table that reaches beyond its segment, and beyond the file.
     store("a.jpg", std::string("\xff\xd8\xff\xc4\0\x05\0", 7) + "\xff\xff");
     EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
+    // Beyond the file the reader sees line breaks, which count as well.
+    store("a.jpg", std::string("\xff\xd8\xff\xc4\0\x05\0", 7) + "\xdf");
+    EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);
     // Any number of these bytes may stand before a marker, the first one too.
     store("a.jpg", "\xff\xff\xff" + bytes);
     EXPECT_NE(message_of([&] { read_image(folder / "a.jpg"); }).find("Huffman"), std::string::npos);

@@ -56,7 +56,8 @@ TEST(LongWalk, AHundredThousandCollisionsLeaveAFewRecords) {
     guide::PathRecords records;
     for (std::uint32_t i = 0; i < 3; ++i) {
         Sampler sampler(SamplerKind::independent, 1, 0, i);
-        const WalkResult result = tracer.trace({{0, 0, 0}, {0, 0, 1}}, 0, sampler, {.log = &log});
+        const WalkResult result =
+            tracer.trace({{0, 0, 0}, {0, 0, 1}}, 0, sampler, StandardRecorders(FieldRecorder(&log), {}, {}, {}));
         EXPECT_TRUE(is_finite(result.sample.radiance));
         EXPECT_EQ(result.sample.segments, collisions + 1u);
         EXPECT_EQ(log.vertices().size(), static_cast<std::size_t>(collisions));

@@ -314,7 +314,7 @@ TEST(SlowGuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
         for (std::uint32_t i = 0; i < walks; ++i) {
             Sampler sampler(SamplerKind::independent, 1, 0, i);
             interior_walks.clear();
-            tracer.trace(ray, 0, sampler, {.interior_walks = &interior_walks});
+            tracer.trace(ray, 0, sampler, StandardRecorders({}, InteriorRecorder(&interior_walks), {}, {}));
             double light = 0, slope = 0;
             std::array<double, 3> slopes{};
             for (const InteriorWalkRecord& interior_walk : interior_walks) {

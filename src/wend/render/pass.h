@@ -2,9 +2,9 @@
 #pragma once
 
 #include <wend/film/film.h>
+#include <wend/render/learners.h>
 #include <wend/render/render.h>
 #include <wend/transport/path_tracer.h>
-#include <wend/transport/subsurface_guides.h>
 
 #include <atomic>
 #include <utility>
@@ -16,10 +16,6 @@ namespace wend {
 struct Tile {
     PixelRect pixels;
     WalkCounts counts;
-    guide::PathRecords records;
-    SecondMoments interior_walks;
-    std::vector<LightRecord> lights;
-    std::vector<ReflectionRecord> reflections;
 };
 
 inline std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -27,58 +23,39 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     std::vector<Tile> tiles;
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
-            tiles.push_back(
-                {{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}, {}, {}, {}, {}});
+            tiles.push_back({{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}});
         }
     }
     return tiles;
 }
-
-/// What one pass does.
-struct PassPlan {
-    int first;  ///< sample of each pixel
-    int count;
-    bool record;
-    bool record_interior_walks;
-    bool record_lights;
-    bool record_reflections;
-    /// Of the walks, those whose vertices are recorded.
-    double recorded_share;
-    /// Of each pixel of the crop, without exposure; empty where not known.
-    std::vector<float> estimates;
-};
 
 /// One pass, with the same decisions for all walks.
 template <class Decisions>
 class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
-         const SubsurfaceGuides& subsurface, const LightSelection& lights, const ReflectionProbability& reflections,
-         const CausticPhotons& caustics, const PassPlan& plan, const std::atomic<bool>& stop)
-        : tracer_(scene, decisions, subsurface, lights, reflections, settings.max_depth, &stop),
-          subsurface_(subsurface),
-          caustics_(caustics),
+         const Learners& learners, const PassPlan& plan, const std::atomic<bool>& stop)
+        : tracer_(scene, decisions, learners.get<InteriorLearner>().guides(), learners.get<LightLearner>().selection(),
+                  learners.get<ReflectionLearner>().probability(), settings.max_depth, &stop),
+          learners_(learners),
           camera_(scene.camera()),
           film_(film),
           settings_(settings),
           plan_(plan),
           stop_(stop) {}
 
-    void run(Tile& tile) const {
-        guide::PathLog log;
-        std::vector<InteriorWalkRecord> interior_walks;
+    void run(Tile& tile, Learners::Records& records) const {
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
                 for (int i = 0; i < plan_.count && !stop_; ++i) {
-                    sample({x, y}, plan_.first + i, tile, log, interior_walks);
+                    sample({x, y}, plan_.first + i, tile, records);
                 }
             }
         }
     }
 
 private:
-    void sample(const Vec2i& pixel, int index, Tile& tile, guide::PathLog& log,
-                std::vector<InteriorWalkRecord>& interior_walks) const {
+    void sample(const Vec2i& pixel, int index, Tile& tile, Learners::Records& records) const {
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
@@ -87,29 +64,18 @@ private:
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
         const bool is_recorded = records_walk(number, index);
-        WalkResult result = tracer_.trace(
-            ray, estimate(pixel), sampler,
-            {is_recorded && plan_.record ? &log : nullptr, plan_.record_interior_walks ? &interior_walks : nullptr,
-             is_recorded && plan_.record_lights ? &tile.lights : nullptr,
-             is_recorded && plan_.record_reflections ? &tile.reflections : nullptr, &caustics_});
+        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, learners_.recorders(records, is_recorded));
         if (stop_) {
             return;  // the walk may be a part of one
         }
-        for (const InteriorWalkRecord& interior_walk : std::exchange(interior_walks, {})) {
-            subsurface_.count(interior_walk, tile.interior_walks);
-        }
+        const bool counts = is_finite(result.sample.radiance);
+        learners_.keep(records, is_recorded && counts);
         ++tile.counts.paths;
         tile.counts.segments += result.sample.segments;
-        if (!is_finite(result.sample.radiance)) {
+        if (!counts) {
             ++tile.counts.rejected;
             film_.reject(pixel);
             return;
-        }
-        if (is_recorded && plan_.record) {
-            // More vertices of one walk say little that is new: they are correlated.
-            constexpr std::size_t most_records = 64;
-            tile.records.add(log.vertices(), most_records);
-            tile.records.add_hints(log.hints(), most_records);
         }
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
@@ -129,9 +95,8 @@ private:
                                                          static_cast<std::size_t>(pixel.x - crop.min.x)];
     }
 
-    PathTracer<Decisions> tracer_;
-    const SubsurfaceGuides& subsurface_;
-    const CausticPhotons& caustics_;
+    PathTracer<Decisions, Learners::Recorders> tracer_;
+    const Learners& learners_;
     const Camera& camera_;
     Film& film_;
     const RenderSettings& settings_;

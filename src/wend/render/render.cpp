@@ -1,8 +1,6 @@
 #include <wend/core/parallel.h>
 #include <wend/film/pixel_estimate.h>
-#include <wend/guide/fields.h>
 #include <wend/render/pass.h>
-#include <wend/render/record_budget.h>
 #include <wend/render/render.h>
 #include <wend/render/schedule.h>
 #include <wend/transport/path_tracer.inl>
@@ -23,11 +21,14 @@
 
 namespace wend {
 
-template class PathTracer<ClassicalDecisions>;
-template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, ClassicalRoulette>>;
-template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, AdjointRouletteSplitting>>;
-template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, ClassicalRoulette>>;
-template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, AdjointRouletteSplitting>>;
+template class PathTracer<ClassicalDecisions, Learners::Recorders>;
+template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, ClassicalRoulette>, Learners::Recorders>;
+template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, AdjointRouletteSplitting>,
+                          Learners::Recorders>;
+template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, ClassicalRoulette>,
+                          Learners::Recorders>;
+template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, AdjointRouletteSplitting>,
+                          Learners::Recorders>;
 
 namespace {
 
@@ -42,11 +43,6 @@ constexpr float classical_flights = 0.25f;
 // Of a walk that is not split, guided through grids. Where it is, it goes on in numbers from where much is scattered,
 // which brings as much as to be there more often, for less (docs/theory/distance.md).
 constexpr int flights_in_grids = 1;
-// Photons from lights to smooth surfaces: as many as there have been walks, between these.
-constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
-// Before, neither the field nor the pixels are known well enough to end or split walks by them, or to judge guides.
-constexpr int warm_up_samples = 7;
-
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
         throw std::runtime_error(std::to_string(counts.rejected) + " of " + std::to_string(counts.paths) +
@@ -85,7 +81,7 @@ private:
     std::jthread thread_;  ///< last: it uses all the others
 };
 
-/// A render between its passes: what walks are guided by, and what the last pass told.
+/// A render between its passes.
 class Rendering {
 public:
     Rendering(const Scene& scene, Film& film, const RenderSettings& settings, const std::atomic<bool>& stop)
@@ -93,36 +89,27 @@ public:
           film_(film),
           settings_(settings),
           stop_(stop),
+          context_{scene, settings, static_cast<double>(film.crop().width()) * film.crop().height()},
           tiles_(tiles_of(film.crop())),
-          fields_(settings.fields
-                      ? *settings.fields
-                      : guide::Fields{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())}),
-          subsurface_(scene, settings.subsurface, settings.threads),
-          lights_(scene),
-          reflections_(scene.bounds()),
-          budget_(settings.most_records) {}
+          records_(tiles_.size()),
+          learners_(context_) {}
 
     /// Adds `count` samples to each pixel, and learns from them.
     void pass(int count, RenderStatistics& statistics) {
         const PassPlan plan = plan_for(count, statistics.samples);
-        if (plan.record && settings_.preset.direction) {
-            send_photons(plan);
-        }
+        learners_.begin(plan);
         walk(plan);
         if (stop_) {
             return;
         }
         statistics.samples += count;
         statistics.passes.push_back(count);
-        if (plan.record) {
-            const Clock::time_point start = Clock::now();
-            learn_fields(plan);
-            statistics.training_seconds += seconds_since(start);
-        }
-        learn_choices(plan, statistics.samples);
+        const Clock::time_point start = Clock::now();
+        learners_.learn(records_, plan);
+        statistics.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
-        if (statistics.samples >= warm_up_samples && (plan.record || plan.record_interior_walks || warms_up)) {
+        if (statistics.samples >= warm_up_samples && (learners_.records() || warms_up)) {
             film_.begin_stage();
         }
     }
@@ -132,28 +119,20 @@ public:
             statistics.counts += tile.counts;
         }
         if (!settings_.preset.is_classical()) {
-            statistics.field_bytes = fields_.bytes();
-            statistics.fields = std::make_shared<const guide::Fields>(std::move(fields_));
+            statistics.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
+            statistics.field_bytes = statistics.fields->bytes();
         }
     }
 
 private:
-    double walks(const PassPlan& plan) const {
-        return static_cast<double>(film_.crop().width()) * film_.crop().height() * plan.count;
-    }
-
     PassPlan plan_for(int count, int samples) const {
         const Preset& preset = settings_.preset;
-        const bool learning = samples < settings_.training_samples;
-        PassPlan plan{samples,
-                      count,
-                      !preset.is_classical() && learning,
-                      !subsurface_.is_empty() && learning,
-                      preset.direction && lights_.learns() && learning,
-                      (preset.direction || !subsurface_.is_empty()) && learning,
-                      1,
-                      {}};
-        plan.recorded_share = budget_.share(walks(plan));
+        PassPlan plan;
+        plan.first = samples;
+        plan.count = count;
+        plan.learns = samples < settings_.training_samples;
+        plan.steers = preset.direction || !learners_.get<InteriorLearner>().guides().is_empty();
+        plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
         if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
             plan.estimates = pixel_estimates(film_.beauty(), samples);
             for (float& estimate : plan.estimates) {
@@ -163,35 +142,26 @@ private:
         return plan;
     }
 
-    /// Anew, once there may be twice as many.
-    void send_photons(const PassPlan& plan) {
-        const double walked = static_cast<double>(film_.crop().width()) * film_.crop().height() * plan.first;
-        const int due = static_cast<int>(std::clamp(walked, double{fewest_photons}, double{most_photons}));
-        if (due >= 2 * photons_ || (due == most_photons && photons_ < due)) {
-            caustics_ = CausticPhotons(scene_, due, settings_.seed, settings_.threads);
-            photons_ = due;
-        }
-    }
-
     /// All walks of a pass, by the decisions of the preset.
     void walk(const PassPlan& plan) {
         const Preset& preset = settings_.preset;
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene_, film_, settings_, decisions, subsurface_, lights_, reflections_, caustics_, plan,
-                           stop_);
-            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i]); });
+            const Pass one(scene_, film_, settings_, decisions, learners_, plan, stop_);
+            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i], records_[i]); });
         };
         if (preset.is_classical()) {
             run_with(ClassicalDecisions{});
             return;
         }
+        const guide::Fields& fields = learners_.get<FieldLearner>().fields();
+        const CausticPhotons& caustics = learners_.get<FieldLearner>().caustics();
         const GuidedDistance distance(
-            &fields_.surface, &fields_.volume, classical_flights,
+            &fields.surface, &fields.volume, classical_flights,
             preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone,
             preset.splitting ? 0 : flights_in_grids);
-        const GuidedDirection direction(&fields_.surface, &fields_.volume,
-                                        preset.direction ? std::nullopt : std::optional(1.0f), &caustics_.on_surfaces(),
-                                        &caustics_.in_media());
+        const GuidedDirection direction(&fields.surface, &fields.volume,
+                                        preset.direction ? std::nullopt : std::optional(1.0f), &caustics.on_surfaces(),
+                                        &caustics.in_media());
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
                 run_with(GuidedDecisions{distance, direction, survival});
@@ -207,57 +177,14 @@ private:
         }
     }
 
-    void learn_fields(const PassPlan& plan) {
-        std::vector<guide::PathRecords> records(tiles_.size());
-        std::size_t told = 0;
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            records[i] = std::exchange(tiles_[i].records, {});
-            told += records[i].size();
-        }
-        budget_.learn(plan.recorded_share * walks(plan), static_cast<double>(told));
-        if (settings_.on_records) {
-            settings_.on_records(records);
-        }
-        fields_ = guide::learn(fields_, std::move(records), settings_.threads);
-    }
-
-    /// How interior walks are sampled, which lights are connected to, and what boundaries do, after so many samples.
-    void learn_choices(const PassPlan& plan, int samples) {
-        if (plan.record_interior_walks) {
-            SecondMoments moments;
-            for (Tile& tile : tiles_) {
-                moments += std::exchange(tile.interior_walks, {});
-            }
-            const bool knows_field = settings_.preset.direction && samples >= warm_up_samples;
-            const NextWalks lessons = knows_field ? NextWalks::beside_field : NextWalks::beside_classical;
-            subsurface_.learn(moments, samples >= settings_.training_samples ? NextWalks::rendering : lessons);
-        }
-        if (plan.record_lights) {
-            for (Tile& tile : tiles_) {
-                lights_.add(std::exchange(tile.lights, {}));
-            }
-            lights_.learn(settings_.threads);
-        }
-        if (plan.record_reflections) {
-            for (Tile& tile : tiles_) {
-                reflections_.add(std::exchange(tile.reflections, {}));
-            }
-            reflections_.learn();
-        }
-    }
-
     const Scene& scene_;
     Film& film_;
     const RenderSettings& settings_;
     const std::atomic<bool>& stop_;
+    LearningContext context_;
     std::vector<Tile> tiles_;
-    guide::Fields fields_;
-    SubsurfaceGuides subsurface_;
-    LightSelection lights_;
-    ReflectionProbability reflections_;
-    CausticPhotons caustics_;
-    int photons_ = 0;  ///< that were sent
-    RecordBudget budget_;
+    std::vector<Learners::Records> records_;  ///< by tile
+    Learners learners_;
 };
 
 }  // namespace

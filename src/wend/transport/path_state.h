@@ -6,11 +6,12 @@
 #include <wend/scene/traced_ray.h>
 #include <wend/subsurface/interior_walk.h>
 #include <wend/subsurface/technique_mix.h>
-#include <wend/transport/walk_recorder.h>
 
 namespace wend {
 
-/// All that a walk needs to go on from its last vertex. A walk that was split has several.
+/// All that a walk needs to go on from its last vertex. A walk that was split has several. `RecorderBranch`: what its
+/// recorders need for that.
+template <class RecorderBranch>
 struct PathState {
     TracedRay ray{};
     MediumState medium;
@@ -35,7 +36,7 @@ struct PathState {
     /// How often the surface vertex at hand was connected from the collision before, as a mean.
     float connected_before = 0;
 
-    WalkRecorder::Branch recorded{};  ///< where the walk was split
+    RecorderBranch recorded{};  ///< where the walk was split
 
     // The last medium that was entered where the boundary has a colour.
     MediumId coloured = vacuum;

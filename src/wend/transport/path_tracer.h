@@ -9,9 +9,9 @@
 #include <wend/light/light_selection.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
+#include <wend/transport/recorders.h>
 #include <wend/transport/reflection_probability.h>
 #include <wend/transport/subsurface_guides.h>
-#include <wend/transport/walk_recorder.h>
 
 #include <atomic>
 #include <cstdint>
@@ -61,8 +61,9 @@ struct GuidedDecisions {
 template <class Field, class Distance, class Survival>
 GuidedDecisions(Distance, GuidedDirection<Field>, Survival) -> GuidedDecisions<Field, Distance, Survival>;
 
-/// Walks through a scene with given decisions. A vertex is a scattering event: interfaces are passed for free.
-template <class Decisions>
+/// Walks through a scene with given decisions, seen by given recorders: at least those of StandardRecorders. A vertex
+/// is a scattering event: interfaces are passed for free.
+template <class Decisions, class Recorders = StandardRecorders>
 class PathTracer {
 public:
     /// All but `max_depth`, the largest number of vertices (pbrt's maxdepth), are referred to. Walks end as they are
@@ -80,7 +81,7 @@ public:
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
     /// none.
-    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const RecorderTargets& record_to = {}) const;
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const Recorders& recorders = Recorders()) const;
 
 private:
     class Walk;

@@ -18,15 +18,17 @@
 
 namespace wend {
 
-template <class Decisions>
-class PathTracer<Decisions>::Walk {
+using namespace walk_events;
+
+template <class Decisions, class Recorders>
+class PathTracer<Decisions, Recorders>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const RecorderTargets& record_to)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const Recorders& recorders)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
-          recorder_(record_to, tracer.lights_, tracer.reflections_),
+          recorder_(recorders),
           emitters_(scene_, tracer.lights_),
           expected_(expected) {}
 
@@ -37,7 +39,7 @@ public:
         do {
             while (!is_stopped() && step()) {
             }
-            recorder_.update(now_.interior);
+            recorder_.record(Paused{now_.interior});
         } while (!is_stopped() && take_up_pending());
         recorder_.finish();
         result_.sample.radiance = radiance_;
@@ -45,6 +47,8 @@ public:
     }
 
 private:
+    using State = PathState<typename Recorders::Branch>;
+
     bool is_stopped() const { return tracer_.stop_ && tracer_.stop_->load(std::memory_order_relaxed); }
 
     /// One flight to the next collision, surface or interface; false where the walk ends.
@@ -73,7 +77,7 @@ private:
         if (!ahead) {
             if (const EmitterHit arriving = emitters_.beyond(now_.last, now_.ray.direction);
                 !is_black(arriving.radiance)) {
-                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.interior));
+                gather(arriving.radiance, gradient_of(arriving));
             }
             return false;
         }
@@ -82,7 +86,7 @@ private:
         if (hit.light >= 0) {
             if (const EmitterHit arriving = emitters_.at(hit, now_.last, now_.ray.direction);
                 !is_black(arriving.radiance)) {
-                gather(arriving.radiance, recorder_.slope_of(arriving, now_.last, now_.interior));
+                gather(arriving.radiance, gradient_of(arriving));
             }
         }
         if (scene_.is_interface(hit)) {
@@ -100,7 +104,7 @@ private:
     /// `drawn`.
     Flight fly(const Medium& medium, SurfaceAhead& ahead, float drawn) {
         const float length = ahead.distance();
-        recorder_.fly(now_.medium.id);
+        recorder_.record(Flew{now_.medium.id});
         if (now_.interior.is_inside()) {
             // Connections know the probabilities of an interior walk where they start from one of its collisions.
             const bool told = now_.interior.has_turned();
@@ -160,7 +164,7 @@ private:
                 return false;
             }
         }
-        recorder_.meet(now_.travelled);
+        recorder_.record(Arrived{now_.travelled});
         if (now_.depth == 0) {
             remember_first(albedo(medium), {0, 0, 0});
             result_.sample.scattered = true;
@@ -169,13 +173,13 @@ private:
             return false;
         }
         const Vertex vertex = Vertex::in_medium(now_.ray.at(distance));
-        recorder_.collide(medium, vertex.position);
+        recorder_.record(Collided{medium, vertex.position});
         now_.connected_before = 0;
         return scatter(VolumeScattering(phase_function(medium), now_.ray.direction), vertex);
     }
 
     bool scatter_at(const Hit& hit) {
-        recorder_.meet(now_.travelled);
+        recorder_.record(Arrived{now_.travelled});
         const Vertex vertex = Vertex::on_surface(hit, now_.ray.direction);
         const SurfaceScattering f = scattering_at(vertex);
         now_.connected_before = now_.emitters_ahead > 0 ? connections_at_boundary * now_.emitters_ahead /
@@ -187,7 +191,7 @@ private:
         if (!count_vertex()) {
             return false;
         }
-        recorder_.face(vertex);
+        recorder_.record(HitSurface{vertex});
         return scatter(f, vertex);
     }
 
@@ -267,7 +271,7 @@ private:
         pending_.push_back(now_);
     }
 
-    void go_on_from(const PathState& branch) {
+    void go_on_from(const State& branch) {
         now_ = branch;
         recorder_.resume(now_.recorded);
     }
@@ -359,22 +363,26 @@ private:
         result_.sample.depth = now_.travelled;
     }
 
+    std::optional<MixGradient> gradient_of(const EmitterHit& arriving) {
+        return recorder_.template get<InteriorRecorder>().gradient_of(arriving, now_.last, now_.interior);
+    }
+
     // What the walk multiplies and adds.
     void weigh(const Rgb& weight) {
         now_.throughput *= weight;
-        recorder_.weigh(weight);
+        recorder_.record(Weighed{weight});
     }
     void gather(const Rgb& radiance, const std::optional<MixGradient>& slope = {}) {
         bring(now_.throughput * radiance, slope);
-        recorder_.gather(radiance);
+        recorder_.record(MetLight{radiance});
     }
     void glow(const Rgb& radiance, float distance) {
         bring(now_.throughput * radiance, {});
-        recorder_.glow(radiance, distance);
+        recorder_.record(MetEmission{radiance, distance});
     }
     void bring(const Rgb& light, const std::optional<MixGradient>& slope) {
         radiance_ += light;
-        recorder_.bring(mean_value(light), slope, now_.interior);
+        recorder_.record(Contributed{mean_value(light), slope, now_.interior});
     }
 
     static constexpr int max_pending = 64;
@@ -385,11 +393,11 @@ private:
     const Scene& scene_;
     const Decisions& d_;
     Sampler& sampler_;
-    WalkRecorder recorder_;
+    Recorders recorder_;
     EmitterHits emitters_;
 
-    PathState now_;
-    std::vector<PathState> pending_;
+    State now_;
+    std::vector<State> pending_;
     Rgb radiance_;
     float expected_;
 
@@ -404,10 +412,10 @@ private:
 
 namespace wend {
 
-template <class Decisions>
-WalkResult PathTracer<Decisions>::trace(const Ray& ray, float expected, Sampler& sampler,
-                                        const RecorderTargets& record_to) const {
-    return Walk(*this, expected, sampler, record_to).run(ray);
+template <class Decisions, class Recorders>
+WalkResult PathTracer<Decisions, Recorders>::trace(const Ray& ray, float expected, Sampler& sampler,
+                                                   const Recorders& recorders) const {
+    return Walk(*this, expected, sampler, recorders).run(ray);
 }
 
 }  // namespace wend

@@ -13,12 +13,12 @@
 
 namespace wend {
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F, class Directions>
-bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directions, const Vertex& v) {
+bool PathTracer<Decisions, Recorders>::Walk::scatter(const F& f, const Directions& directions, const Vertex& v) {
     if (!f.is_specular()) {
         connect_to_lights(f, directions, v);
-        recorder_.hint_at_caustics(v, now_.interior, sampler_.random());
+        recorder_.record(WasConnected{v, now_.interior, sampler_.random()});
     }
     if (v.in_volume()) {
         connect_through_boundaries(f, directions, v);
@@ -37,7 +37,7 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
     result_.sample.branches += static_cast<std::uint32_t>(std::max(outcome->copies - 1, 0));
     for (int i = 1; i < outcome->copies; ++i) {
         now_.recorded = recorder_.branch();
-        const PathState here = now_;
+        const State here = now_;
         if (draw_direction(f, directions, v, true)) {
             leave_pending();
         }
@@ -46,10 +46,10 @@ bool PathTracer<Decisions>::Walk::scatter(const F& f, const Directions& directio
     return outcome->copies > 0 && draw_direction(f, directions, v, true);
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F, class Directions>
-bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& directions, const Vertex& v,
-                                                 bool judged) {
+bool PathTracer<Decisions, Recorders>::Walk::draw_direction(const F& f, const Directions& directions, const Vertex& v,
+                                                            bool judged) {
     const float u = sampler_.uniform();
     const auto s = directions.sample(u, sampler_.uniform2());
     if (!s) {
@@ -57,15 +57,15 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
     }
     if constexpr (std::same_as<F, SurfaceScattering>) {
         if (f.reflects_or_refracts()) {
-            recorder_.reflect(*s, v, mean_value(now_.throughput) / s->density_ratio);
+            recorder_.record(PassedBoundary{*s, v, mean_value(now_.throughput) / s->density_ratio});
         }
     }
     now_.throughput *= s->weight();
-    recorder_.scatter(*s, v, now_.throughput);
+    recorder_.record(Scattered{*s, v, now_.throughput});
     remember_vertex(f, *s, v);
     if constexpr (std::same_as<Directions, InteriorWalk::Directions>) {
         now_.emitters_ahead = directions.emitter_density(s->direction) / s->density;
-        recorder_.turn(now_.interior);
+        recorder_.record(Turning{now_.interior});
         now_.interior.turn(directions, s->direction);
     }
     if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
@@ -83,9 +83,9 @@ bool PathTracer<Decisions>::Walk::draw_direction(const F& f, const Directions& d
     return true;
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F>
-void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSample& s, const Vertex& v) {
+void PathTracer<Decisions, Recorders>::Walk::remember_vertex(const F& f, const DirectionSample& s, const Vertex& v) {
     now_.density_ratio *= s.density_ratio;
     now_.index_scale *= sqr(f.index_ratio(s.direction));
     now_.emitters_ahead = 0;
@@ -96,9 +96,9 @@ void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSam
         return;
     }
     const float connected = connections(v) + now_.connected_before;
-    recorder_.remember_connections(v.in_volume() && now_.interior.is_inside() ? 1.0f
-                                   : now_.connected_before > 0                ? now_.connected_before / connected
-                                                                              : 0.0f);
+    recorder_.record(ConnectedBefore{v.in_volume() && now_.interior.is_inside() ? 1.0f
+                                     : now_.connected_before > 0                ? now_.connected_before / connected
+                                                                                : 0.0f});
     now_.last = {v.receiver(),
                  s.specular,
                  s.density * preference(v),
@@ -110,8 +110,8 @@ void PathTracer<Decisions>::Walk::remember_vertex(const F& f, const DirectionSam
                  now_.medium};
 }
 
-template <class Decisions>
-bool PathTracer<Decisions>::Walk::survives(bool is_judged_elsewhere) {
+template <class Decisions, class Recorders>
+bool PathTracer<Decisions, Recorders>::Walk::survives(bool is_judged_elsewhere) {
     const float survival = survival_probability(is_judged_elsewhere);
     if (survival < 1) {
         if (!(sampler_.uniform() < survival)) {

@@ -12,8 +12,8 @@
 
 namespace wend {
 
-template <class Decisions>
-void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
+template <class Decisions, class Recorders>
+void PathTracer<Decisions, Recorders>::Walk::enter_medium(const Hit& hit, MediumId from) {
     if (now_.medium.id != from && now_.medium.id == hit.surface->interior) {
         if (const auto relative = scene_.relative_albedo(hit)) {
             now_.coloured = now_.medium.id;
@@ -23,18 +23,16 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
     if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
         return;
     }
-    recorder_.update(now_.interior);
+    recorder_.record(Paused{now_.interior});
     bool guided = now_.interior.is_inside();
     if (now_.medium.id != from) {
         const TechniqueMix* plan = tracer_.subsurface_.plan(now_.medium.id, hit.position);
         guided = plan && !(sampler_.random().uniform() < plan->unguided_probability);
         now_.is_classical = plan && !guided && plan->is_unguided_classical;
-        recorder_.choose_recording(guided, plan ? plan->recording_probability : 1.0f, sampler_.random());
+        recorder_.record(EnteredMedium{now_.medium.id, hit.position, plan != nullptr, guided,
+                                       plan ? plan->recording_probability : 1.0f, sampler_.random()});
         now_.next_event = !plan ? NextEventSettings{} : guided ? plan->guided : plan->unguided;
         now_.interior.leave();
-        if (plan) {
-            recorder_.enter(now_.medium.id, hit.position, guided);
-        }
     }
     if (guided) {
         tracer_.subsurface_.enter(now_.medium.id, hit, now_.ray.direction, channel_probabilities(now_.throughput),
@@ -44,9 +42,10 @@ void PathTracer<Decisions>::Walk::enter_medium(const Hit& hit, MediumId from) {
 
 // What the walk would find if it flew out to a lamp from here and were connected there, in place of what it does find:
 // a path either way has the same value, and the balance heuristic counts `connected_before` on both.
-template <class Decisions>
-void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
-                                                      const InteriorWalk::Directions& directions, const Vertex& v) {
+template <class Decisions, class Recorders>
+void PathTracer<Decisions, Recorders>::Walk::connect_at_boundary(const VolumeScattering& f,
+                                                                 const InteriorWalk::Directions& directions,
+                                                                 const Vertex& v) {
     if (!has_depth_for(scene_.counts_vertices_in(now_.medium.id) ? 1 : 0)) {
         return;
     }
@@ -61,9 +60,9 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
         return;
     }
     now_.recorded = recorder_.branch();
-    const PathState here = now_;
+    const State here = now_;
     const Rgb phase = f.evaluate(*w);
-    recorder_.turn(now_.interior);
+    recorder_.record(Turning{now_.interior});
     now_.interior.turn(directions, *w);
     now_.ray = ray;
     const float passing = now_.interior.pass(hit->distance);
@@ -91,7 +90,7 @@ void PathTracer<Decisions>::Walk::connect_at_boundary(const VolumeScattering& f,
         }
     }
     go_on_from(here);
-    recorder_.connect_at_boundary(*w, phase, brought);
+    recorder_.record(ConnectedAhead{*w, phase, brought});
 }
 
 }  // namespace wend

@@ -13,9 +13,10 @@
 
 namespace wend {
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F, class Directions>
-void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions& directions, const Vertex& v) {
+void PathTracer<Decisions, Recorders>::Walk::connect_to_lights(const F& f, const Directions& directions,
+                                                               const Vertex& v) {
     const float often = connections(v);
     const bool is_left_out = often < 1 && !(sampler_.random().uniform() < often);
     if (is_left_out && !scene_.has_point_like_lights()) {
@@ -37,10 +38,10 @@ void PathTracer<Decisions>::Walk::connect_to_lights(const F& f, const Directions
     }
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F, class Directions>
-void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const Directions& directions,
-                                                             const Vertex& v) {
+void PathTracer<Decisions, Recorders>::Walk::connect_through_boundaries(const F& f, const Directions& directions,
+                                                                        const Vertex& v) {
     const float often = now_.next_event.through_boundaries;
     if (often == 0 || !(sampler_.random().uniform() < often)) {
         return;
@@ -53,45 +54,45 @@ void PathTracer<Decisions>::Walk::connect_through_boundaries(const F& f, const D
     Connection found;
     if (const auto sight = look_through_boundaries(*chosen, directions, v)) {
         found = weigh(*sight, often, chosen->light.point_like, f.evaluate(sight->direction), directions, v);
-        recorder_.connected(now_.medium.id, true);
+        recorder_.record(SawLight{now_.medium.id, true});
     }
     take(found, v, *chosen, often);
 }
 
-template <class Decisions>
-void PathTracer<Decisions>::Walk::take(const Connection& found, const Vertex& v, const ChosenSample& chosen,
-                                       float times) {
+template <class Decisions, class Recorders>
+void PathTracer<Decisions, Recorders>::Walk::take(const Connection& found, const Vertex& v, const ChosenSample& chosen,
+                                                  float times) {
     const Rgb brought = found.scattering * found.light;
     gather(brought, found.slope);
-    recorder_.connect(v, chosen.index, chosen.probability, times, found.to_light, found.distance,
-                      mean_value(found.light), brought);
+    recorder_.record(Connected{v, chosen.index, chosen.probability, times, found.to_light, found.distance,
+                               mean_value(found.light), brought});
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class F, class Directions>
-auto PathTracer<Decisions>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
-                                          const Directions& directions, const Vertex& v) -> Connection {
+auto PathTracer<Decisions, Recorders>::Walk::connect(const ChosenSample& chosen, float times, const F& f,
+                                                     const Directions& directions, const Vertex& v) -> Connection {
     const Rgb value = f.evaluate(chosen.light.direction);
     if (is_black(value)) {
         return {};
     }
     const Sight sight = look_straight(chosen, directions, v);
     if (is_black(sight.passage.transmittance)) {
-        if (recorder_.takes_hints() && !sight.interior.is_inside()) {
+        if (recorder_.template get<FieldRecorder>().takes_hints() && !sight.interior.is_inside()) {
             hint_at_refracted(chosen, v);
         }
         return {};
     }
     if (v.in_volume()) {
-        recorder_.connected(now_.medium.id, false);
+        recorder_.record(SawLight{now_.medium.id, false});
     }
     return weigh(sight, times + now_.connected_before, chosen.light.point_like, value, directions, v);
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class Directions>
-auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool point_like, const Rgb& value,
-                                        const Directions& directions, const Vertex& v) const -> Connection {
+auto PathTracer<Decisions, Recorders>::Walk::weigh(const Sight& sight, float often, bool point_like, const Rgb& value,
+                                                   const Directions& directions, const Vertex& v) const -> Connection {
     const float density = often * sight.density;
     float other = 0;
     if (!point_like) {
@@ -101,17 +102,19 @@ auto PathTracer<Decisions>::Walk::weigh(const Sight& sight, float often, bool po
     Connection found{sight.direction, sight.distance,
                      sight.radiance * sight.passage.transmittance * (1 / (density + other)), value, std::nullopt};
     if (v.in_volume() && now_.interior.is_inside()) {
-        found.slope = recorder_.slope_inside(now_.interior, sight.interior, density / (density + other));
+        found.slope = recorder_.template get<InteriorRecorder>().gradient_inside(now_.interior, sight.interior,
+                                                                                 density / (density + other));
     } else if (now_.connected_before > 0) {
-        found.slope =
-            recorder_.slope_at_boundary(now_.interior, now_.connected_before * sight.density / (density + other));
+        found.slope = recorder_.template get<InteriorRecorder>().gradient_at_boundary(
+            now_.interior, now_.connected_before * sight.density / (density + other));
     }
     return found;
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class Directions>
-InteriorWalk PathTracer<Decisions>::Walk::interior_towards(const Vec3& direction, const Directions& directions) const {
+InteriorWalk PathTracer<Decisions, Recorders>::Walk::interior_towards(const Vec3& direction,
+                                                                      const Directions& directions) const {
     InteriorWalk interior;
     if constexpr (std::same_as<Directions, InteriorWalk::Directions>) {
         interior = now_.interior;
@@ -120,10 +123,10 @@ InteriorWalk PathTracer<Decisions>::Walk::interior_towards(const Vec3& direction
     return interior;
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class Directions>
-auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
-                                                const Vertex& v) -> Sight {
+auto PathTracer<Decisions, Recorders>::Walk::look_straight(const ChosenSample& chosen, const Directions& directions,
+                                                           const Vertex& v) -> Sight {
     const LightSample& light = chosen.light;
     Sight sight{light.direction,
                 light.distance,
@@ -137,10 +140,11 @@ auto PathTracer<Decisions>::Walk::look_straight(const ChosenSample& chosen, cons
     return sight;
 }
 
-template <class Decisions>
+template <class Decisions, class Recorders>
 template <class Directions>
-auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& chosen, const Directions& directions,
-                                                          const Vertex& v) -> std::optional<Sight> {
+auto PathTracer<Decisions, Recorders>::Walk::look_through_boundaries(const ChosenSample& chosen,
+                                                                     const Directions& directions, const Vertex& v)
+    -> std::optional<Sight> {
     const LightSample& light = chosen.light;
     const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
     const auto way = find_specular_chain(scene_, {v.position, light.direction}, light.distance, now_.medium);
@@ -159,8 +163,8 @@ auto PathTracer<Decisions>::Walk::look_through_boundaries(const ChosenSample& ch
     return sight;
 }
 
-template <class Decisions>
-void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vertex& v) {
+template <class Decisions, class Recorders>
+void PathTracer<Decisions, Recorders>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vertex& v) {
     constexpr float often = 0.25f;
     const LightSample& light = chosen.light;
     if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
@@ -170,9 +174,9 @@ void PathTracer<Decisions>::Walk::hint_at_refracted(const ChosenSample& chosen, 
     if (const auto seen =
             glimpse(scene_, shadow.ray, shadow.length, medium_towards(v, light.direction), sampler_.random())) {
         const Rgb radiance = light.radiance * seen->transmittance;
-        recorder_.hint({{v.position, seen->direction, mean_value(radiance), often * chosen.density(), light.distance, 0,
-                         0, 0, radiance},
-                        v.in_volume()});
+        recorder_.template get<FieldRecorder>().hint({{v.position, seen->direction, mean_value(radiance),
+                                                       often * chosen.density(), light.distance, 0, 0, 0, radiance},
+                                                      v.in_volume()});
     }
 }
 

@@ -1,0 +1,50 @@
+// The learned fields of directions and light.
+#pragma once
+
+#include <wend/guide/fields.h>
+#include <wend/light/caustic_photons.h>
+#include <wend/render/learner.h>
+#include <wend/render/record_budget.h>
+#include <wend/transport/field_recorder.h>
+
+#include <utility>
+
+namespace wend {
+
+class FieldLearner {
+public:
+    FieldLearner(const LearningContext& context);
+
+    using Recorder = FieldRecorder;
+    struct Records {
+        guide::PathRecords records;
+        guide::PathLog log;  ///< of the walk at hand
+    };
+
+    /// Sends photons where they are due.
+    void begin(const PassPlan& plan);
+    bool records() const { return records_; }
+    Recorder recorder(Records& records, bool is_recorded) const {
+        return Recorder(records_ && is_recorded ? &records.log : nullptr, &caustics_);
+    }
+    void keep(Records& records, bool is_recorded) const;
+    void learn(std::vector<Records>& all, const PassPlan& plan);
+
+    /// Of so many walks, the share that is to be recorded.
+    double recorded_share(double walks) const { return budget_.share(walks); }
+    const guide::Fields& fields() const { return fields_; }
+    guide::Fields take_fields() { return std::move(fields_); }
+    const CausticPhotons& caustics() const { return caustics_; }
+
+private:
+    LearningContext context_;
+    guide::Fields fields_;
+    CausticPhotons caustics_;
+    int photons_ = 0;  ///< that were sent
+    RecordBudget budget_;
+    bool records_ = false;
+};
+
+static_assert(Learner<FieldLearner>);
+
+}  // namespace wend

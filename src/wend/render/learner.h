@@ -1,0 +1,54 @@
+// Learning between passes: what all learners have in common.
+#pragma once
+
+#include <wend/render/render.h>
+#include <wend/scene/scene.h>
+
+#include <concepts>
+#include <type_traits>
+#include <vector>
+
+namespace wend {
+
+/// Before, neither the fields nor the pixels are known well enough to end or split walks by them, or to judge guides.
+inline constexpr int warm_up_samples = 7;
+
+/// What one pass does.
+struct PassPlan {
+    int first = 0;  ///< sample of each pixel
+    int count = 0;
+    bool learns = false;        ///< whether walks are there to learn from
+    bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
+    double recorded_share = 1;  ///< of the walks, those that are recorded
+    /// Of each pixel of the crop, without exposure; empty where not known.
+    std::vector<float> estimates;
+
+    /// Samples of each pixel once the pass has ended.
+    int samples_after() const { return first + count; }
+};
+
+/// What a render is, for those that learn from it. What it refers to must outlive them.
+struct LearningContext {
+    const Scene& scene;
+    const RenderSettings& settings;
+    double pixels;
+
+    double walks(const PassPlan& plan) const { return pixels * plan.count; }
+};
+
+/// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts
+/// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. What
+/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order.
+template <class L>
+concept Learner = requires(L& learner, const L& known, typename L::Records& records,
+                           std::vector<typename L::Records>& all, const PassPlan& plan) {
+    requires std::is_constructible_v<L, const LearningContext&>;
+    learner.begin(plan);
+    /// Whether this pass is recorded.
+    { known.records() } -> std::same_as<bool>;
+    { known.recorder(records, true) } -> std::same_as<typename L::Recorder>;
+    known.keep(records, true);
+    learner.learn(all, plan);
+};
+
+}  // namespace wend

@@ -1,0 +1,41 @@
+// Which lights vertices are connected to.
+#pragma once
+
+#include <wend/render/learner.h>
+#include <wend/transport/light_recorder.h>
+
+#include <utility>
+
+namespace wend {
+
+class LightLearner {
+public:
+    LightLearner(const LearningContext& context) : settings_(context.settings), selection_(context.scene) {}
+
+    using Recorder = LightRecorder;
+    using Records = std::vector<LightRecord>;
+
+    void begin(const PassPlan& plan) { records_ = plan.learns && settings_.preset.direction && selection_.learns(); }
+    bool records() const { return records_; }
+    Recorder recorder(Records& records, bool is_recorded) const {
+        return Recorder(records_ && is_recorded ? &records : nullptr, selection_);
+    }
+    void keep(Records&, bool /*is_recorded*/) const {}
+    void learn(std::vector<Records>& all, const PassPlan& /*plan*/) {
+        for (Records& tile : all) {
+            selection_.add(std::exchange(tile, {}));
+        }
+        selection_.learn(settings_.threads);
+    }
+
+    const LightSelection& selection() const { return selection_; }
+
+private:
+    const RenderSettings& settings_;
+    LightSelection selection_;
+    bool records_ = false;
+};
+
+static_assert(Learner<LightLearner>);
+
+}  // namespace wend
