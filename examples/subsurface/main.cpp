@@ -61,11 +61,11 @@ public:
         // 2. At the boundary, going in: enter, aim, head.
         ray_.origin = ray.at(intersect(ray)->x);
         const Vec3 normal = normalize(ray_.origin);
-        slab_.enter(guide, Rgb(1.0f / 3));
+        interior_.enter(guide, Rgb(1.0f / 3));
         for (int strategy = 0; strategy < guide.strategies; ++strategy) {
-            slab_.aim(strategy, normal);
+            interior_.aim(strategy, normal);
         }
-        slab_.head(ray_.direction);
+        interior_.head(ray_.direction);
     }
 
     Rgb run() {
@@ -77,7 +77,7 @@ public:
 private:
     bool step() {
         // 3. Fly to the next collision or to the boundary.
-        const InteriorFlight step = slab_.fly(distance_to_exit(ray_), random_.uniform(), random_);
+        const InteriorFlight step = interior_.fly(distance_to_exit(ray_), random_.uniform(), random_);
         throughput_ *= step.flight.weight;
         if (!step.flight.scatters) {
             leave(step.pass_probability);
@@ -85,16 +85,16 @@ private:
         }
         // 4. Scatter: draw a direction, and tell the walk.
         const Vec3 position = ray_.at(step.flight.distance);
-        const InteriorWalk::Directions directions(slab_, ray_.direction, random_);
+        const InteriorWalk::Directions directions(interior_, ray_.direction, random_);
         radiance_ += throughput_ * connect(directions, position);
         const float u = random_.uniform();
         const auto s = directions.sample(u, random_.uniform2());
         throughput_ *= s->weight();
-        slab_.turn(directions, s->direction);
+        interior_.turn(directions, s->direction);
         ray_ = {position, s->direction};
         density_ = s->density;
         // 5. Survive.
-        const float survival = slab_.survival(wend::max_value(throughput_));
+        const float survival = interior_.survival(wend::max_value(throughput_));
         if (random_.uniform() >= survival) {
             return false;
         }
@@ -106,7 +106,7 @@ private:
     void leave(float pass_probability) {
         radiance_ += throughput_ * sky_radiance;
         if (is_in_sun(ray_.direction)) {
-            const bool connected = slab_.has_turned();  // not if the ray went through without a collision
+            const bool connected = interior_.has_turned();  // not if the ray went through without a collision
             const float own = density_ * pass_probability;
             radiance_ += throughput_ * sun_radiance * (connected ? own / (own + sun_density) : 1.0f);
         }
@@ -117,7 +117,7 @@ private:
     Rgb connect(const InteriorWalk::Directions& directions, const Vec3& position) {
         const Vec3 w = sun.to_world(wend::to_cone(random_.uniform2(), sun_width));
         const float length = distance_to_exit({position, w});
-        InteriorWalk there = slab_;
+        InteriorWalk there = interior_;
         there.turn(directions, w);
         const float own = directions.density(w) * there.pass(length);
         const Rgb transmittance = wend::exp(wax.extinction() * -length);
@@ -126,7 +126,7 @@ private:
 
     Ray ray_;
     wend::Pcg32& random_;
-    InteriorWalk slab_;
+    InteriorWalk interior_;
     Rgb throughput_{1}, radiance_;
     float density_ = 0;  ///< of the direction drawn last
 };
@@ -155,8 +155,8 @@ int main() {
     // 1. Once a medium: solve for its modes, and say how walks are guided. Without strategies a walk is classical.
     constexpr int walks = 100000;
     const auto modes = wend::half_space_modes(wax);
-    const Measured classical = measure(wend::slab_guide(wax, modes, 0), walks);
-    const Measured guided = measure(wend::slab_guide(wax, modes, 1), walks);
+    const Measured classical = measure(wend::interior_guide(wax, modes, 0), walks);
+    const Measured guided = measure(wend::interior_guide(wax, modes, 1), walks);
 
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
     bool agrees = true;

@@ -14,7 +14,7 @@ const HomogeneousMedium wax{{0.1f, 0.4f, 1}, {4, 3, 2.5f}, Rgb(0.0f), PhaseFunct
 
 TEST(InteriorGuide, SharesAddUpToOne) {
     for (int strategies = 0; strategies <= InteriorGuide::most_strategies; ++strategies) {
-        const InteriorGuide guide = slab_guide(wax, half_space_modes(wax), strategies, strategies == 0 ? 1 : 0.4f);
+        const InteriorGuide guide = interior_guide(wax, half_space_modes(wax), strategies, strategies == 0 ? 1 : 0.4f);
         EXPECT_EQ(guide.channels(), 3);
         EXPECT_EQ(guide.strategies, strategies);
         EXPECT_FLOAT_EQ(guide.share[0], strategies == 0 ? 1 : 0.4f);
@@ -24,14 +24,14 @@ TEST(InteriorGuide, SharesAddUpToOne) {
 
 TEST(InteriorGuide, RefusesWhatMakesNoGuide) {
     const auto modes = half_space_modes(wax);
-    EXPECT_THROW(slab_guide(wax, modes, InteriorGuide::most_strategies + 1), InputError);
-    EXPECT_THROW(slab_guide(wax, modes, -1), InputError);
-    EXPECT_THROW(slab_guide(wax, modes, 1, 0), InputError);
-    EXPECT_THROW(slab_guide(wax, modes, 1, 1.5f), InputError);
-    EXPECT_THROW(slab_guide(wax, {}, 1), InputError);
-    EXPECT_THROW(slab_guide(wax, {modes[0], modes[1]}, 1), InputError);
-    EXPECT_THROW(slab_guide(wax, {{modes[0][0]}, modes[1], modes[2]}, 1), InputError);
-    EXPECT_THROW(slab_guide(wax, {{}}, 1), InputError);
+    EXPECT_THROW(interior_guide(wax, modes, InteriorGuide::most_strategies + 1), InputError);
+    EXPECT_THROW(interior_guide(wax, modes, -1), InputError);
+    EXPECT_THROW(interior_guide(wax, modes, 1, 0), InputError);
+    EXPECT_THROW(interior_guide(wax, modes, 1, 1.5f), InputError);
+    EXPECT_THROW(interior_guide(wax, {}, 1), InputError);
+    EXPECT_THROW(interior_guide(wax, {modes[0], modes[1]}, 1), InputError);
+    EXPECT_THROW(interior_guide(wax, {{modes[0][0]}, modes[1], modes[2]}, 1), InputError);
+    EXPECT_THROW(interior_guide(wax, {{}}, 1), InputError);
 }
 
 }  // namespace

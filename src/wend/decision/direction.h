@@ -3,6 +3,7 @@
 
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
+#include <wend/core/contracts.h>
 #include <wend/decision/caustic_map.h>
 #include <wend/decision/weight_bound.h>
 #include <wend/sampling/axial_lobes.h>
@@ -95,7 +96,7 @@ public:
     template <ScatteringFunction F>
     class Distribution {
     public:
-        /// `adjoint` and `caustic lobes` may be null. `least_defensive_fraction` in [0,1]: of the density of `f` alone,
+        /// `adjoint` and `caustics` may be null. `least_defensive_fraction` in [0,1]: of the density of `f` alone,
         /// what is always left of it.
         Distribution(const F& f, const LocalAdjoint* adjoint, const Vec3& position, float defensive_fraction,
                      const CausticMap::Cell* caustics, float least_defensive_fraction)
@@ -107,6 +108,10 @@ public:
                                                                       1 - least_defensive_fraction);
             }
             defensive_fraction_ = std::max(defensive_fraction, least_defensive_fraction / (1 - caustic_share_));
+            WEND_ENSURE(caustic_share_ >= 0 && caustic_share_ < 1);
+            WEND_ENSURE(defensive_fraction_ >= 0 && defensive_fraction_ < 1.0001f);
+            WEND_ENSURE((1 - caustic_share_) * defensive_fraction_ > 0.9999f * least_defensive_fraction ||
+                        least_defensive_fraction == 0);
             if (adjoint) {
                 product_.emplace(InPlace{*adjoint, position, f});
             }

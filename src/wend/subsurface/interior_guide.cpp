@@ -6,8 +6,8 @@
 
 namespace wend {
 
-InteriorGuide slab_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes, int strategies,
-                         float defensive_fraction) {
+InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
+                             int strategies, float defensive_fraction) {
     const auto require = [](bool condition, const char* rule) {
         if (!condition) {
             throw InputError(std::string("the guide of a medium: ") + rule);

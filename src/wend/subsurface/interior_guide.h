@@ -56,7 +56,7 @@ inline InteriorGuide::Shares mix(const InteriorGuide::Shares& a, const InteriorG
 /// A guide that mixes `strategies` of equal shares with `defensive_fraction`, in (0, 1], of classical sampling; `modes`
 /// are those of the medium (subsurface/half_space_modes.h has them). Throws InputError for numbers out of range, and
 /// for modes that are not as InteriorGuide has them.
-InteriorGuide slab_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes, int strategies,
-                         float defensive_fraction = 0.25f);
+InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
+                             int strategies, float defensive_fraction = 0.25f);
 
 }  // namespace wend

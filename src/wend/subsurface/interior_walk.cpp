@@ -241,6 +241,8 @@ void InteriorWalk::normalize(float total) {
     for (int i = 0; i < techniques(); ++i) {
         posterior_[static_cast<std::size_t>(i)] *= scale;
     }
+    WEND_ENSURE(scale == 0 ||
+                std::abs(std::accumulate(posterior_.begin(), posterior_.begin() + techniques(), 0.0) - 1) < 1e-4);
 }
 
 float InteriorWalk::draw_distance(float u, Pcg32& random) const {

@@ -2,6 +2,7 @@
 // what direction, and whether at all.
 #pragma once
 
+#include <wend/core/contracts.h>
 #include <wend/decision/channels.h>
 #include <wend/light/scattering.h>
 #include <wend/transport/path_tracer.h>
@@ -55,6 +56,7 @@ bool PathTracer<Decisions, Recorders>::Walk::draw_direction(const F& f, const Di
     if (!s) {
         return false;
     }
+    WEND_ASSERT(s->density > 0);
     if constexpr (std::same_as<F, SurfaceScattering>) {
         if (f.reflects_or_refracts()) {
             recorder_.record(PassedBoundary{*s, v, mean_value(now_.throughput) / s->density_ratio});

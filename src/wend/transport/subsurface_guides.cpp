@@ -128,7 +128,7 @@ auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const Homogeneou
         return found == strategies_.end() ? -1 : static_cast<int>(found - strategies_.begin());
     };
     InteriorGuide guide =
-        slab_guide(medium, half_space_modes(medium), static_cast<int>(strategies_.size()), defensive_fraction);
+        interior_guide(medium, half_space_modes(medium), static_cast<int>(strategies_.size()), defensive_fraction);
     const Box3 box = bounds_of(points);
     const BoundarySurface boundary = surface_of_boundary(scene.description(), id);
     const Rgb decay = decay_of(guide);
