@@ -64,10 +64,8 @@ std::filesystem::path default_output(const Session& session) {
     return name;
 }
 
-void render_scene(const RenderOptions& options, const Streams& streams) {
-    const Preset preset = parse_preset(options.sampling);
-    const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
-    const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
+/// Refuses what cannot be written or does not go together, before anything takes time.
+void check(const RenderOptions& options, const Preset& preset) {
     if (!options.output.empty()) {
         require_writable_picture(options.output);
     }
@@ -85,8 +83,29 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
             require_writable(file);
         }
     }
-    const std::vector<std::string> inputs{options.scene.file, options.load_field};
-    require_distinct(inputs, {options.output, options.common.json, options.save_field, options.save_records});
+}
+
+/// The paths that are written differ, and are not read.
+void check_paths(const RenderOptions& options, const std::string& output) {
+    require_distinct({options.scene.file, options.load_field},
+                     {output, options.common.json, options.save_field, options.save_records});
+}
+
+void warn_of_lacks(const RenderStatistics& statistics, std::ostream& err) {
+    if (statistics.samples == 0) {
+        err << "warning: the render was stopped before all pixels had a sample: the others are black\n";
+    }
+    if (statistics.counts.rejected > 0) {
+        err << "warning: " << statistics.counts.rejected << " samples were not finite numbers and count as black\n";
+    }
+}
+
+void render_scene(const RenderOptions& options, const Streams& streams) {
+    const Preset preset = parse_preset(options.sampling);
+    const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
+    const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
+    check(options, preset);
+    check_paths(options, options.output);
     std::shared_ptr<const guide::Fields> fields;
     if (!options.load_field.empty()) {
         fields = std::make_shared<const guide::Fields>(read_fields(options.load_field));
@@ -94,7 +113,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     const Session session(options.scene, options.common, streams);
     const std::filesystem::path output =
         options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
-    require_distinct(inputs, {output.string(), options.common.json, options.save_field, options.save_records});
+    check_paths(options, output.string());
 
     RenderSettings settings = session.settings();
     settings.preset = preset;
@@ -130,13 +149,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     }
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
-    if (statistics.samples == 0) {
-        streams.err << "warning: the render was stopped before all pixels had a sample: the others are black\n";
-    }
-    if (statistics.counts.rejected > 0) {
-        streams.err << "warning: " << statistics.counts.rejected
-                    << " samples were not finite numbers and count as black\n";
-    }
+    warn_of_lacks(statistics, streams.err);
     nlohmann::json described = session.describe(settings);
     described["passes"] = statistics.passes;
     described["output"] = output.string();

@@ -55,25 +55,14 @@ Grouping grouped(std::span<const CausticLobe> caustics) {
     return groups;
 }
 
-CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& bounds) {
-    const Vec3 size = bounds.size();
-    const Vec3 around = Vec3(1, 1, 1) * (2 * std::max({size.x, size.y, size.z, 1e-6f}));
-    // Outermost points lie within an interval's ends by chance, or where space was divided on one of these.
-    const auto n = static_cast<float>(caustics.size());
-    CausticMap::Cell cell;
-    cell.reach = Box3(bounds.min - around, bounds.max + around);
-    cell.extent = size * ((n + 0.5f) / std::max(1.0f, n - 1));
-
-    const Grouping grouping = grouped(caustics);
-    cell.count = grouping.count;
-    const std::span groups(cell.groups.data(), cell.count);
+/// Means over the members of each group: of directions, distances, places.
+void place_groups(std::span<const CausticLobe> caustics, const Grouping& grouping,
+                  std::span<CausticMap::Group> groups) {
     std::array<Vec3, CausticMap::most_groups> sums;
     sums.fill({0, 0, 0});
-    std::array<float, CausticMap::most_groups> members{}, squares{};
     for (std::size_t i = 0; i < caustics.size(); ++i) {
         const CausticLobe& lobe = caustics[i];
         const float light = mean_value(lobe.light);
-        ++members[grouping.of[i]];
         sums[grouping.of[i]] += lobe.towards * light;
         CausticMap::Group& group = groups[grouping.of[i]];
         group.light += lobe.light;
@@ -91,9 +80,15 @@ CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& boun
         group.place *= scale;
         group.image *= scale;
     }
-    // Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that
-    // the length of the way.
-    std::array<float, CausticMap::most_groups> turned{}, moved{};
+}
+
+using ByGroup = std::array<float, CausticMap::most_groups>;
+
+/// Neighbours see the same light under another angle, by a curvature that a line through all tells, and before that the
+/// length of the way.
+void turn_groups(std::span<const CausticLobe> caustics, const Grouping& grouping, const ByGroup& members,
+                 float most_turned, std::span<CausticMap::Group> groups) {
+    ByGroup turned{}, moved{};
     for (std::size_t i = 0; i < caustics.size(); ++i) {
         const std::size_t g = grouping.of[i];
         const Vec3& mean = groups[g].lobe.mean;
@@ -102,12 +97,17 @@ CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& boun
         turned[g] -= dot(caustics[i].towards - mean, across);
         moved[g] += length_squared(across);
     }
-    const float most_turned = 1 / std::max({size.x, size.y, size.z, 1e-6f});
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const float before = std::max(moved[g] / members[g], 1e-12f);
         const float turn = (turned[g] + before / groups[g].distance) / (moved[g] + before);
         groups[g].turn = std::clamp(turn, -most_turned, most_turned);
     }
+}
+
+/// A group of few is thought to spread as others do, and a cell without any spread far.
+void spread_groups(std::span<const CausticLobe> caustics, const Grouping& grouping, const ByGroup& members,
+                   std::span<CausticMap::Group> groups) {
+    ByGroup squares{};
     float square = 0;
     for (std::size_t i = 0; i < caustics.size(); ++i) {
         const std::size_t g = grouping.of[i];
@@ -115,13 +115,33 @@ CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& boun
         squares[g] += d;
         square += d;
     }
-    // A group of few is thought to spread as others do, and a cell without any spread far.
-    const std::size_t freedom = caustics.size() - cell.count;
+    const std::size_t freedom = caustics.size() - groups.size();
     const float expected = freedom > 0 ? square / static_cast<float>(freedom) : 1.0f;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const float spread = (squares[g] + expected) / members[g];
         groups[g].lobe.kappa = std::min(2 / std::max(spread, 1e-5f), Vmf::max_kappa);
     }
+}
+
+CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& bounds) {
+    const Vec3 size = bounds.size();
+    const Vec3 around = Vec3(1, 1, 1) * (2 * std::max({size.x, size.y, size.z, 1e-6f}));
+    // Outermost points lie within an interval's ends by chance, or where space was divided on one of these.
+    const auto n = static_cast<float>(caustics.size());
+    CausticMap::Cell cell;
+    cell.reach = Box3(bounds.min - around, bounds.max + around);
+    cell.extent = size * ((n + 0.5f) / std::max(1.0f, n - 1));
+
+    const Grouping grouping = grouped(caustics);
+    cell.count = grouping.count;
+    const std::span groups(cell.groups.data(), cell.count);
+    ByGroup members{};
+    for (std::size_t i = 0; i < caustics.size(); ++i) {
+        ++members[grouping.of[i]];
+    }
+    place_groups(caustics, grouping, groups);
+    turn_groups(caustics, grouping, members, 1 / std::max({size.x, size.y, size.z, 1e-6f}), groups);
+    spread_groups(caustics, grouping, members, groups);
     const auto add_light = [](float sum, const CausticMap::Group& group) { return sum + mean_value(group.light); };
     const float all = std::accumulate(groups.begin(), groups.end(), 0.0f, add_light);
     const auto dim = std::partition(groups.begin(), groups.end(), [all](const CausticMap::Group& group) {

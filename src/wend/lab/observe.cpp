@@ -96,24 +96,13 @@ std::vector<PlanarTrace> trace_planar(const PlanarExperiment& experiment, int wa
     });
 }
 
-PlanarHistogram histogram_planar(const PlanarExperiment& experiment, const PlanarRun& run) {
-    validate(experiment);
-    constexpr std::size_t depth_bins = 50, cosine_bins = 50;
-    constexpr std::uint64_t block_size = 4096;
-    const double deepest = std::min(5.0, experiment.thickness);
-    PlanarHistogram h;
-    h.depth_begin = 0.1 * deepest;
-    h.depth_end = 0.16 * deepest;
-    const double step = deepest / depth_bins;
-    for (std::size_t i = 0; i <= depth_bins; ++i) {
-        h.depth_edges.push_back(step * static_cast<double>(i));
-    }
-    for (std::size_t i = 0; i <= cosine_bins; ++i) {
-        h.cosine_edges.push_back(-1 + 2 * static_cast<double>(i) / cosine_bins);
-    }
+namespace {
 
-    PlanarExperiment e = experiment;
-    e.window = PlanarWindow::none;
+constexpr std::size_t depth_bins = 50, cosine_bins = 50;
+
+/// Where first collisions of walks are, and where those of some depths head.
+void count_collisions(const PlanarExperiment& e, const PlanarRun& run, double step, PlanarHistogram& h) {
+    constexpr std::uint64_t block_size = 4096;
     const std::uint64_t count = (run.walks + block_size - 1) / block_size;
     std::vector<FirstCollision> blocks(count,
                                        FirstCollision(step, depth_bins, h.depth_begin, h.depth_end, cosine_bins));
@@ -143,8 +132,10 @@ PlanarHistogram histogram_planar(const PlanarExperiment& experiment, const Plana
     for (const double n : cosines) {
         h.cosine_density.push_back(selected > 0 ? n * cosine_bins / (2 * selected) : 0);
     }
+}
 
-    // What a walk of no variance does, where the walk enters at one cosine.
+/// What a walk of no variance does, where the walk enters at one cosine.
+void add_exact(const PlanarExperiment& e, PlanarHistogram& h) {
     const PlanarSlab slab = make_slab(e, 0);
     const PlanarAdjoint adjoint(solve_planar(make_problem(e.albedo[0], e.g, slab, reference_transients)), slab);
     const double outside = e.mu0.value_or(1);
@@ -179,6 +170,28 @@ PlanarHistogram histogram_planar(const PlanarExperiment& experiment, const Plana
     for (double& density : h.cosine_exact) {
         density = total > 0 ? density / total : 0;
     }
+}
+
+}  // namespace
+
+PlanarHistogram histogram_planar(const PlanarExperiment& experiment, const PlanarRun& run) {
+    validate(experiment);
+    const double deepest = std::min(5.0, experiment.thickness);
+    PlanarHistogram h;
+    h.depth_begin = 0.1 * deepest;
+    h.depth_end = 0.16 * deepest;
+    const double step = deepest / depth_bins;
+    for (std::size_t i = 0; i <= depth_bins; ++i) {
+        h.depth_edges.push_back(step * static_cast<double>(i));
+    }
+    for (std::size_t i = 0; i <= cosine_bins; ++i) {
+        h.cosine_edges.push_back(-1 + 2 * static_cast<double>(i) / cosine_bins);
+    }
+
+    PlanarExperiment e = experiment;
+    e.window = PlanarWindow::none;
+    count_collisions(e, run, step, h);
+    add_exact(e, h);
     return h;
 }
 

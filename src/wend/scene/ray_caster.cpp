@@ -270,85 +270,110 @@ bool RayCaster::is_occluded(const TracedRay& ray, float distance) const {
     return found.tfar < 0;
 }
 
+namespace {
+
+/// A point of a surface in the space of its object.
+struct LocalPoint {
+    Vec3 position, normal, shading;
+    Vec3 largest;  ///< of the coordinates that the position is made of
+    Tangents tangents{};
+};
+
+/// Fills in what of a hit on a mesh needs no placement.
+LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
+    const std::uint32_t* i = &mesh.indices[3 * std::size_t{raw.element.primitive}];
+    const Vec3 &p0 = mesh.positions[i[0]], &p1 = mesh.positions[i[1]], &p2 = mesh.positions[i[2]];
+    const Vec3 e1 = p1 - p0;
+    const Vec3 e2 = p2 - p0;
+    const float w = 1 - raw.u - raw.v;
+    LocalPoint point;
+    point.largest = largest_of(largest_of(p0, p1), p2);
+    point.position = p0 + e1 * raw.u + e2 * raw.v;
+    point.normal = cross(e1, e2);
+    if (mesh.uvs.empty()) {
+        hit.uv = {raw.u + raw.v, raw.v};  // pbrt's default: (0,0), (1,0), (1,1)
+    } else {
+        const Vec2 uv0 = mesh.uvs[i[0]], uv1 = mesh.uvs[i[1]], uv2 = mesh.uvs[i[2]];
+        hit.uv = uv0 * w + uv1 * raw.u + uv2 * raw.v;
+        point.tangents = tangents(e1, e2, uv1 - uv0, uv2 - uv0);
+    }
+    if (mesh.normals.empty()) {
+        hit.against_winding = hit.surface->flip_normal;
+        point.normal = hit.against_winding ? -point.normal : point.normal;
+        point.shading = point.normal;
+    } else {
+        point.shading = mesh.normals[i[0]] * w + mesh.normals[i[1]] * raw.u + mesh.normals[i[2]] * raw.v;
+        hit.against_winding = dot(point.normal, point.shading) < 0;
+        point.normal = hit.against_winding ? -point.normal : point.normal;
+        point.shading = length_squared(point.shading) > 0 ? point.shading : point.normal;
+    }
+    return point;
+}
+
+/// The same of a quadric, near the point p. `has_uv`: whether anybody asks for its parameters.
+LocalPoint point_of(const Quadric& quadric, const Vec3& p, bool has_uv, Hit& hit) {
+    const QuadricPoint on_it = project(quadric, quadric.object_from_world.point(p));
+    LocalPoint point;
+    point.position = quadric.world_from_object.point(on_it.position);
+    point.largest = quadric.world_from_object.magnitude(Vec3(extent(quadric)));
+    point.normal = quadric.object_from_world.transposed_vector(on_it.normal);
+    hit.against_winding = hit.surface->flip_normal;
+    point.normal = hit.against_winding ? -point.normal : point.normal;
+    point.shading = point.normal;
+    if (has_uv) {
+        hit.uv = parameters(quadric, on_it.position);
+    }
+    point.tangents = {quadric.world_from_object.vector(on_it.dpdu), length_squared(on_it.dpdu) > 0};
+    return point;
+}
+
+/// Along dp/du where that is known.
+Frame shading_frame(const Vec3& shading, const Tangents& t) {
+    const Vec3 n = normalize(shading);
+    const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
+    if (!t.valid || !(length_squared(along) > 1e-14f * length_squared(t.dpdu))) {
+        return Frame::from_z(n);
+    }
+    Frame frame;
+    frame.s = normalize(along);
+    frame.t = cross(n, frame.s);
+    frame.n = n;
+    return frame;
+}
+
+}  // namespace
+
 Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     Hit hit;
     hit.distance = raw.distance;
     hit.t = raw.t;
     hit.surface = &d_.surfaces[raw.element.surface];
     hit.element = raw.element;
-    const std::uint32_t primitive = raw.element.primitive;
-    hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(primitive);
+    hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.element.primitive);
     const Placement* const placement =
         raw.element.instance >= 0 ? &placements_[static_cast<std::size_t>(raw.element.instance)] : nullptr;
-    Vec3 largest;  // of the coordinates that the position is made of
-    Vec3 normal;
-    Vec3 shading;
-    Tangents t;
+    LocalPoint point;
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
-        const std::uint32_t* i = &mesh->indices[3 * std::size_t{primitive}];
-        const Vec3 &p0 = mesh->positions[i[0]], &p1 = mesh->positions[i[1]], &p2 = mesh->positions[i[2]];
-        const Vec3 e1 = p1 - p0;
-        const Vec3 e2 = p2 - p0;
-        largest = largest_of(largest_of(p0, p1), p2);
-        const float w = 1 - raw.u - raw.v;
-        hit.position = p0 + e1 * raw.u + e2 * raw.v;
-        normal = cross(e1, e2);
-        if (mesh->uvs.empty()) {
-            hit.uv = {raw.u + raw.v, raw.v};  // pbrt's default: (0,0), (1,0), (1,1)
-        } else {
-            const Vec2 uv0 = mesh->uvs[i[0]], uv1 = mesh->uvs[i[1]], uv2 = mesh->uvs[i[2]];
-            hit.uv = uv0 * w + uv1 * raw.u + uv2 * raw.v;
-            t = tangents(e1, e2, uv1 - uv0, uv2 - uv0);
-        }
-        if (mesh->normals.empty()) {
-            hit.against_winding = hit.surface->flip_normal;
-            normal = hit.against_winding ? -normal : normal;
-            shading = normal;
-        } else {
-            shading = mesh->normals[i[0]] * w + mesh->normals[i[1]] * raw.u + mesh->normals[i[2]] * raw.v;
-            hit.against_winding = dot(normal, shading) < 0;
-            normal = hit.against_winding ? -normal : normal;
-            shading = length_squared(shading) > 0 ? shading : normal;
-        }
+        point = point_of(*mesh, raw, hit);
     } else {
-        const auto& quadric = std::get<Quadric>(hit.surface->shape);
-        Vec3 p = ray.at(raw.distance);
-        if (placement) {
-            p = placement->object_from_world.point(p);
-        }
-        const QuadricPoint point = project(quadric, quadric.object_from_world.point(p));
-        hit.position = quadric.world_from_object.point(point.position);
-        largest = quadric.world_from_object.magnitude(Vec3(extent(quadric)));
-        normal = quadric.object_from_world.transposed_vector(point.normal);
-        hit.against_winding = hit.surface->flip_normal;
-        normal = hit.against_winding ? -normal : normal;
-        shading = normal;
+        const Vec3 p = ray.at(raw.distance);
         const Material& material = d_.materials[static_cast<std::size_t>(hit.surface->material)];
-        if (!std::holds_alternative<InterfaceMaterial>(material)) {
-            hit.uv = parameters(quadric, point.position);
-        }
-        t = {quadric.world_from_object.vector(point.dpdu), length_squared(point.dpdu) > 0};
+        point = point_of(std::get<Quadric>(hit.surface->shape), placement ? placement->object_from_world.point(p) : p,
+                         !std::holds_alternative<InterfaceMaterial>(material), hit);
     }
     if (placement) {
-        hit.position = placement->world_from_object.point(hit.position);
-        normal = placement->object_from_world.transposed_vector(normal);
-        shading = placement->object_from_world.transposed_vector(shading);
-        t.dpdu = placement->world_from_object.vector(t.dpdu);
-        largest = placement->world_from_object.magnitude(largest);
+        point.position = placement->world_from_object.point(point.position);
+        point.normal = placement->object_from_world.transposed_vector(point.normal);
+        point.shading = placement->object_from_world.transposed_vector(point.shading);
+        point.tangents.dpdu = placement->world_from_object.vector(point.tangents.dpdu);
+        point.largest = placement->world_from_object.magnitude(point.largest);
     }
-    hit.normal = normalize(normal);
+    hit.position = point.position;
+    hit.normal = normalize(point.normal);
     // Along the normal: a wide surface across an axis is as exact as its place on that axis.
     const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
-    hit.clearance = rounding * (dot(facing, largest) + max_of(largest_of(hit.position, hit.position)));
-    const Vec3 n = normalize(shading);
-    const Vec3 along = t.dpdu - n * dot(n, t.dpdu);
-    if (t.valid && length_squared(along) > 1e-14f * length_squared(t.dpdu)) {
-        hit.shading.s = normalize(along);
-        hit.shading.t = cross(n, hit.shading.s);
-        hit.shading.n = n;
-    } else {
-        hit.shading = Frame::from_z(n);
-    }
+    hit.clearance = rounding * (dot(facing, point.largest) + max_of(largest_of(hit.position, hit.position)));
+    hit.shading = shading_frame(point.shading, point.tangents);
     return hit;
 }
 
