@@ -260,7 +260,7 @@ TEST(GuidedDistance, TheBoostIsDensityOverClassical) {
     }
 }
 
-/// The density_ratio of a flight to the end through grey fog that is equally bright everywhere, with light A ahead: α +
+/// The density ratio of a flight to the end through grey fog that is equally bright everywhere, with light A ahead: α +
 /// (1 - α) A / Z, with Z the light of the fog and what comes through.
 float boost_at_end(float ahead) {
     const float passed = std::exp(-0.8f * segment), brightness = 2;

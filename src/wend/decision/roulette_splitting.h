@@ -14,9 +14,9 @@ namespace wend {
 /// What a walk knows of itself when it decides whether to go on.
 struct WalkState {
     Rgb throughput;
-    /// Product of the boosts of guided directions (DirectionSample::density_ratio): throughput times density_ratio is
-    /// what the walk would carry had it gone the same way unguided. A direction that is rich in light is drawn often
-    /// and so has little weight; to end it for that would undo the guiding.
+    /// Product of the density ratios of guided directions (DirectionSample::density_ratio): throughput times
+    /// density_ratio is what the walk would carry had it gone the same way unguided. A direction that is rich in light
+    /// is drawn often and so has little weight; to end it for that would undo the guiding.
     float density_ratio = 1;
     /// Product of the squared ratios of refractive indices passed: radiance is scaled by them on the way, its
     /// importance is not.

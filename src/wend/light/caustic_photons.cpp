@@ -74,7 +74,7 @@ public:
                     f.prefer_reflection(odds_of_reflection);
                 }
                 if (!f.is_specular()) {
-                    return boundaries > 0 && hit_->light < 0 ? told(hit_->position, flux_, false) : std::nullopt;
+                    return boundaries > 0 && hit_->light < 0 ? photon_at(hit_->position, flux_, false) : std::nullopt;
                 }
                 const auto s = f.sample(random_.uniform(), random_.uniform2());
                 if (!s) {
@@ -91,7 +91,7 @@ public:
                 const Vec3& position = ray_.origin;
                 const Medium& medium = scene_.medium(medium_.id);
                 const float scattering = mean_value(extinction_at(medium, position) * albedo(medium));
-                return told(position, flux_ * (1 / scattering), true);
+                return photon_at(position, flux_ * (1 / scattering), true);
             }
         }
         return std::nullopt;
@@ -115,7 +115,7 @@ private:
         return flight.scatters;
     }
 
-    std::optional<Photon> told(const Vec3& position, const Rgb& light, bool in_volume) const {
+    std::optional<Photon> photon_at(const Vec3& position, const Rgb& light, bool in_volume) const {
         return max_value(light) > 0 && is_finite(light)
                    ? std::optional(Photon{{position, -ray_.direction, travelled_, light}, in_volume})
                    : std::nullopt;

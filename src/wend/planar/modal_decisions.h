@@ -12,7 +12,7 @@
 namespace wend {
 
 /// Flights in proportion to transmittance times the adjoint's source, and the boundary in proportion to transmittance
-/// times the value of arriving there: the density_ratio is source, or arrival, over radiance, and with an exact adjoint
+/// times the value of arriving there: the density ratio is source, or arrival, over radiance, and with an exact adjoint
 /// nothing is left to chance (docs/theory/planar.md). A term is chosen by its integral, a distance drawn from its
 /// truncated exponential, and accepted with the part that negative terms leave of the positive ones.
 class ModalFlight {

@@ -18,7 +18,7 @@ struct SpatialDirection {
 
 /// Draws a direction after a collision whose cosine to `inward`, the normal that points deeper, is the planar
 /// decision's, and whose azimuth is that of Henyey and Greenstein's phase function given both cosines. So the density
-/// per steradian is the density_ratio of the cosine times the phase function: with the radiance of the decision's
+/// per steradian is the density ratio of the cosine times the phase function: with the radiance of the decision's
 /// adjoint, in proportion to phase function times radiance in three dimensions.
 template <PlanarDirectionDecision D>
 SpatialDirection sample_in_space(const D& decision, double g, double depth, const Vec3& before, const Vec3& inward,
@@ -36,7 +36,7 @@ SpatialDirection sample_in_space(const D& decision, double g, double depth, cons
     return {normalize(direction), drawn.density_ratio};
 }
 
-/// The density_ratio of a direction, drawn or not.
+/// The density ratio of a direction, drawn or not.
 template <PlanarDirectionDecision D>
 double density_ratio_in_space(const D& decision, double depth, const Vec3& before, const Vec3& after,
                               const Vec3& inward) {

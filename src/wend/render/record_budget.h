@@ -16,7 +16,7 @@ public:
     /// Of so many walks, the share to be recorded, in (0,1].
     double share(double walks) const { return std::min(1.0, most_ / (walks * per_walk_)); }
 
-    /// So many walks were recorded, as a mean, and told so many records.
+    /// So many walks were recorded, as a mean, and left so many records.
     void learn(double walks, double records) {
         if (walks > 0 && records > 0) {
             per_walk_ = records / walks;

@@ -19,7 +19,7 @@ constexpr double largest_without = 0.95;
 constexpr double enough_to_compare = 500;
 /// How much of the variance unguided interior walks may add while they are watched.
 constexpr float variance_for_watching = 0.1f;
-/// How much of guided interior walks is told where they have this advantage.
+/// How much of guided interior walks is recorded where they have this advantage.
 constexpr float least_told = 0.125f;
 /// Of a logarithm.
 constexpr double clear_advantage = 0.5;

@@ -51,7 +51,7 @@ private:
     NextWalks seen_ = NextWalks::beside_classical;
     bool is_given_up_ = false;
     std::vector<Brought> brought_;  // by cell, seen so far, of all kinds
-    std::vector<float> expected_;   // by cell; empty before the first lesson
+    std::vector<float> expected_;   // by cell; empty before anything is learned
     bool connects_ = false;
     bool connects_through_ = false;
 };

@@ -12,7 +12,7 @@ class FieldRecorder {
 public:
     /// Records nothing.
     FieldRecorder() = default;
-    /// The log is started anew. Of the caustics, which may be null, it is told beside what walks find.
+    /// The log is started anew. What the caustics know, which may be null, is recorded beside what walks find.
     explicit FieldRecorder(guide::PathLog* log, const CausticPhotons* caustics = nullptr)
         : log_(log), caustics_(caustics) {}
 

@@ -107,10 +107,10 @@ private:
         recorder_.record(Flew{now_.medium.id});
         if (now_.interior.is_inside()) {
             // Connections know the probabilities of an interior walk where they start from one of its collisions.
-            const bool told = now_.interior.has_turned();
+            const bool has_turned = now_.interior.has_turned();
             const InteriorFlight flight = now_.interior.fly(length, drawn);
             now_.last.pass_probability *=
-                told ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
+                has_turned ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
         }
         FlightStart start{now_.ray,
