@@ -77,7 +77,7 @@ public:
 private:
     bool step() {
         // 3. Fly to the next collision or to the boundary.
-        const InteriorFlight step = interior_.fly(distance_to_exit(ray_), random_.uniform(), random_);
+        const InteriorFlight step = interior_.fly(distance_to_exit(ray_), interior_.draw_distance(random_.uniform()));
         throughput_ *= step.flight.weight;
         if (!step.flight.scatters) {
             leave(step.pass_probability);

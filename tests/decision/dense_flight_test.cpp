@@ -2,7 +2,6 @@
 #include <tests/medium/smooth_medium.h>
 #include <wend/decision/channels.h>
 #include <wend/decision/dense_flight.h>
-#include <wend/decision/guided_tracking.h>
 #include <wend/medium/transmittance.h>
 #include <wend/stats/significance.h>
 
@@ -134,12 +133,6 @@ TEST(DenseFlight, AnyDensityIsCrossedInFewSteps) {
                 EXPECT_GE(flight.distance, 4.0f);
                 EXPECT_LE(flight.distance, 5.1f);
                 EXPECT_TRUE(is_finite(flight.weight));
-                GuidedTracking guided(medium, start, 0.3f);
-                guided.light_up_to(20, 1);
-                const Flight other = guided.fly(1, false, random);
-                ASSERT_TRUE(other.scatters);
-                EXPECT_LE(other.distance, 5.1f);
-                EXPECT_TRUE(is_finite(other.weight));
             }
         }
     }

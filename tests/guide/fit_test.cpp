@@ -120,21 +120,6 @@ TEST(Fit, ScaleOfRadianceChangesOnlyTheFluence) {
     EXPECT_LT(test::divergence(a.mixture(), b.mixture()), 1e-6);
 }
 
-TEST(Fit, RemembersSecondMoments) {
-    // Drawn by the target itself all weights are equal; where half of the records are dark, the relative variance is 1.
-    Records records = records_of(target(), 4000, 50, true);
-    const Vec3 anywhere(0.5f, 0.5f, 0.5f);
-    EXPECT_NEAR(trained(records, one_cell()).weight_moments(anywhere).relative_variance(), 0, 1e-6);
-    for (std::size_t i = 0; i < records.size(); i += 2) {
-        records[i].radiance = 0;
-    }
-    const WeightMoments moments = trained(records, one_cell()).weight_moments(anywhere);
-    EXPECT_EQ(moments.records, 4000);
-    EXPECT_NEAR(moments.mean, 0.5, 1e-6);
-    EXPECT_NEAR(moments.relative_variance(), 1, 1e-6);
-    EXPECT_EQ(Field::empty(unit_box).weight_moments(anywhere).mean_square, 0);
-}
-
 TEST(Fit, InScatteredRadianceIsTheIntegralOfTheTruth) {
     const Field field = trained(records_of(target(), 40000, 51, true), one_cell());
     const Vec3 position(0.5f, 0.5f, 0.5f);

@@ -32,7 +32,7 @@ constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
 constexpr float sizes[] = {0.3f, 3, 10, 100};  // in mean free paths
 enum class Boundary { matched, smooth, rough };
 enum class Body { ball, thin_slab, cube, two_boxes };
-constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "planar", "learned", "auto"};
+constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "learned", "auto"};
 constexpr const char* samplings[] = {"classical", "scatter", "distance", "direction", "roulette", "splitting", "full"};
 constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
 

@@ -24,16 +24,13 @@ public:
     void start() {}
     void finish() {}
 
-    void on(const walk_events::Collided&) { add(); }
-    void on(const walk_events::HitSurface&) { add(); }
-
-private:
-    void add() {
+    void on(const walk_events::Arrived&) {
         if (count_) {
             ++*count_;
         }
     }
 
+private:
     std::uint64_t* count_ = nullptr;
 };
 

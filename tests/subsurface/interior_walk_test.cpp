@@ -155,7 +155,7 @@ TEST_P(InteriorMixture, DirectionsFollowTheirDensity) {
         walk.aim(EmitterView{{}, 0.2f, Rgb(0.0f)});
     }
     Pcg32 random(1);
-    ASSERT_TRUE(walk.fly(infinity, 0.6f, random).flight.scatters);
+    ASSERT_TRUE(walk.fly(infinity, walk.draw_distance(0.6f)).flight.scatters);
     const InteriorWalk::Directions directions(walk, arrival, random);
     const auto sample = [&](Pcg32& numbers) -> std::optional<Vec3> {
         const float u = numbers.uniform();
@@ -184,7 +184,7 @@ Estimates estimate(const InteriorGuide& guide, float bias = 1) {
         Vec3 before = arrival;
         Rgb weight(1.0f);
         float shape = 1;
-        const InteriorFlight first = walk.fly(0.8f, random.uniform(), random);
+        const InteriorFlight first = walk.fly(0.8f, walk.draw_distance(random.uniform()));
         weight *= first.flight.weight;
         if (first.flight.scatters) {
             walk.aim(walk.slots() - 1, first_normal, 1);
@@ -194,7 +194,7 @@ Estimates estimate(const InteriorGuide& guide, float bias = 1) {
             weight *= s->weight() * bias;
             shape = 1 + dot(s->direction, second_normal);
             walk.turn(directions, s->direction);
-            const InteriorFlight second = walk.fly(0.5f, random.uniform(), random);
+            const InteriorFlight second = walk.fly(0.5f, walk.draw_distance(random.uniform()));
             weight *= second.flight.weight;
             e.relative.add(walk.relative_densities()[last]);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -273,7 +273,7 @@ TEST(InteriorWalk, HeadsForLampsAndFliesOutToThem) {
     walk.aim(EmitterView{lamps, 0.05f, Rgb(0.01f)});
     walk.head(arrival);
     Pcg32 random(2);
-    ASSERT_TRUE(walk.fly(infinity, 0.5f, random).flight.scatters);
+    ASSERT_TRUE(walk.fly(infinity, walk.draw_distance(0.5f)).flight.scatters);
     const Vec3& towards = lamps[0].lobe.mean;
     const InteriorWalk::Directions directions(walk, arrival, random);
     EXPECT_GT(directions.density(towards), 0.3f * lamps[0].lobe.density(towards));
@@ -288,7 +288,7 @@ TEST(InteriorWalk, NoWeightExceedsTheClassicalOneOverItsShare) {
         InteriorWalk walk = begin(guide);
         Vec3 before = arrival;
         for (int step = 0; step < 50; ++step) {
-            walk.fly(infinity, random.uniform(), random);
+            walk.fly(infinity, walk.draw_distance(random.uniform()));
             const InteriorWalk::Directions directions(walk, before, random);
             const float u = random.uniform();
             const Vec3 w = directions.sample(u, random.uniform2())->direction;

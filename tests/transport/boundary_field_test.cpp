@@ -34,7 +34,7 @@ SceneDescription lit_ball() {
 
 std::vector<LitPoint> lit(const Scene& scene, const BoundarySurface& boundary) {
     Pcg32 random(1);
-    return lit_points(scene, medium, boundary_points(scene.description(), medium, points, 1), boundary, 64, random);
+    return lit_points(scene, boundary_points(scene.description(), medium, points, 1), boundary, 64, random);
 }
 
 TEST(LitPoints, SeeLampsThroughTheBoundary) {
@@ -157,8 +157,6 @@ TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
         const BoundaryField::View view = field.at(direction * 0.9f);
         EXPECT_GT(dot(view.closest().normal, direction), 0.97f);
         EXPECT_NEAR(view.lamps(Rgb(1.0f), Rgb(0.0f)).depth, 0.1f, 0.03f);
-        EXPECT_NEAR(view.layer().depth, 0.1f, 0.03f);
-        EXPECT_NEAR(view.layer().thickness, 2, 0.05f);
     }
     EXPECT_GT(dot(field.at(Vec3(0.0f)).incident().normal, normalize(lamp_at)), 0.95f);
     const Vec3 bright = normalize(lamp_at) * 0.9f;

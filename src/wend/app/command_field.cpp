@@ -126,7 +126,6 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
         {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
     const auto sums = part.field->lobe_sums(position);
     const guide::ScatteredLight& light = *part.field->scattered_light(position);
-    const guide::VertexMeans means = part.field->vertex_means(position);
     nlohmann::json lobes = nlohmann::json::array();
     for (int i = 0; i < incident.size(); ++i) {
         const auto [weight, vmf] = incident.lobe(i);
@@ -154,9 +153,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
                    "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
                    options.at, part.name, region->fluence(), region->defensive_fraction(), region->reference().x,
                    region->reference().y, region->reference().z)
-            << fmt::format("light from connections {:.4g}, extinction {:.4g}, vertices of a walk from here on {:.3g}\n",
-                           light.connected.fluence, means.extinction, means.cost)
-            << text_table(rows)
+            << fmt::format("light from connections {:.4g}\n", light.connected.fluence) << text_table(rows)
             << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
                "them spreads otherwise than the lobe\n"
             << "incident radiance by direction: " << options.picture << '\n';
@@ -170,8 +167,6 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
             {"fluence", region->fluence()},
             {"classical_share", region->defensive_fraction()},
             {"connected_fluence", light.connected.fluence},
-            {"extinction", means.extinction},
-            {"cost", means.cost},
             {"reference", vector_json(region->reference())},
             {"lobes", std::move(lobes)},
             {"records", told ? nlohmann::json(told->size()) : nlohmann::json(nullptr)},

@@ -69,8 +69,6 @@ struct FlightStart {
     /// Of the walk so far (ExpectedContribution::weight); 0 where the share of classical flights does not depend on it.
     float weight = 0;
     FlightEnd end;
-    /// Vertices of the walk so far.
-    int depth = 0;
     EmissionShare keeps{};
 };
 

@@ -3,7 +3,6 @@
 
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
-#include <wend/decision/guided_tracking.h>
 #include <wend/decision/weight_bound.h>
 #include <wend/medium/transmittance.h>
 
@@ -29,36 +28,27 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
 /// Which part of the decision follows the light.
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
-/// Flights in proportion to the light along the ray as the cells of the volume's field tell it: through homogeneous
-/// media by FlightPieces, through grids by GuidedTracking.
+/// Flights through homogeneous media in proportion to the light along the ray as the cells of the volume's field tell
+/// it (FlightPieces). Through grids they are classical (docs/experiments/distance.md).
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
     /// The fields are not owned. `defensive_fraction` in (0,1] bounds the weight by 1/defensive_fraction times the
-    /// classical one. Through grids the flights before a walk's first `guided_in_grids` vertices are guided: later ones
-    /// gain less than the cells on their way cost (docs/theory/distance.md).
-    GuidedDistance(const Field* surface, const Field* volume, float defensive_fraction, DistanceGuiding guiding,
-                   int guided_in_grids)
-        : surface_(surface),
-          volume_(volume),
-          defensive_fraction_(defensive_fraction),
-          guiding_(guiding),
-          guided_in_grids_(guided_in_grids) {}
+    /// classical one.
+    GuidedDistance(const Field* surface, const Field* volume, float defensive_fraction, DistanceGuiding guiding)
+        : surface_(surface), volume_(volume), defensive_fraction_(defensive_fraction), guiding_(guiding) {}
 
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
-        const bool guidable = std::holds_alternative<HomogeneousMedium>(medium) || start.depth < guided_in_grids_;
-        return guidable && scatters(medium) && start.weight < weight_bound && start.length > 0;
+        return std::holds_alternative<HomogeneousMedium>(medium) && scatters(medium) && start.weight < weight_bound &&
+               start.length > 0;
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
         if (!looks_ahead(medium, start) || !volume_->is_trained()) {
             return classical_.sample(medium, start, u, random);
         }
-        if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-            return fly(*homogeneous, start, u);
-        }
-        return fly(std::get<GridMedium>(medium), start, random);
+        return fly(std::get<HomogeneousMedium>(medium), start, u);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -67,10 +57,6 @@ public:
     }
 
 private:
-    /// Of what is guided elsewhere: the noise of what the cells foretell multiplies from one tentative collision to the
-    /// next.
-    static constexpr float share_in_grids = 1.0f / 3;
-
     /// Of a flight, what cells on its way are told apart to.
     static constexpr float finest = 1.0f / 20;
 
@@ -128,16 +114,6 @@ private:
         return confidence;
     }
 
-    Flight fly(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
-        const float confidence = volume_->scattered_light(start.ray.origin)->confidence;
-        GuidedTracking tracking(medium, start, defensive_fraction(share_in_grids * confidence, start.weight));
-        volume_->walk(start.ray, 0, tracking.reach(), [&](const auto& light, float, float t_out) {
-            tracking.light_up_to(t_out, light.in_scattered(start.ray.direction, medium.phase()));
-            return true;
-        });
-        return tracking.fly(ahead(start), levels(), random);
-    }
-
     bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }
 
     /// The radiance to be expected behind the end of the segment.
@@ -157,7 +133,6 @@ private:
     const Field* volume_;
     float defensive_fraction_;
     DistanceGuiding guiding_;
-    int guided_in_grids_;
     ClassicalDistance classical_;
 };
 

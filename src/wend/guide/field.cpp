@@ -19,20 +19,6 @@ const Region* Field::find(const Vec3& position) const {
     return trained_ ? &regions_[nodes_[leaf_of(position)].child] : nullptr;
 }
 
-WeightMoments Field::weight_moments(const Vec3& position) const {
-    const Statistics& statistics = memories_[nodes_[leaf_of(position)].child].statistics;
-    if (!(statistics.count > 0)) {
-        return {};
-    }
-    return {statistics.count, statistics.fluence / statistics.count, statistics.fluence_square / statistics.count};
-}
-
-VertexMeans Field::vertex_means(const Vec3& position) const {
-    const ScatterSums& sums = memories_[nodes_[leaf_of(position)].child].scattered;
-    const float records = std::accumulate(sums.records.begin(), sums.records.end(), 0.0f);
-    return records > 0 ? VertexMeans{sums.extinction / records, sums.cost / records} : VertexMeans{};
-}
-
 std::size_t Field::bytes() const {
     return regions_.size() * (sizeof(Region) + sizeof(ScatteredLight)) + memories_.size() * sizeof(Memory) +
            nodes_.size() * sizeof(Node);

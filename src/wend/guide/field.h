@@ -16,23 +16,6 @@
 
 namespace wend::guide {
 
-/// The weights radiance / density of the records of a cell, those of zero included; older ones count less.
-struct WeightMoments {
-    double records = 0;
-    /// The fluence, in radiance times sr.
-    double mean = 0;
-    double mean_square = 0;
-
-    /// Variance over squared mean: of an estimate of the fluence by one more such record. 0 in darkness.
-    double relative_variance() const { return mean > 0 ? std::max(0.0, mean_square / (mean * mean) - 1) : 0.0; }
-};
-
-struct VertexMeans {
-    float extinction = 0;
-    /// Over the radiance that leaves or is scattered in, it tells what a contribution costs.
-    float cost = 0;
-};
-
 /// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
 /// number of threads.
 class Field {
@@ -47,9 +30,6 @@ public:
     /// the nearest cells along the tree's planes.
     const Region* find(const Vec3& position) const;
 
-    /// First and second moments of the records of a position's cell; zero as long as the field has learned nothing.
-    WeightMoments weight_moments(const Vec3& position) const;
-
     /// What rays are told at a position; null as long as the field has learned nothing.
     const ScatteredLight* scattered_light(const Vec3& position) const {
         return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
@@ -60,10 +40,6 @@ public:
     float leaving(const Vec3& position, const Vec3& normal) const {
         return trained_ ? memories_[nodes_[leaf_of(position)].child].scattered.leaving_to(normal) : 0.0f;
     }
-
-    /// Means over the walks' vertices in a position's cell: the extinction of the medium, and how many vertices walks
-    /// had from there on. Zero as long as the field has learned nothing.
-    VertexMeans vertex_means(const Vec3& position) const;
 
     /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end,
     /// and neighbours that scatter the same light may be taken for one.

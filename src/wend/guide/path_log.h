@@ -60,8 +60,6 @@ public:
 
     /// The vertex at hand is on a surface: the normal on the side that the walk came from.
     void face(const Vec3& normal) { at_.normal = normal; }
-    /// The vertex at hand is in a medium: its extinction there.
-    void collide(float extinction) { at_.extinction = extinction; }
 
     /// The walk met something at this distance from the last vertex. Only the first time counts.
     void meet(float distance) {
@@ -91,7 +89,6 @@ public:
         v.parent = at_.vertex;
         v.in_volume = in_volume;
         v.normal = at_.normal;
-        v.extinction = at_.extinction;
         v.connected = at_.connected;
         v.to_light = at_.to_light;
         v.light_distance = at_.light_distance;
@@ -119,7 +116,6 @@ public:
         float light_distance = std::numeric_limits<float>::infinity();
         float light_fluence = 0;
         Vec3 normal{0, 0, 0};
-        float extinction = 0;
     };
     const Branch& branch() const { return at_; }
     void resume(const Branch& branch) { at_ = branch; }

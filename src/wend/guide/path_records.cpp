@@ -42,12 +42,6 @@ Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incide
 void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     WEND_EXPECT(most > 0);
     incident_radiance(path, incident_);
-    cost_.assign(path.size(), 1);
-    for (std::size_t i = path.size(); i-- > 0;) {
-        if (path[i].parent != PathVertex::root) {
-            cost_[static_cast<std::size_t>(path[i].parent)] += cost_[i];
-        }
-    }
     const auto teaches = [](const PathVertex& v) { return v.density != 0; };
     const auto count = static_cast<std::size_t>(std::count_if(path.begin(), path.end(), teaches));
     Thinning drawn(count, most), mirrored(path.size() - count, most);
@@ -56,7 +50,7 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
         if (!(teaches(v) ? drawn : mirrored).keeps_next()) {
             continue;
         }
-        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i], cost_[i]));
+        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i]));
         if (teaches(v)) {
             (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }

@@ -48,8 +48,6 @@ struct PathVertex {
     float light_fluence = 0;
     /// Of the surface, on the side that the walk came from; zero in a volume.
     Vec3 normal{0, 0, 0};
-    /// Of the medium at the vertex, as a scalar; 0 at a surface.
-    float extinction = 0;
     /// The vertex whose direction led here: a lower index, or root.
     std::int32_t parent = root;
     bool in_volume = false;
@@ -90,16 +88,10 @@ inline Record record_of(const PathVertex& vertex, const Rgb& incident) {
             incident};
 }
 
-/// What the vertex tells of the light scattered there; `cost` is the number of vertices from this one on.
-inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& incident, float cost) {
-    return {vertex.position,
-            vertex.normal,
-            mean(vertex.connected + vertex.scattering * incident),
-            vertex.light_fluence,
-            vertex.to_light,
-            vertex.light_distance,
-            vertex.extinction,
-            cost};
+/// What the vertex tells of the light scattered there.
+inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& incident) {
+    return {vertex.position,      vertex.normal,   mean(vertex.connected + vertex.scattering * incident),
+            vertex.light_fluence, vertex.to_light, vertex.light_distance};
 }
 
 /// Records of many walks, kept apart by the field they belong to.
@@ -138,7 +130,6 @@ private:
     Records surface_, volume_;
     ScatterRecords surface_scattered_, volume_scattered_;
     std::vector<Rgb> incident_;
-    std::vector<float> cost_;
 };
 
 }  // namespace wend::guide

@@ -22,7 +22,6 @@ bool is_usable(const ScatterRecord& record) {
     constexpr float largest = 1e15f;
     return in_space(record.position) && length_squared(record.normal) <= 1 + unit_tolerance && record.leaving >= 0 &&
            record.leaving <= largest && record.connected >= 0 && record.connected <= largest &&
-           record.extinction >= 0 && record.extinction <= largest && record.cost >= 0 && record.cost <= largest &&
            (record.connected == 0 ||
             (std::abs(length_squared(record.to_light) - 1) <= unit_tolerance && record.light_distance >= 0));
 }

@@ -45,10 +45,6 @@ struct ScatterRecord {
     Vec3 to_light;
     /// To the light; infinite for one that is far.
     float light_distance = std::numeric_limits<float>::infinity();
-    /// Of the medium at the vertex, as a scalar; 0 at a surface.
-    float extinction = 0;
-    /// How many vertices the walk had from this one on, in all its branches.
-    float cost = 1;
 };
 
 /// Records in an order that does not depend on threads, since sums of floating-point numbers depend on it: by pixel,

@@ -84,7 +84,7 @@ Found sums_of(std::span<const ScatterRecord> records, std::span<const std::uint3
     }
     const double most_leaving = weight_limit(leaving), most_connected = weight_limit(connected);
     std::array<double, sides> count{}, leaving_sum{};
-    double connected_sum = 0, extinction = 0, cost = 0;
+    double connected_sum = 0;
     Imath::V3d direction(0, 0, 0);
     NearSums near;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -93,8 +93,6 @@ Found sums_of(std::span<const ScatterRecord> records, std::span<const std::uint3
         const auto side = static_cast<std::size_t>(side_of(record.normal));
         ++count[side];
         leaving_sum[side] += out;
-        extinction += static_cast<double>(record.extinction);
-        cost += static_cast<double>(record.cost);
         connected_sum += in;
         if (in > 0) {
             direction += Imath::V3d(record.to_light) * in;
@@ -115,8 +113,6 @@ Found sums_of(std::span<const ScatterRecord> records, std::span<const std::uint3
     std::copy(leaving_sum.begin(), leaving_sum.end(), sums.leaving.begin());
     sums.connected = static_cast<float>(connected_sum);
     sums.connected_direction = Vec3(direction);
-    sums.extinction = static_cast<float>(extinction);
-    sums.cost = static_cast<float>(cost);
     return {sums, near};
 }
 

@@ -76,8 +76,6 @@ struct ScatterSums {
     std::array<float, sides> records{}, leaving{};
     float connected = 0;
     Vec3 connected_direction{0, 0, 0};
-    float extinction = 0;
-    float cost = 0;
 
     float all_records() const { return std::accumulate(records.begin(), records.end(), 0.0f); }
 
@@ -103,8 +101,6 @@ struct ScatterSums {
         }
         result.connected *= factor;
         result.connected_direction *= factor;
-        result.extinction *= factor;
-        result.cost *= factor;
         return result;
     }
     ScatterSums& operator+=(const ScatterSums& o) {
@@ -114,8 +110,6 @@ struct ScatterSums {
         }
         connected += o.connected;
         connected_direction += o.connected_direction;
-        extinction += o.extinction;
-        cost += o.cost;
         return *this;
     }
 };

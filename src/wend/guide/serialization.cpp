@@ -13,7 +13,7 @@
 namespace wend::guide {
 namespace {
 
-constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 4};
+constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 5};
 
 [[noreturn]] void refuse(const std::string& reason) {
     throw InputError(std::string(kind.title) + ": " + reason);
@@ -141,8 +141,6 @@ void put_scattered(std::string& out, const ScatterSums& sums) {
     put(out, sums.records);
     put(out, sums.leaving);
     put(out, sums.connected);
-    put(out, sums.extinction);
-    put(out, sums.cost);
     put(out, sums.connected_direction);
 }
 
@@ -172,8 +170,6 @@ ScatterSums take_scattered(Reader& in) {
     std::for_each(sums.records.begin(), sums.records.end(), take);
     std::for_each(sums.leaving.begin(), sums.leaving.end(), take);
     take(sums.connected);
-    take(sums.extinction);
-    take(sums.cost);
     sums.connected_direction = in.take_vector();
     return sums;
 }

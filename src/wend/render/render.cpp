@@ -40,9 +40,7 @@ double seconds_since(Clock::time_point start) {
 
 // A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
 constexpr float classical_flights = 0.25f;
-// Of a walk that is not split, guided through grids. Where it is, it goes on in numbers from where much is scattered,
-// which brings as much as to be there more often, for less (docs/theory/distance.md).
-constexpr int flights_in_grids = 1;
+
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
         throw std::runtime_error(std::to_string(counts.rejected) + " of " + std::to_string(counts.paths) +
@@ -157,8 +155,7 @@ private:
         const CausticPhotons& caustics = learners_.get<FieldLearner>().caustics();
         const GuidedDistance distance(
             &fields.surface, &fields.volume, classical_flights,
-            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone,
-            preset.splitting ? 0 : flights_in_grids);
+            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume,
                                         preset.direction ? std::nullopt : std::optional(1.0f), &caustics.on_surfaces(),
                                         &caustics.in_media());

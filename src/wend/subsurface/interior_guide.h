@@ -3,7 +3,6 @@
 
 #include <wend/medium/medium.h>
 #include <wend/subsurface/half_space_mode.h>
-#include <wend/subsurface/layer_guide.h>
 
 #include <algorithm>
 #include <array>
@@ -25,10 +24,7 @@ struct InteriorGuide {
     /// channels are alike, or for three.
     std::vector<std::vector<HalfSpaceMode>> modes;
     int strategies = 0;
-    /// By channel like the modes, for one strategy that follows them in place of a mode; empty if there is none.
-    std::vector<LayerGuide> layers;
-    int layered = -1;  ///< that strategy
-    int lit = -1;      ///< a strategy that heads for lamps outside as well as along its mode; none if negative
+    int lit = -1;  ///< a strategy that heads for lamps outside as well as along its mode; none if negative
     /// Whether walks can be connected to lamps where they meet the boundary, as they can if it is rough.
     bool connects_at_boundary = false;
     Shares share{1};  ///< where no others are given

@@ -30,13 +30,11 @@ void InteriorWalk::enter(const InteriorGuide& guide, const Rgb& channels, const 
     is_inside_ = true;
     survived_ = 1;
     slots_ = 0;
-    layered_ = -1;
     lit_ = -1;
     share_[0] = shares[0];
     for (int s = 0; s < guide.strategies; ++s) {
         const float share = shares[static_cast<std::size_t>(1 + s)];
         if (share > 0) {
-            layered_ = s == guide.layered ? slots_ : layered_;
             lit_ = s == guide.lit ? slots_ : lit_;
             strategy_[static_cast<std::size_t>(slots_++)] = s;
             share_[static_cast<std::size_t>(slots_)] = share;
@@ -80,7 +78,6 @@ void InteriorWalk::head(const Vec3& w, const EmitterGuide::PerEmitter& densities
     for_modes([&](std::size_t i, int s, int c) {
         rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
     });
-    heading_ = w;
     if (lit_ >= 0) {
         const float mu = dot(w, normal_[static_cast<std::size_t>(lit_)]);
         for (int c = 0; c < guide_->channels(); ++c) {
@@ -91,7 +88,6 @@ void InteriorWalk::head(const Vec3& w, const EmitterGuide::PerEmitter& densities
             direct_[static_cast<std::size_t>(c)] = direct / (direct + diffuse(c) * mode(lit_, c).radiance(mu));
         }
     }
-    for_layers([&](std::size_t, int c) { expected_[static_cast<std::size_t>(c)] = layers(c).radiance(place_, w); });
 }
 
 InteriorWalk::Directions::Directions(const InteriorWalk& walk, const Vec3& before, Pcg32& random)
@@ -111,9 +107,6 @@ InteriorWalk::Directions::Directions(const InteriorWalk& walk, const Vec3& befor
         } else {
             relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
         }
-    });
-    walk.for_layers([&](std::size_t, int c) {
-        layered_[static_cast<std::size_t>(c)] = LayerGuide::Directions(walk.layers(c), walk.place_, before);
     });
     if (walk.lit_ >= 0 && walk.guide_->connects_at_boundary) {
         const float often = connections_to_lamps / static_cast<float>(walk.guide_->channels());
@@ -165,9 +158,6 @@ float InteriorWalk::Directions::density(const Vec3& w) const {
             density += lamps_[j] * lobes[j];
         }
     }
-    walk_.for_layers([&](std::size_t i, int c) {
-        density += relative_[i] * static_cast<float>(layered_[static_cast<std::size_t>(c)].density(w));
-    });
     return density;
 }
 
@@ -184,8 +174,6 @@ std::optional<DirectionSample> InteriorWalk::Directions::sample(float u, const V
     Vec3 w;
     if (slot < 0) {
         w = phase.sample(before_, u2);
-    } else if (walk_.is_layered(slot)) {
-        w = layered_[channel].sample(random_);
     } else if (walk_.is_lit(slot)) {
         std::size_t lamp = 0;
         for (; lamp < walk_.lamps_.size() && !(u < shares_[channel][lamp]); ++lamp) {
@@ -222,10 +210,6 @@ void InteriorWalk::turn(const Directions& directions, const Vec3& w) {
         posterior_[i] = towards;
         total += towards;
     });
-    for_layers([&](std::size_t i, int c) {
-        posterior_[i] *= static_cast<float>(directions.layered_[static_cast<std::size_t>(c)].density(w)) / phase;
-        total += posterior_[i];
-    });
     normalize(total);
     has_turned_ = true;
 }
@@ -245,14 +229,11 @@ void InteriorWalk::normalize(float total) {
                 std::abs(std::accumulate(posterior_.begin(), posterior_.begin() + techniques(), 0.0) - 1) < 1e-4);
 }
 
-float InteriorWalk::draw_distance(float u, Pcg32& random) const {
+float InteriorWalk::draw_distance(float u) const {
     const std::size_t technique = choose(u);
     const auto channels = static_cast<std::size_t>(guide_->channels());
     const int slot = static_cast<int>(technique / channels) - 1;
     const std::size_t channel = technique % channels;
-    if (slot >= 0 && is_layered(slot)) {
-        return static_cast<float>(layers(static_cast<int>(channel)).sample_distance(place_, heading_, random));
-    }
     const float direct = slot >= 0 && is_lit(slot) ? direct_[channel] : 0.0f;
     return rate_[technique] > 0 && u >= direct ? to_exponential((u - direct) / (1 - direct), rate_[technique])
                                                : infinity;
@@ -295,10 +276,6 @@ float InteriorWalk::weigh_flight(float length, bool collides) {
             p = (1 - direct) * p + (collides ? 0.0f : direct);
         }
     }
-    for_layers([&](std::size_t i, int c) {
-        passed[i] = static_cast<float>(layers(c).flight(place_, heading_, expected_[static_cast<std::size_t>(c)],
-                                                        static_cast<double>(length), collides));
-    });
     float total = 0;
     for (std::size_t i = 0; i < count; ++i) {
         posterior_[i] *= passed[i];

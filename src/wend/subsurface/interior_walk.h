@@ -43,9 +43,6 @@ public:
     /// The outward normal of a slot's strategy, from now on, and the decay along it relative to the medium's own, in
     /// [0, 1].
     void aim(int slot, const Vec3& normal, float steepness = 1);
-    /// Whether a slot's strategy follows layers, and where the walk is in them from now on.
-    bool is_layered(int slot) const { return slot == layered_; }
-    void aim(const LayerPlace& place) { place_ = place; }
     /// Whether a slot's strategy heads for lamps, and what it sees of them from now on.
     bool is_lit(int slot) const { return slot == lit_; }
     void aim(const EmitterView& view);
@@ -74,7 +71,6 @@ public:
         const InteriorWalk& walk_;
         Vec3 before_;
         Pcg32& random_;
-        std::array<LayerGuide::Directions, 3> layered_;                         // by channel
         std::array<float, 3 * (1 + InteriorGuide::most_strategies)> relative_;  // posterior over S(before)
         EmitterGuide::PerEmitter lamps_{};                                      // posterior of directions in each lobe
         std::array<EmitterGuide::PerEmitter, 3> shares_{};  // by channel, of each lamp in the strategy
@@ -87,11 +83,9 @@ public:
     bool has_turned() const { return has_turned_; }
 
     /// How far the next flight would go if nothing were in its way; u in [0,1). No further need a ray be traced.
-    float draw_distance(float u, Pcg32& random) const;
+    float draw_distance(float u) const;
     /// That flight where the medium goes on for `length`, of which it matters only whether it is more than `drawn`.
     InteriorFlight fly(float length, float drawn);
-    /// The next flight; u in [0,1).
-    InteriorFlight fly(float length, float u, Pcg32& random) { return fly(length, draw_distance(u, random)); }
     /// The probability of flying through a segment; the walk goes on behind it.
     float pass(float length);
 
@@ -121,18 +115,7 @@ private:
         std::size_t i = static_cast<std::size_t>(guide_->channels());
         for (int s = 0; s < slots_; ++s) {
             for (int c = 0; c < guide_->channels(); ++c, ++i) {
-                if (s != layered_) {
-                    f(i, s, c);
-                }
-            }
-        }
-    }
-    /// Calls f(index, channel) for all techniques that follow layers.
-    template <class F>
-    void for_layers(F&& f) const {
-        if (layered_ >= 0) {
-            for (int c = 0; c < guide_->channels(); ++c) {
-                f(static_cast<std::size_t>((1 + layered_) * guide_->channels() + c), c);
+                f(i, s, c);
             }
         }
     }
@@ -141,7 +124,6 @@ private:
     /// What a collision scatters to a walk that arrived along `before`, times the mode's: of both, given the phase
     /// function for each lamp.
     float scattered(int channel, const EmitterGuide::PerEmitter& phases, const Vec3& before) const;
-    const LayerGuide& layers(int channel) const { return guide_->layers[static_cast<std::size_t>(channel)]; }
     /// Draws a technique; u becomes a fresh uniform number.
     std::size_t choose(float& u) const;
     void normalize(float total);
@@ -157,13 +139,9 @@ private:
     InteriorGuide::Shares share_;  // of classical sampling, then slot by slot
     Values posterior_;             // slot by slot, classical sampling first; channels within
     Values rate_{};                // of the exponential flight under each technique that has one
-    int layered_ = -1;             // slot of the strategy that follows layers; none if negative
     int lit_ = -1;                 // slot of the strategy that heads for lamps; none if negative
     EmitterGuide lamps_;
     std::array<float, 3> direct_{};  // by channel, the part of the light ahead that comes straight from lamps
-    LayerPlace place_;
-    Vec3 heading_;                    // of the flight from that place
-    std::array<double, 3> expected_;  // by channel, there
     std::array<Vec3, InteriorGuide::most_strategies> normal_;
     std::array<int, InteriorGuide::most_strategies> level_;
     float survived_ = 1;  // product of the probabilities of survival

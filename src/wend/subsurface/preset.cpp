@@ -13,9 +13,9 @@ struct Entry {
 
 const std::vector<Entry>& entries() {
     using enum InteriorStrategy;
-    static const std::vector<Entry> table = {{"classical", {}},           {"dwivedi", {entry}}, {"closest", {closest}},
-                                             {"incident", {incident}},    {"planar", {planar}}, {"learned", {learned}},
-                                             {"auto", {closest, learned}}};
+    static const std::vector<Entry> table = {{"classical", {}},      {"dwivedi", {entry}},
+                                             {"closest", {closest}}, {"incident", {incident}},
+                                             {"learned", {learned}}, {"auto", {closest, learned}}};
     return table;
 }
 
@@ -34,6 +34,10 @@ SubsurfacePreset parse_subsurface(std::string_view text) {
         if (e.name == text) {
             return {e.strategies};
         }
+    }
+    // Scripts may ask for the solution of layers, which was worse than this in every scene.
+    if (text == "planar") {
+        return {{InteriorStrategy::closest}};
     }
     throw InputError("unknown subsurface sampling '" + std::string(text) + "': expected one of " + subsurface_names());
 }

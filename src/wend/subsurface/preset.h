@@ -13,7 +13,6 @@ enum class InteriorStrategy {
     closest,   ///< that of the boundary closest to each collision (meng2016)
     incident,  ///< towards the light that diffuses in from outside (after meng2016)
     learned,   ///< as incident, and to the lamps that are seen from the closest boundary (after gouder2025)
-    planar,    ///< that of the closest boundary, and the whole solution of the layer between it and the one behind
 };
 
 /// A value of --subsurface.
@@ -24,7 +23,8 @@ struct SubsurfacePreset {
     friend bool operator==(const SubsurfacePreset&, const SubsurfacePreset&) = default;
 };
 
-/// Parses a value of --subsurface. Throws InputError, listing the names that there are, for any other.
+/// Parses a value of --subsurface; `planar`, of old, is `closest`. Throws InputError, listing the names that there are,
+/// for any other.
 SubsurfacePreset parse_subsurface(std::string_view text);
 
 /// The canonical name.

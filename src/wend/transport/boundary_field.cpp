@@ -108,17 +108,6 @@ BoundaryField::View BoundaryField::at(const Vec3& position) const {
     return {points_[closest_point(cell, position)], cell, position, decay_};
 }
 
-float BoundaryField::mean_curvature() const {
-    return std::accumulate(points_.begin(), points_.end(), 0.0f,
-                           [](float sum, const LitPoint& p) { return sum + p.curvature; }) /
-           static_cast<float>(points_.size());
-}
-
-LayerPlace BoundaryField::View::layer() const {
-    return {-closest_.point.normal, std::clamp(depth_, 0.0f, closest_.thickness), closest_.thickness,
-            closest_.irradiance, closest_.irradiance_behind};
-}
-
 bool BoundaryField::sees_emitters() const {
     return std::any_of(points_.begin(), points_.end(), [](const LitPoint& point) { return point.emitter_count > 0; });
 }

@@ -1,7 +1,6 @@
 // Where the boundary of a dense medium is, and from where it is lit, seen from inside.
 #pragma once
 
-#include <wend/subsurface/layer_guide.h>
 #include <wend/transport/boundary_light.h>
 
 #include <vector>
@@ -29,8 +28,6 @@ public:
     class View;
     /// What is known where a walk is; the field is referred to.
     View at(const Vec3& position) const;
-    /// Over the whole boundary, that of its points.
-    float mean_curvature() const;
     /// Whether a lamp shines on any of its points.
     bool sees_emitters() const;
 
@@ -66,8 +63,6 @@ public:
 
     /// The outward normal of the nearest piece of boundary, and how steep it is for its curvature.
     InteriorAim closest() const { return {closest_.point.normal, steepness(decay_, closest_.curvature, depth_)}; }
-    /// The layer between that piece and the boundary behind it.
-    LayerPlace layer() const;
     /// The direction in which the light grows that diffuses inwards from all boundary points, each as a source of
     /// exp(-decay r) / r: with many lights around they share one direction, and where they cancel it has little
     /// steepness (after meng2016, who draws one of the normals).

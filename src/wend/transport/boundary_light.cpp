@@ -203,7 +203,7 @@ private:
 
 }  // namespace
 
-std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
+std::vector<LitPoint> lit_points(const Scene& scene, std::span<const BoundaryPoint> points,
                                  const BoundarySurface& boundary, int samples, Pcg32& random) {
     std::vector<LitPoint> result;
     const float diameter = length(bounds_of(points).size());
@@ -213,7 +213,6 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     float total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const BoundaryPoint& point = points[i];
-        const float thickness = chord(scene, medium, next_to(point, -point.normal, diameter), diameter);
         LightAtPoint light(scene, point, diameter, boundary);
         for (int k = 0; k < samples; ++k) {
             light.add_sample(random);
@@ -221,7 +220,7 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
         for (int k = 0; k < looks; ++k) {
             light.look_around(random);
         }
-        result.push_back({point, curvatures[i], light.irradiance(samples) + light.reflected(looks), thickness, 0});
+        result.push_back({point, curvatures[i], light.irradiance(samples) + light.reflected(looks)});
         light.write_lamps(samples, result.back());
         total += result.back().irradiance;
         unknown.push_back(light.unknown(looks));
@@ -231,13 +230,6 @@ std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<
     const float mean = total > 0 ? total / static_cast<float>(result.size()) : 1 / never_nothing;
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i].irradiance += mean * (mean_of_unknown * unknown[i] + never_nothing);
-    }
-    for (LitPoint& lit : result) {
-        const Vec3 behind = lit.point.position - lit.point.normal * lit.thickness;
-        const auto nearest = std::min_element(result.begin(), result.end(), [&](const LitPoint& a, const LitPoint& b) {
-            return length_squared(a.point.position - behind) < length_squared(b.point.position - behind);
-        });
-        lit.irradiance_behind = nearest->irradiance;
     }
     return result;
 }

@@ -14,10 +14,8 @@ namespace wend {
 /// A point of the boundary with what a walk inside wants to know of it.
 struct LitPoint {
     BoundaryPoint point;
-    float curvature = 0;          ///< of the boundary, its mean (mean_curvatures)
-    float irradiance = 0;         ///< of light from outside, directly or reflected once
-    float thickness = 0;          ///< of the object, straight inwards
-    float irradiance_behind = 0;  ///< where that way leaves the object
+    float curvature = 0;   ///< of the boundary, its mean (mean_curvatures)
+    float irradiance = 0;  ///< of light from outside, directly or reflected once
     /// Lights outside that walks may run into, or be connected to at the boundary; the strongest come first.
     std::array<BoundaryEmitter, EmitterGuide::most> lamps{};
     int emitter_count = 0;
@@ -32,9 +30,8 @@ struct BoundarySurface {
 };
 
 /// Points with the irradiance by lights outside and by what reflects it, as a scalar. Where a point sees a medium or a
-/// boundary that refracts, from where more may come, a little is added; else it may be next to nothing. Ways that leave
-/// an open object count as its diameter.
-std::vector<LitPoint> lit_points(const Scene& scene, MediumId medium, std::span<const BoundaryPoint> points,
+/// boundary that refracts, from where more may come, a little is added; else it may be next to nothing.
+std::vector<LitPoint> lit_points(const Scene& scene, std::span<const BoundaryPoint> points,
                                  const BoundarySurface& boundary, int samples, Pcg32& random);
 
 /// The mean length of chords through the object, 4 volume / area, by rays inwards from its boundary. Those that leave

@@ -6,12 +6,6 @@ namespace wend {
 
 using namespace walk_events;
 
-void FieldRecorder::on(const Collided& event) {
-    if (log_ && is_logged_) {
-        log_->collide(mean_value(extinction_at(event.medium, event.position)));
-    }
-}
-
 void FieldRecorder::on(const WasConnected& event) {
     const Vertex& v = event.vertex;
     if (!log_ || !caustics_ || (v.in_volume() && event.interior.is_inside())) {

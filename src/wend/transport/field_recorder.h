@@ -59,7 +59,6 @@ public:
             log_->face(event.vertex.facing);
         }
     }
-    void on(const walk_events::Collided& event);
     void on(const walk_events::WasConnected& event);
     void on(const walk_events::Scattered& event);
     void on(const walk_events::Connected& event);

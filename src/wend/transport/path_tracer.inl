@@ -55,8 +55,7 @@ private:
     bool step() {
         ++result_.sample.segments;
         // In an interior walk most flights end long before the boundary: no ray is traced further than they go.
-        const float drawn =
-            now_.interior.is_inside() ? now_.interior.draw_distance(sampler_.uniform(), sampler_.random()) : infinity;
+        const float drawn = now_.interior.is_inside() ? now_.interior.draw_distance(sampler_.uniform()) : infinity;
         SurfaceAhead ahead(scene_, now_.ray, drawn);
         if (now_.medium.id != vacuum) {
             const Medium& medium = scene_.medium(now_.medium.id);
@@ -113,13 +112,8 @@ private:
                 has_turned ? Rgb(flight.pass_probability) : d_.distance.pass_probability(medium, now_.ray, length);
             return flight.flight;
         }
-        FlightStart start{now_.ray,
-                          length,
-                          now_.throughput,
-                          weight_to_bound(),
-                          {},
-                          now_.depth,
-                          emitters_.in(now_.medium.id, now_.last)};
+        FlightStart start{now_.ray,          length, now_.throughput,
+                          weight_to_bound(), {},     emitters_.in(now_.medium.id, now_.last)};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(ahead);
         }
@@ -173,7 +167,6 @@ private:
             return false;
         }
         const Vertex vertex = Vertex::in_medium(now_.ray.at(distance));
-        recorder_.record(Collided{medium, vertex.position});
         now_.connected_before = 0;
         return scatter(VolumeScattering(phase_function(medium), now_.ray.direction), vertex);
     }

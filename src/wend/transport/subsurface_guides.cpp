@@ -2,7 +2,6 @@
 #include <wend/decision/channels.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/half_space.h>
-#include <wend/planar/lit_layers.h>
 #include <wend/subsurface/half_space_modes.h>
 #include <wend/transport/subsurface_guides.h>
 
@@ -81,22 +80,6 @@ Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary
     return result;
 }
 
-/// One of each channel. `decay` is that of diffuse light.
-std::vector<LayerGuide> layers_of(const HomogeneousMedium& medium, const Rgb& decay, const BoundarySurface& boundary,
-                                  float curvature, int channels, int threads) {
-    std::vector<LayerGuide> layers(static_cast<std::size_t>(channels));
-    const double g = medium.phase.mean_cosine(), ior = static_cast<double>(boundary.ior);
-    parallel_for(layers.size(), threads, [&](std::size_t i) {
-        const int c = static_cast<int>(i);
-        const double extinction = medium.extinction()[c];
-        const double albedo = static_cast<double>(medium.scattering[c]) / extinction;
-        // By diffusion theory the square of the decay is in proportion to 1 - albedo.
-        const double flat = steepness(decay[c], curvature, 0);
-        layers[i] = LayerGuide(extinction, g, lit_layers(1 - flat * flat * (1 - albedo), g, ior));
-    });
-    return layers;
-}
-
 }  // namespace
 
 SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
@@ -134,13 +117,7 @@ auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const Homogeneou
     const Rgb decay = decay_of(guide);
     std::optional<BoundaryField> field;
     if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
-        field.emplace(box, lit_points(scene, id, points, boundary, rays_to_lights, random), min_value(decay), threads);
-    }
-    // A channel that nothing hits has no layers.
-    const int layered = slot_of(InteriorStrategy::planar);
-    if (layered >= 0 && min_value(medium.extinction()) > 0) {
-        guide.layered = layered;
-        guide.layers = layers_of(medium, decay, boundary, field->mean_curvature(), guide.channels(), threads);
+        field.emplace(box, lit_points(scene, points, boundary, rays_to_lights, random), min_value(decay), threads);
     }
     guide.lit = field && field->sees_emitters() ? slot_of(InteriorStrategy::learned) : -1;
     guide.connects_at_boundary = !boundary.bsdf().is_specular();
@@ -178,9 +155,7 @@ void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, InteriorWalk& 
     const BoundaryField::View around = dense.field->at(position);
     for (int slot = 0; slot < walk.slots(); ++slot) {
         const InteriorStrategy strategy = strategies_[static_cast<std::size_t>(walk.strategy(slot))];
-        if (walk.is_layered(slot)) {
-            walk.aim(around.layer());
-        } else if (looks_around(strategy)) {
+        if (looks_around(strategy)) {
             const InteriorAim aim = strategy == InteriorStrategy::closest ? around.closest() : around.incident();
             walk.aim(slot, aim.normal, aim.steepness);
         }

@@ -39,10 +39,6 @@ struct Contributed {
 struct Arrived {
     float travelled;
 };
-struct Collided {
-    const Medium& medium;
-    const Vec3& position;
-};
 struct HitSurface {
     const Vertex& vertex;
 };
