@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 SAMPLING = ["classical", "scatter", "distance", "direction", "roulette", "splitting", "full"]
-SUBSURFACE = ["classical", "dwivedi", "closest", "incident", "learned", "auto"]
+SUBSURFACE = ["classical", "dwivedi", "closest", "incident", "auto"]
 
 
 def presets():

@@ -302,27 +302,6 @@ TEST(PathRecords, AreJoinedInOrder) {
     EXPECT_TRUE(joined.surface().empty() && joined.volume().empty());
 }
 
-TEST(PathRecords, TakeHintsAfterWhatTheWalkDrew) {
-    PathLog log;
-    log.start();
-    log.scatter({1, 2, 3}, {0, 0, 1}, 0.5f, Rgb(0.7f), false);
-    log.hint({{{1, 2, 3}, {1, 0, 0}, 7, 2, 5}, false});
-    log.hint({{{4, 5, 6}, {0, 1, 0}, 8, 3, 6}, true});
-    log.hint({{{7, 8, 9}, {0, 1, 0}, 9, 4, 7}, true});
-    PathRecords records;
-    records.add(log.vertices());
-    records.add_hints(log.hints(), 2);
-    ASSERT_EQ(records.surface().size(), 2u);
-    ASSERT_EQ(records.volume().size(), 1u);
-    EXPECT_EQ(records.surface()[1].radiance, 7);
-    EXPECT_EQ(records.volume()[0].position, Vec3(4, 5, 6));
-    // They tell of no scattered light, and the next walk has none of them.
-    EXPECT_EQ(records.surface_scattered().size(), 1u);
-    EXPECT_TRUE(records.volume_scattered().empty());
-    log.start();
-    EXPECT_TRUE(log.hints().empty());
-}
-
 TEST(PathRecords, ThinLongWalksEvenly) {
     const Path path = random_tree(1000, true, 1);
     PathRecords some, all, none;

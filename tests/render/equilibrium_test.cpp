@@ -20,7 +20,7 @@ constexpr float albedos[] = {1, 0.99f, 0.9f, 0.5f};
 constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
 constexpr float sizes[] = {1, 10, 30};  // in mean free paths
 enum class Inside { nothing, lamp, other_medium, glass, other_medium_in_glass };
-constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "learned", "auto"};
+constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "auto"};
 constexpr const char* samplings[] = {"classical", "direction", "splitting", "full"};
 constexpr int passes[] = {4, 16, 64};  // samples per pixel
 
@@ -35,7 +35,7 @@ struct Equilibrium {
     const char* sampling;
     int samples;
 
-    static std::vector<int> levels() { return {4, 4, 3, 2, 2, 2, 2, 5, 5, 4, 3}; }
+    static std::vector<int> levels() { return {4, 4, 3, 2, 2, 2, 2, 5, 4, 4, 3}; }
     explicit Equilibrium(const std::vector<int>& row)
         : albedo(albedos[row[0]]),
           g(mean_cosines[row[1]]),

@@ -18,7 +18,7 @@ namespace {
 
 using test::Measured;
 
-constexpr const char* guided[] = {"dwivedi", "closest", "incident", "learned", "auto"};
+constexpr const char* guided[] = {"dwivedi", "closest", "incident", "auto"};
 
 struct Block {
     const char* name;
@@ -112,7 +112,7 @@ TEST(SlowGuidedSlab, LeadsThroughAShieldThatABillionthPasses) {
                       resolution, resolution);
     const Scene scene(std::move(s));
     // With what renders learn: before, a few in ten million walks bring a twentieth of the light.
-    for (const char* strategy : {"incident", "learned", "auto"}) {
+    for (const char* strategy : {"incident", "auto"}) {
         RenderSettings settings;
         settings.subsurface = parse_subsurface(strategy);
         settings.samples = 512;
@@ -474,7 +474,7 @@ TEST(Subsurface, NamesAreParsedAndOthersExplained) {
         return {};
     };
     EXPECT_NE(message("dwivedy").find("unknown"), std::string::npos);
-    EXPECT_NE(message("dwivedy").find("incident, learned, auto"), std::string::npos);
+    EXPECT_NE(message("dwivedy").find("incident, auto"), std::string::npos);
 }
 
 }  // namespace

@@ -41,8 +41,7 @@ public:
         return trained_ ? memories_[nodes_[leaf_of(position)].child].scattered.leaving_to(normal) : 0.0f;
     }
 
-    /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end,
-    /// and neighbours that scatter the same light may be taken for one.
+    /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end.
     /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.
     /// What is left of the way on one side of a plane of the tree is not divided any more where it is no longer than
     /// `finest`: the cell in its middle stands for all of it.
@@ -73,7 +72,6 @@ public:
 private:
     friend class Fitting;
     friend class RecordsByCell;
-    friend class CellJoining;
     friend class ScatterFitting;
     friend class FieldBytes;
 
@@ -83,12 +81,10 @@ private:
 
         float plane = 0;
         std::uint32_t axis : 2 = leaf;
-        /// Whether all cells below scatter the same light: to rays they are one.
-        std::uint32_t alike : 1 = 0;
-        std::uint32_t child : 29 = 0;
+        std::uint32_t child : 30 = 0;
     };
     /// As many as a node can count.
-    static constexpr std::uint32_t largest_child = (1u << 29) - 1;
+    static constexpr std::uint32_t largest_child = (1u << 30) - 1;
 
     /// What only fitting needs to know of a cell.
     struct Memory {
@@ -117,14 +113,6 @@ private:
         return i;
     }
 
-    /// The first cell below a node.
-    std::uint32_t first_cell(const Node* node) const {
-        while (node->axis != Node::leaf) {
-            node = &nodes_[node->child];
-        }
-        return node->child;
-    }
-
     Box3 bounds_;
     bool trained_ = false;
     std::vector<Node> nodes_;
@@ -151,8 +139,8 @@ void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest
     Part part{0, t0, t1};
     for (;;) {
         const Node& node = nodes_[part.node];
-        if (node.axis == Node::leaf || node.alike) {
-            if (part.t_in < part.t_out && !visit(scattered_[first_cell(&node)], part.t_in, part.t_out)) {
+        if (node.axis == Node::leaf) {
+            if (part.t_in < part.t_out && !visit(scattered_[node.child], part.t_in, part.t_out)) {
                 return;
             }
             if (count == 0) {

@@ -1,6 +1,5 @@
 #include <wend/guide/fields.h>
 #include <wend/guide/fit.h>
-#include <wend/guide/join_alike.h>
 #include <wend/guide/scatter_fit.h>
 
 #include <utility>
@@ -14,7 +13,7 @@ Fields learn(const Fields& fields, std::vector<PathRecords> records, int threads
         return fit_scattered(fit(field, arrived, settings, threads).field, scattered, settings.decay, threads);
     };
     return {next(fields.surface, all.surface(), all.surface_scattered()),
-            join_alike(next(fields.volume, all.volume(), all.volume_scattered()))};
+            next(fields.volume, all.volume(), all.volume_scattered())};
 }
 
 }  // namespace wend::guide

@@ -22,7 +22,6 @@ public:
     /// Forgets the last walk.
     void start() {
         vertices_.clear();
-        hints_.clear();
         at_ = {};
     }
 
@@ -98,13 +97,6 @@ public:
         vertices_.push_back(v);
     }
 
-    /// Where light comes from, found otherwise than by going there. It only teaches: the walk gathers nothing.
-    void hint(const Hint& hint) {
-        if (hints_.size() < most_vertices) {
-            hints_.push_back(hint);
-        }
-    }
-
     /// Where the walk is: where it is split, each copy goes on from the place kept before.
     struct Branch {
         std::int32_t vertex = PathVertex::root;
@@ -121,13 +113,11 @@ public:
     void resume(const Branch& branch) { at_ = branch; }
 
     std::span<const PathVertex> vertices() const { return vertices_; }
-    std::span<const Hint> hints() const { return hints_; }
 
 private:
     PathVertex& current() { return vertices_[static_cast<std::size_t>(at_.vertex)]; }
 
     std::vector<PathVertex> vertices_;
-    std::vector<Hint> hints_;
     Branch at_;
 };
 

@@ -57,12 +57,6 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
     }
 }
 
-void PathRecords::add_hints(std::span<const Hint> hints, std::size_t most) {
-    for (const Hint& hint : hints.first(std::min(most, hints.size()))) {
-        (hint.in_volume ? volume_ : surface_).push_back(hint.record);
-    }
-}
-
 PathRecords PathRecords::joined(std::vector<PathRecords> parts) {
     PathRecords all;
     const auto take = [&](auto PathRecords::*kind) {

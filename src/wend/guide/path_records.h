@@ -53,12 +53,6 @@ struct PathVertex {
     bool in_volume = false;
 };
 
-/// What a walk knows of light at a vertex without having drawn a direction towards it.
-struct Hint {
-    Record record;
-    bool in_volume = false;
-};
-
 /// For every vertex an estimate of the radiance that arrives along its direction, by colour channel:
 ///     L_i = gathered_i + Σ_children arrival_j scattering_j L_j.
 /// Returns the same sum over the roots, which is what the vertices' directions brought to where the walk began. Costs
@@ -102,9 +96,6 @@ public:
     /// density every k-th is kept, with the least k that fits, and likewise of those without. Nothing is clamped: a
     /// record that is not finite stays as it is, for fit() to ignore and count.
     void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max());
-
-    /// Appends the records of hints of a walk, of more than `most` the first ones.
-    void add_hints(std::span<const Hint> hints, std::size_t most = std::numeric_limits<std::size_t>::max());
 
     /// The records of all producers, in the order given; each one's memory is free as soon as they are taken.
     static PathRecords joined(std::vector<PathRecords> parts);

@@ -181,9 +181,6 @@ public:
             }
             field.scattered_[cell] = light_of(sums, near, field.regions_[cell], memory.statistics);
         });
-        for (Field::Node& node : field.nodes_) {
-            node.alike = 0;
-        }
         return field;
     }
 };

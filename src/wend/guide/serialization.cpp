@@ -1,5 +1,4 @@
 #include <wend/core/error.h>
-#include <wend/guide/join_alike.h>
 #include <wend/guide/scatter_fit.h>
 #include <wend/guide/sealed_bytes.h>
 #include <wend/guide/serialization.h>
@@ -212,7 +211,7 @@ public:
         put(out, static_cast<std::uint64_t>(field.nodes_.size()));
         for (const Field::Node& node : field.nodes_) {
             put(out, node.plane);
-            put(out, static_cast<std::uint8_t>(node.axis | node.alike << 2));
+            put(out, static_cast<std::uint8_t>(node.axis));
             put(out, static_cast<std::uint32_t>(node.child));
         }
         put(out, static_cast<std::uint64_t>(field.regions_.size()));
@@ -242,9 +241,7 @@ public:
         field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
         for (Field::Node& node : field.nodes_) {
             node.plane = in.take_finite<float>();
-            const auto bits = in.take<std::uint8_t>();
-            node.axis = bits & 3u;
-            node.alike = bits >> 2 & 1u;
+            node.axis = in.take<std::uint8_t>() & 3u;
             node.child = in.take<std::uint32_t>() & Field::largest_child;
         }
         constexpr std::size_t least_region = 9 * sizeof(float);
@@ -267,11 +264,6 @@ public:
         }
         require_tree(field);
         return field;
-    }
-
-    static bool is_joined(const Field& field) {
-        return std::any_of(field.nodes_.begin(), field.nodes_.end(),
-                           [](const Field::Node& node) { return node.alike != 0; });
     }
 
 private:
@@ -299,11 +291,7 @@ Field field_from_bytes(std::string_view bytes) {
     Reader in(unseal(kind, bytes));
     // What rays are told follows from the sums.
     Field field = FieldBytes::field(in);
-    const bool is_joined = FieldBytes::is_joined(field);
     field = fit_scattered(std::move(field), {}, 1);
-    if (is_joined) {
-        field = join_alike(std::move(field));
-    }
     if (!in.empty()) {
         refuse("there are more bytes than a field has");
     }

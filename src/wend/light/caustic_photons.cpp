@@ -151,16 +151,6 @@ std::optional<Photon> shoot(const Scene& scene, const LightSelection& lights, co
     return flight.reach(distance) ? flight.arrive() : std::nullopt;
 }
 
-/// Of what caustic lobes lie in, where they lie on a surface with that normal, and otherwise in all directions.
-float extent(const Vec3& size, const Vec3& normal) {
-    const float volume = size.x * size.y * size.z;
-    if (normal == Vec3(0, 0, 0)) {
-        return volume;
-    }
-    const Vec3 n(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
-    return n.x > n.y && n.x > n.z ? size.y * size.z / n.x : n.y > n.z ? size.x * size.z / n.y : size.x * size.y / n.z;
-}
-
 }  // namespace
 
 CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed, int threads) {
@@ -193,26 +183,6 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
     }
     on_surfaces_ = CausticMap(std::move(all.surface));
     in_media_ = CausticMap(std::move(all.volume));
-}
-
-std::optional<CausticSight> CausticPhotons::near(const Vec3& position, const Vec3& normal, Pcg32& random) const {
-    const bool in_volume = normal == Vec3(0, 0, 0);
-    const CausticMap::Cell* cell = (in_volume ? in_media_ : on_surfaces_).find(position);
-    if (!cell) {
-        return std::nullopt;
-    }
-    const CausticMap::Group& group =
-        cell->groups[static_cast<std::size_t>(random.uniform() * static_cast<float>(cell->count))];
-    // As a plane mirror shows it: a field takes distances for those of what lies straight ahead.
-    const Vec3 way = group.image - position;
-    const float distance = length(way);
-    const Vec3 towards = way * (1 / distance);
-    const float cosine = in_volume ? 1.0f : dot(towards, normal);
-    const float size = extent(cell->extent, normal) * std::max(cosine, 0.1f);
-    if (!(cosine > 0) || !(size > 0) || !(distance > 0)) {
-        return std::nullopt;
-    }
-    return CausticSight{towards, distance, group.light * (static_cast<float>(cell->count) / size)};
 }
 
 }  // namespace wend

@@ -39,7 +39,6 @@ void FieldLearner::begin(const PassPlan& plan) {
 void FieldLearner::keep(Records& records, bool is_recorded) const {
     if (records_ && is_recorded) {
         records.records.add(records.log.vertices(), most_records_of_walk);
-        records.records.add_hints(records.log.hints(), most_records_of_walk);
     }
 }
 

@@ -25,7 +25,7 @@ public:
     void begin(const PassPlan& plan);
     bool records() const { return records_; }
     Recorder recorder(Records& records, bool is_recorded) const {
-        return Recorder(records_ && is_recorded ? &records.log : nullptr, &caustics_);
+        return Recorder(records_ && is_recorded ? &records.log : nullptr);
     }
     void keep(Records& records, bool is_recorded) const;
     void learn(std::vector<Records>& all, const PassPlan& plan);

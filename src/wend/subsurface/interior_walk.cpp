@@ -14,7 +14,7 @@ namespace {
 
 /// Below this share of what it was expected to bring a walk is up for roulette.
 constexpr float least_expectation = 0.1f;
-/// No walk of so little throughput is still where a strategy that is right would have it.
+/// No walk of so little throughput is still where a guide that is right would have it.
 constexpr float least_throughput = 1e-3f;
 /// How often a lamp is connected to at the boundary, over the part of the scattered light that comes straight from it.
 constexpr float connections_to_lamps = 32;
@@ -25,41 +25,33 @@ float extinction_of(const InteriorGuide& guide, int channel) {
 
 }  // namespace
 
-void InteriorWalk::enter(const InteriorGuide& guide, const Rgb& channels, const InteriorGuide::Shares& shares) {
+void InteriorWalk::enter(const InteriorGuide& guide, const Rgb& channels, float defensive_fraction) {
     guide_ = &guide;
     is_inside_ = true;
     survived_ = 1;
-    slots_ = 0;
-    lit_ = -1;
-    share_[0] = shares[0];
-    for (int s = 0; s < guide.strategies; ++s) {
-        const float share = shares[static_cast<std::size_t>(1 + s)];
-        if (share > 0) {
-            lit_ = s == guide.lit ? slots_ : lit_;
-            strategy_[static_cast<std::size_t>(slots_++)] = s;
-            share_[static_cast<std::size_t>(slots_)] = share;
-        }
-    }
+    groups_ = defensive_fraction < 1 ? 2 : 1;
+    is_lit_ = groups_ > 1 && guide.heads_for_emitters;
+    share_[0] = defensive_fraction;
+    share_[1] = 1 - defensive_fraction;
     const int count = guide.channels();
-    for (int s = 0; s <= slots_; ++s) {
+    for (int group = 0; group < groups_; ++group) {
         for (int c = 0; c < count; ++c) {
-            posterior_[static_cast<std::size_t>(s * count + c)] =
-                share_[static_cast<std::size_t>(s)] * (count == 1 ? 1.0f : channels[c]);
+            posterior_[static_cast<std::size_t>(group * count + c)] = share_[group] * (count == 1 ? 1.0f : channels[c]);
         }
     }
 }
 
-void InteriorWalk::aim(int slot, const Vec3& normal, float steepness) {
-    normal_[static_cast<std::size_t>(slot)] = normal;
-    level_[static_cast<std::size_t>(slot)] = guide_->level(steepness);
+void InteriorWalk::aim(const Vec3& normal, float steepness) {
+    normal_ = normal;
+    level_ = guide_->level(steepness);
 }
 
 void InteriorWalk::aim(const EmitterView& view) {
-    lamps_ = EmitterGuide(view, guide_->medium.extinction(), guide_->channels());
+    lamps_ = EmitterGuide(view, guide_->medium.extinction(), channels());
 }
 
 float InteriorWalk::scattered(int channel, const EmitterGuide::PerEmitter& phases, const Vec3& before) const {
-    float sum = diffuse(channel) * mode(lit_, channel).source(dot(before, normal_[static_cast<std::size_t>(lit_)]));
+    float sum = diffuse(channel) * mode(channel).source(dot(before, normal_));
     for (std::size_t j = 0; j < lamps_.size(); ++j) {
         sum += lamps_.fluence(channel, j) * phases[j];
     }
@@ -68,24 +60,24 @@ float InteriorWalk::scattered(int channel, const EmitterGuide::PerEmitter& phase
 
 void InteriorWalk::head(const Vec3& w) {
     has_turned_ = false;
-    head(w, lit_ >= 0 ? lamps_.densities(w) : EmitterGuide::PerEmitter{});
+    head(w, is_lit_ ? lamps_.densities(w) : EmitterGuide::PerEmitter{});
 }
 
 void InteriorWalk::head(const Vec3& w, const EmitterGuide::PerEmitter& densities) {
-    for (int c = 0; c < guide_->channels(); ++c) {
+    for (int c = 0; c < channels(); ++c) {
         rate_[static_cast<std::size_t>(c)] = extinction_of(*guide_, c);
     }
-    for_modes([&](std::size_t i, int s, int c) {
-        rate_[i] = extinction_of(*guide_, c) * mode(s, c).rate(dot(w, normal_[static_cast<std::size_t>(s)]));
+    for_modes([&](std::size_t i, int c) {
+        rate_[i] = extinction_of(*guide_, c) * mode(c).rate(dot(w, normal_));
     });
-    if (lit_ >= 0) {
-        const float mu = dot(w, normal_[static_cast<std::size_t>(lit_)]);
-        for (int c = 0; c < guide_->channels(); ++c) {
+    if (is_lit_) {
+        const float mu = dot(w, normal_);
+        for (int c = 0; c < channels(); ++c) {
             float direct = 0;
             for (std::size_t j = 0; j < lamps_.size(); ++j) {
                 direct += lamps_.fluence(c, j) * densities[j];
             }
-            direct_[static_cast<std::size_t>(c)] = direct / (direct + diffuse(c) * mode(lit_, c).radiance(mu));
+            direct_[static_cast<std::size_t>(c)] = direct / (direct + diffuse(c) * mode(c).radiance(mu));
         }
     }
 }
@@ -94,9 +86,9 @@ InteriorWalk::Directions::Directions(const InteriorWalk& walk, const Vec3& befor
     : walk_(walk), before_(before), random_(random) {
     relative_ = walk.posterior_;
     const EmitterGuide::PerEmitter phases =
-        walk.lit_ >= 0 ? walk.lamps_.phases(walk.guide_->medium.phase, before) : EmitterGuide::PerEmitter{};
-    walk.for_modes([&](std::size_t i, int s, int c) {
-        if (walk.is_lit(s)) {
+        walk.is_lit_ ? walk.lamps_.phases(walk.guide_->medium.phase, before) : EmitterGuide::PerEmitter{};
+    walk.for_modes([&](std::size_t i, int c) {
+        if (walk.is_lit_) {
             const float scattered = walk.scattered(c, phases, before);
             for (std::size_t j = 0; j < walk.lamps_.size(); ++j) {
                 const float share = walk.lamps_.fluence(c, j) * phases[j] / scattered;
@@ -105,11 +97,11 @@ InteriorWalk::Directions::Directions(const InteriorWalk& walk, const Vec3& befor
             }
             relative_[i] *= walk.diffuse(c) / scattered;
         } else {
-            relative_[i] /= walk.mode(s, c).source(dot(before, walk.normal_[static_cast<std::size_t>(s)]));
+            relative_[i] /= walk.mode(c).source(dot(before, walk.normal_));
         }
     });
-    if (walk.lit_ >= 0 && walk.guide_->connects_at_boundary) {
-        const float often = connections_to_lamps / static_cast<float>(walk.guide_->channels());
+    if (walk.is_lit_ && walk.guide_->connects_at_boundary) {
+        const float often = connections_to_lamps / static_cast<float>(walk.channels());
         float sum = 0;
         for (std::size_t j = 0; j < connected_.size(); ++j) {
             connected_[j] = often * (shares_[0][j] + shares_[1][j] + shares_[2][j]);
@@ -136,7 +128,7 @@ std::optional<Vec3> InteriorWalk::Directions::sample_emitters() const {
 }
 
 float InteriorWalk::Directions::emitter_density(const Vec3& w) const {
-    if (walk_.lit_ < 0 || !walk_.guide_->connects_at_boundary) {
+    if (!walk_.is_lit_ || !walk_.guide_->connects_at_boundary) {
         return 0;
     }
     const EmitterGuide::PerEmitter lobes = walk_.lamps_.densities(w);
@@ -145,14 +137,14 @@ float InteriorWalk::Directions::emitter_density(const Vec3& w) const {
 
 float InteriorWalk::Directions::density(const Vec3& w) const {
     float density_ratio = 0;
-    for (int c = 0; c < walk_.guide_->channels(); ++c) {
+    for (int c = 0; c < walk_.channels(); ++c) {
         density_ratio += relative_[static_cast<std::size_t>(c)];
     }
-    walk_.for_modes([&](std::size_t i, int s, int c) {
-        density_ratio += relative_[i] * walk_.mode(s, c).radiance(dot(w, walk_.normal_[static_cast<std::size_t>(s)]));
+    walk_.for_modes([&](std::size_t i, int c) {
+        density_ratio += relative_[i] * walk_.mode(c).radiance(dot(w, walk_.normal_));
     });
     float density = density_ratio * walk_.guide_->medium.phase.evaluate(dot(before_, w));
-    if (walk_.lit_ >= 0) {
+    if (walk_.is_lit_) {
         const EmitterGuide::PerEmitter lobes = walk_.lamps_.densities(w);
         for (std::size_t j = 0; j < walk_.lamps_.size(); ++j) {
             density += lamps_[j] * lobes[j];
@@ -164,24 +156,20 @@ float InteriorWalk::Directions::density(const Vec3& w) const {
 std::optional<DirectionSample> InteriorWalk::Directions::sample(float u, const Vec2& u2) const {
     const PhaseFunction& phase = walk_.guide_->medium.phase;
     const std::size_t technique = walk_.choose(u);
-    const auto channels = static_cast<std::size_t>(walk_.guide_->channels());
-    const int slot = static_cast<int>(technique / channels) - 1;
+    const auto channels = static_cast<std::size_t>(walk_.channels());
+    const bool is_guided = technique >= channels;
     const std::size_t channel = technique % channels;
-    const auto along_mode = [&] {
-        return walk_.mode(slot, static_cast<int>(channel))
-            .sample(phase, before_, walk_.normal_[static_cast<std::size_t>(slot)], random_);
-    };
     Vec3 w;
-    if (slot < 0) {
+    if (!is_guided) {
         w = phase.sample(before_, u2);
-    } else if (walk_.is_lit(slot)) {
+    } else {
         std::size_t lamp = 0;
-        for (; lamp < walk_.lamps_.size() && !(u < shares_[channel][lamp]); ++lamp) {
+        const std::size_t lamps = walk_.is_lit_ ? walk_.lamps_.size() : 0;
+        for (; lamp < lamps && !(u < shares_[channel][lamp]); ++lamp) {
             u -= shares_[channel][lamp];
         }
-        w = lamp < walk_.lamps_.size() ? walk_.lamps_.lobe(lamp).sample(u2) : along_mode();
-    } else {
-        w = along_mode();
+        w = lamp < lamps ? walk_.lamps_.lobe(lamp).sample(u2)
+                         : walk_.mode(static_cast<int>(channel)).sample(phase, before_, walk_.normal_, random_);
     }
     DirectionSample s;
     s.direction = w;
@@ -192,17 +180,17 @@ std::optional<DirectionSample> InteriorWalk::Directions::sample(float u, const V
 }
 
 void InteriorWalk::turn(const Directions& directions, const Vec3& w) {
-    const EmitterGuide::PerEmitter densities = lit_ >= 0 ? lamps_.densities(w) : EmitterGuide::PerEmitter{};
+    const EmitterGuide::PerEmitter densities = is_lit_ ? lamps_.densities(w) : EmitterGuide::PerEmitter{};
     head(w, densities);
     // All densities over the phase function.
     const float phase = guide_->medium.phase.evaluate(dot(directions.before_, w));
     float total = 0;
-    for (int c = 0; c < guide_->channels(); ++c) {
+    for (int c = 0; c < channels(); ++c) {
         total += posterior_[static_cast<std::size_t>(c)];
     }
-    for_modes([&](std::size_t i, int s, int c) {
-        float towards = directions.relative_[i] * mode(s, c).radiance(dot(w, normal_[static_cast<std::size_t>(s)]));
-        if (is_lit(s)) {
+    for_modes([&](std::size_t i, int c) {
+        float towards = directions.relative_[i] * mode(c).radiance(dot(w, normal_));
+        if (is_lit_) {
             const EmitterGuide::PerEmitter& shares = directions.shares_[static_cast<std::size_t>(c)];
             towards +=
                 posterior_[i] / phase * std::inner_product(shares.begin(), shares.end(), densities.begin(), 0.0f);
@@ -215,26 +203,24 @@ void InteriorWalk::turn(const Directions& directions, const Vec3& w) {
 }
 
 std::size_t InteriorWalk::choose(float& u) const {
-    const std::span<const float> probabilities(posterior_.data(), static_cast<std::size_t>(techniques()));
+    const std::span<const float> probabilities(posterior_.data(), techniques());
     return static_cast<std::size_t>(select(probabilities, 1, u));
 }
 
 void InteriorWalk::normalize(float total) {
     // What never happens may still be asked for, by connections: the inverse of its probability must not overflow.
     const float scale = total >= std::numeric_limits<float>::min() ? 1 / total : 0.0f;
-    for (int i = 0; i < techniques(); ++i) {
-        posterior_[static_cast<std::size_t>(i)] *= scale;
+    for (std::size_t i = 0; i < techniques(); ++i) {
+        posterior_[i] *= scale;
     }
     WEND_ENSURE(scale == 0 ||
-                std::abs(std::accumulate(posterior_.begin(), posterior_.begin() + techniques(), 0.0) - 1) < 1e-4);
+                std::abs(std::accumulate(posterior_.begin(), posterior_.begin() + static_cast<std::ptrdiff_t>(techniques()), 0.0) - 1) < 1e-4);
 }
 
 float InteriorWalk::draw_distance(float u) const {
     const std::size_t technique = choose(u);
-    const auto channels = static_cast<std::size_t>(guide_->channels());
-    const int slot = static_cast<int>(technique / channels) - 1;
-    const std::size_t channel = technique % channels;
-    const float direct = slot >= 0 && is_lit(slot) ? direct_[channel] : 0.0f;
+    const auto count = static_cast<std::size_t>(channels());
+    const float direct = is_lit_ && technique >= count ? direct_[technique - count] : 0.0f;
     return rate_[technique] > 0 && u >= direct ? to_exponential((u - direct) / (1 - direct), rate_[technique])
                                                : infinity;
 }
@@ -264,15 +250,15 @@ float InteriorWalk::pass(float length) {
 }
 
 float InteriorWalk::weigh_flight(float length, bool collides) {
-    const auto count = static_cast<std::size_t>(techniques());
+    const std::size_t count = techniques();
     Values passed;
     for (std::size_t i = 0; i < count; ++i) {
         passed[i] = fast_exp(-rate_[i] * length) * (collides ? rate_[i] : 1.0f);
     }
-    if (lit_ >= 0) {
-        for (int c = 0; c < guide_->channels(); ++c) {
+    if (is_lit_) {
+        for (int c = 0; c < channels(); ++c) {
             const float direct = direct_[static_cast<std::size_t>(c)];
-            float& p = passed[static_cast<std::size_t>((1 + lit_) * guide_->channels() + c)];
+            float& p = passed[guided(c)];
             p = (1 - direct) * p + (collides ? 0.0f : direct);
         }
     }
@@ -287,27 +273,20 @@ float InteriorWalk::weigh_flight(float length, bool collides) {
 
 float InteriorWalk::relative_density(int group) const {
     float sum = 0;
-    for (int c = 0; c < guide_->channels(); ++c) {
-        sum += posterior_[static_cast<std::size_t>(group * guide_->channels() + c)];
+    for (int c = 0; c < channels(); ++c) {
+        sum += posterior_[static_cast<std::size_t>(group * channels() + c)];
     }
-    return sum / share_[static_cast<std::size_t>(group)];
+    return sum / share_[group];
 }
 
-InteriorGuide::Shares InteriorWalk::relative_densities() const {
-    InteriorGuide::Shares result{relative_density(0)};
-    for (int s = 0; s < slots_; ++s) {
-        result[static_cast<std::size_t>(1 + strategy(s))] = relative_density(1 + s);
-    }
-    return result;
+InteriorGuide::PerTechnique InteriorWalk::relative_densities() const {
+    return {relative_density(0), is_guided() ? relative_density(1) : 0.0f};
 }
 
 float InteriorWalk::survival(float throughput) {
-    // Under a strategy that is right, density times what is to be expected is the same everywhere: so its density over
-    // that of the mixture is what the walk may yet bring, over what it might have brought when it entered.
-    float expected = 0;
-    for (int s = 1; s <= slots_; ++s) {
-        expected = std::max(expected, relative_density(s));
-    }
+    // Under a guide that is right, density times what is to be expected is the same everywhere: so its density over that
+    // of the mixture is what the walk may yet bring, over what it might have brought when it entered.
+    float expected = is_guided() ? relative_density(1) : 0.0f;
     expected = std::min(expected / survived_, throughput / least_throughput);
     if (expected >= least_expectation) {
         return 1;

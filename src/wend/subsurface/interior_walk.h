@@ -8,6 +8,7 @@
 #include <wend/subsurface/interior_guide.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 namespace wend {
@@ -18,33 +19,32 @@ struct InteriorFlight {
     float pass_probability = 1;
 };
 
-/// One interior walk in a medium is drawn by one technique, {classical, strategies} x colour channels, and weighted by
-/// the balance heuristic over the whole interior walk: the state holds the posterior probability of each technique
-/// given the decisions so far, from which the next one is drawn. The weight never exceeds that of classical sampling
-/// over its share, however long the interior walk (docs/theory/subsurface.md).
+/// One interior walk in a medium is drawn by one technique, {classical, guided} x colour channels, and weighted by the
+/// balance heuristic over the whole interior walk: the state holds the posterior probability of each technique given
+/// the decisions so far, from which the next one is drawn. The weight never exceeds that of classical sampling over its
+/// share, however long the interior walk (docs/theory/subsurface.md).
 ///
-/// Enter, aim each strategy, head; then fly, and at a collision aim again, draw a direction and turn. A value: a walk
-/// that splits copies it.
+/// Enter, aim, head; then fly, and at a collision aim again, draw a direction and turn. A value: a walk that splits
+/// copies it.
 class InteriorWalk {
 public:
     bool is_inside() const { return is_inside_; }
     /// Of the interior walk; null outside.
     const InteriorGuide* guide() const { return is_inside_ ? guide_ : nullptr; }
 
-    /// Begins an interior walk; `channels` are the probabilities of the walk's colour channels. The guide is referred
-    /// to. Strategies without a share cost nothing: slots hold the others, in their order.
-    void enter(const InteriorGuide& guide, const Rgb& channels, const InteriorGuide::Shares& shares);
-    void enter(const InteriorGuide& guide, const Rgb& channels) { enter(guide, channels, guide.share); }
+    /// Begins an interior walk; `channels` are the probabilities of the walk's colour channels, `defensive_fraction`
+    /// that of classical sampling. The guide is referred to.
+    void enter(const InteriorGuide& guide, const Rgb& channels, float defensive_fraction);
+    void enter(const InteriorGuide& guide, const Rgb& channels) { enter(guide, channels, guide.defensive_fraction); }
     void leave() { is_inside_ = false; }
 
-    int slots() const { return slots_; }
-    /// The strategy in a slot.
-    int strategy(int slot) const { return strategy_[static_cast<std::size_t>(slot)]; }
-    /// The outward normal of a slot's strategy, from now on, and the decay along it relative to the medium's own, in
-    /// [0, 1].
-    void aim(int slot, const Vec3& normal, float steepness = 1);
-    /// Whether a slot's strategy heads for lamps, and what it sees of them from now on.
-    bool is_lit(int slot) const { return slot == lit_; }
+    /// Whether anything but classical sampling may draw this interior walk: otherwise it need not be aimed.
+    bool is_guided() const { return groups_ > 1; }
+    /// From now on the boundary has this outward normal, and light decays by `steepness`, in [0, 1], relative to the
+    /// medium's own decay.
+    void aim(const Vec3& normal, float steepness = 1);
+    /// Whether the guide heads for lamps, and what it sees of them from now on.
+    bool heads_for_emitters() const { return is_lit_; }
     void aim(const EmitterView& view);
 
     /// Goes on in direction w, which no technique has drawn: at the entry, or where the boundary reflects.
@@ -71,9 +71,9 @@ public:
         const InteriorWalk& walk_;
         Vec3 before_;
         Pcg32& random_;
-        std::array<float, 3 * (1 + InteriorGuide::most_strategies)> relative_;  // posterior over S(before)
-        EmitterGuide::PerEmitter lamps_{};                                      // posterior of directions in each lobe
-        std::array<EmitterGuide::PerEmitter, 3> shares_{};  // by channel, of each lamp in the strategy
+        std::array<float, 6> relative_;                     // posterior over S(before)
+        EmitterGuide::PerEmitter lamps_{};                  // posterior of directions in each lobe
+        std::array<EmitterGuide::PerEmitter, 3> shares_{};  // by channel, of each lamp in guided sampling
         EmitterGuide::PerEmitter connected_{};              // probability of a connection to each lamp
     };
 
@@ -90,37 +90,32 @@ public:
     float pass(float length);
 
     /// The probability that the walk goes on, given the throughput with which a walk of the scene's own roulette would
-    /// be judged. Walks end where the light that the strategies expect is no longer worth their weight, but never
-    /// sooner than classical ones.
+    /// be judged. Walks end where the light that the guide expects is no longer worth their weight, but never sooner
+    /// than classical ones.
     float survival(float throughput);
 
-    /// Of classical sampling and each strategy: its probability of all decisions of the interior walk, or of the last
-    /// one, over that of the mixture; 0 without a share.
-    InteriorGuide::Shares relative_densities() const;
-    /// The probability with which this interior walk was to be a classical one.
-    float defensive_fraction() const { return share_[0]; }
+    /// Of each technique: its probability of all decisions of the interior walk, or of the last one, over that of the
+    /// mixture; 0 without a share.
+    InteriorGuide::PerTechnique relative_densities() const;
 
 private:
-    static constexpr int most = 3 * (1 + InteriorGuide::most_strategies);
-    using Values = std::array<float, most>;
+    using Values = std::array<float, 6>;
 
-    int techniques() const { return guide_->channels() * (1 + slots_); }
-    const HalfSpaceMode& mode(int slot, int channel) const {
-        return guide_->mode(channel, level_[static_cast<std::size_t>(slot)]);
-    }
+    int channels() const { return guide_->channels(); }
+    std::size_t techniques() const { return static_cast<std::size_t>(channels() * groups_); }
+    /// Of a channel, guided.
+    std::size_t guided(int channel) const { return static_cast<std::size_t>(channels() + channel); }
+    const HalfSpaceMode& mode(int channel) const { return guide_->mode(channel, level_); }
     float relative_density(int group) const;
-    /// Calls f(index, slot, channel) for all techniques that follow a mode.
+    /// Calls f(index, channel) for all techniques that follow a mode.
     template <class F>
     void for_modes(F&& f) const {
-        std::size_t i = static_cast<std::size_t>(guide_->channels());
-        for (int s = 0; s < slots_; ++s) {
-            for (int c = 0; c < guide_->channels(); ++c, ++i) {
-                f(i, s, c);
-            }
+        for (int c = 0; groups_ > 1 && c < channels(); ++c) {
+            f(guided(c), c);
         }
     }
-    /// The strategy that heads for lamps expects the light of its mode beside theirs: this times the mode's.
-    float diffuse(int channel) const { return lamps_.diffuse()[channel] / mode(lit_, channel).inward_radiance(); }
+    /// A guide that heads for lamps expects the light of its mode beside theirs: this times the mode's.
+    float diffuse(int channel) const { return lamps_.diffuse()[channel] / mode(channel).inward_radiance(); }
     /// What a collision scatters to a walk that arrived along `before`, times the mode's: of both, given the phase
     /// function for each lamp.
     float scattered(int channel, const EmitterGuide::PerEmitter& phases, const Vec3& before) const;
@@ -134,18 +129,17 @@ private:
 
     const InteriorGuide* guide_ = nullptr;
     bool is_inside_ = false;
-    int slots_ = 0;
-    std::array<int, InteriorGuide::most_strategies> strategy_;
-    InteriorGuide::Shares share_;  // of classical sampling, then slot by slot
-    Values posterior_;             // slot by slot, classical sampling first; channels within
-    Values rate_{};                // of the exponential flight under each technique that has one
-    int lit_ = -1;                 // slot of the strategy that heads for lamps; none if negative
+    bool is_lit_ = false;
+    bool has_turned_ = false;
+    int groups_ = 1;      // 2: classical and guided
+    float share_[2]{};    // of classical and of guided sampling
+    Values posterior_;    // classical sampling first; channels within
+    Values rate_{};       // of the exponential flight under each technique
     EmitterGuide lamps_;
     std::array<float, 3> direct_{};  // by channel, the part of the light ahead that comes straight from lamps
-    std::array<Vec3, InteriorGuide::most_strategies> normal_;
-    std::array<int, InteriorGuide::most_strategies> level_;
+    Vec3 normal_;
+    int level_ = 0;
     float survived_ = 1;  // product of the probabilities of survival
-    bool has_turned_ = false;
 };
 
 }  // namespace wend

@@ -11,7 +11,7 @@ namespace wend {
 /// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much
 /// more for a larger logarithm of the preference of NextEventSettings.
 struct MixGradient {
-    InteriorGuide::Shares shares{};
+    InteriorGuide::PerTechnique shares{};
     float preference = 0;
 };
 
@@ -23,7 +23,7 @@ struct InteriorWalkRecord {
     int flights = 0;
     float brought = 0;
     /// Density of each technique over that of the mixture, at the end of the interior walk or now.
-    InteriorGuide::Shares relative{};
+    InteriorGuide::PerTechnique relative{};
     /// Sum of what was brought, times its slope.
     MixGradient slope{};
     /// Whether connections to lights from inside have succeeded: straight ones, and those that boundaries refract.

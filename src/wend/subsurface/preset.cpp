@@ -2,49 +2,46 @@
 #include <wend/subsurface/preset.h>
 
 #include <algorithm>
+#include <array>
 
 namespace wend {
 namespace {
 
 struct Entry {
     std::string_view name;
-    std::vector<InteriorStrategy> strategies;
+    std::optional<InteriorStrategy> strategy;
 };
 
-const std::vector<Entry>& entries() {
-    using enum InteriorStrategy;
-    static const std::vector<Entry> table = {{"classical", {}},      {"dwivedi", {entry}},
-                                             {"closest", {closest}}, {"incident", {incident}},
-                                             {"learned", {learned}}, {"auto", {closest, learned}}};
-    return table;
-}
+using enum InteriorStrategy;
+constexpr std::array canonical = {Entry{"classical", std::nullopt}, Entry{"dwivedi", entry}, Entry{"closest", closest},
+                                  Entry{"incident", incident}, Entry{"auto", learned}};
+/// What scripts may ask for.
+constexpr std::array aliases = {Entry{"learned", learned}, Entry{"planar", closest}};
 
 }  // namespace
 
 std::string subsurface_names() {
     std::string names;
-    for (const Entry& e : entries()) {
+    for (const Entry& e : canonical) {
         names += (names.empty() ? "" : ", ") + std::string(e.name);
     }
     return names;
 }
 
 SubsurfacePreset parse_subsurface(std::string_view text) {
-    for (const Entry& e : entries()) {
-        if (e.name == text) {
-            return {e.strategies};
-        }
+    const auto is_meant = [&](const Entry& e) { return e.name == text; };
+    if (const auto found = std::find_if(canonical.begin(), canonical.end(), is_meant); found != canonical.end()) {
+        return {found->strategy};
     }
-    // Scripts may ask for the solution of layers, which was worse than this in every scene.
-    if (text == "planar") {
-        return {{InteriorStrategy::closest}};
+    if (const auto found = std::find_if(aliases.begin(), aliases.end(), is_meant); found != aliases.end()) {
+        return {found->strategy};
     }
     throw InputError("unknown subsurface sampling '" + std::string(text) + "': expected one of " + subsurface_names());
 }
 
 std::string to_string(const SubsurfacePreset& preset) {
-    const auto found = std::find_if(entries().begin(), entries().end(),
-                                    [&](const Entry& e) { return e.strategies == preset.strategies; });
+    const auto found = std::find_if(canonical.begin(), canonical.end(),
+                                    [&](const Entry& e) { return e.strategy == preset.strategy; });
     return std::string(found->name);
 }
 

@@ -1,9 +1,9 @@
-// By which strategies walks are guided inside dense media: the values of --subsurface.
+// How walks are guided inside dense media: the values of --subsurface.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace wend {
 
@@ -17,20 +17,20 @@ enum class InteriorStrategy {
 
 /// A value of --subsurface.
 struct SubsurfacePreset {
-    std::vector<InteriorStrategy> strategies;  ///< beside classical sampling
+    std::optional<InteriorStrategy> strategy;  ///< beside classical sampling
 
-    bool is_classical() const { return strategies.empty(); }
+    bool is_classical() const { return !strategy; }
     friend bool operator==(const SubsurfacePreset&, const SubsurfacePreset&) = default;
 };
 
-/// Parses a value of --subsurface; `planar`, of old, is `closest`. Throws InputError, listing the names that there are,
-/// for any other.
+/// Parses a value of --subsurface; `learned` is another name of `auto`, and what was `planar` is `closest`. Throws
+/// InputError, listing the names that there are, for any other.
 SubsurfacePreset parse_subsurface(std::string_view text);
 
 /// The canonical name.
 std::string to_string(const SubsurfacePreset& preset);
 
-/// The names, separated by commas.
+/// The canonical names, separated by commas.
 std::string subsurface_names();
 
 }  // namespace wend

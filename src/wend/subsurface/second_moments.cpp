@@ -6,26 +6,6 @@
 namespace wend {
 namespace {
 
-/// An estimate of the square of F - 1 without technique i, for an interior walk drawn with shares a_j. With x = p'/p of
-/// the densities without it and with it, it is x (F' - 1)². F' is F / x, but for what is weighted against connections:
-/// with b_j = -dF/da_j / F, whose mean b = Σ a_j b_j falls short of 1 by that, F / (1 - b + (b - a_i b_i) / (1 - a_i)).
-double error_without(std::size_t i, const InteriorWalkRecord& interior_walk, const InteriorGuide::Shares& shares) {
-    const double share = shares[i], f = interior_walk.brought;
-    if (!(share < 1)) {
-        return std::pow(f - 1, 2);
-    }
-    double falling = 0;
-    for (std::size_t j = 0; j < shares.size(); ++j) {
-        falling += static_cast<double>(shares[j] * interior_walk.slope.shares[j]);
-    }
-    constexpr double least = 1e-2;
-    const double density = std::max(0.0, (1 - share * static_cast<double>(interior_walk.relative[i])) / (1 - share));
-    const double weight =
-        f > 0 ? (f - falling + (falling - share * static_cast<double>(interior_walk.slope.shares[i])) / (1 - share)) / f
-              : 1.0;
-    return density * std::pow(f / std::max(weight, least) - 1, 2);
-}
-
 template <std::size_t n>
 void add_each(std::array<double, n>& to, const std::array<double, n>& from) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -51,11 +31,10 @@ SecondMoments::Sums& SecondMoments::Sums::operator+=(const Sums& other) {
     add_each(slope_squares, other.slope_squares);
     preference_slope += other.preference_slope;
     preference_slope_squares += other.preference_slope_squares;
-    add_each(errors_without, other.errors_without);
     return *this;
 }
 
-void SecondMoments::add(int cell, const InteriorWalkRecord& interior_walk, const InteriorGuide::Shares& shares) {
+void SecondMoments::add(int cell, const InteriorWalkRecord& interior_walk) {
     const double f = interior_walk.brought;
     const Kind one{{1, f, f * f, f * f * f, f * f * f * f}, static_cast<double>(interior_walk.flights)};
     if (!std::isfinite(one.powers[4])) {
@@ -77,9 +56,7 @@ void SecondMoments::add(int cell, const InteriorWalkRecord& interior_walk, const
         sums.densities[i] = interior_walk.relative[i];
         sums.slopes[i] = 2 * f * static_cast<double>(interior_walk.slope.shares[i]) - f * f * sums.densities[i];
         sums.slope_squares[i] = sums.slopes[i] * sums.slopes[i];
-        sums.errors_without[i] = error_without(i, interior_walk, shares);
-        finite = finite && std::isfinite(sums.densities[i]) && std::isfinite(sums.slopes[i]) &&
-                 std::isfinite(sums.errors_without[i]);
+        finite = finite && std::isfinite(sums.densities[i]) && std::isfinite(sums.slopes[i]);
     }
     if (finite) {
         media_[interior_walk.medium][cell] += sums;

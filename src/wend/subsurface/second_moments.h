@@ -18,9 +18,8 @@ public:
     /// ways to sample an interior walk, and its square would decide on them.
     static constexpr float most_expected = 30;
 
-    /// `shares` are those that the interior walk was drawn with, if strategies are to be compared. Interior walks that
-    /// are not finite say nothing.
-    void add(int cell, const InteriorWalkRecord& interior_walk, const InteriorGuide::Shares& shares = {});
+    /// Interior walks that are not finite say nothing.
+    void add(int cell, const InteriorWalkRecord& interior_walk);
     SecondMoments& operator+=(const SecondMoments& other);
 
     /// Of guided interior walks, or of others.
@@ -31,7 +30,7 @@ public:
         Kind& operator+=(const Kind& other);
     };
     struct Sums {
-        using PerTechnique = std::array<double, 1 + InteriorGuide::most_strategies>;
+        using PerTechnique = std::array<double, std::tuple_size_v<InteriorGuide::PerTechnique>>;
         Kind guided, unguided;
         // Of guided interior walks:
         PerTechnique slopes{};     ///< -(F² p_i / p + 2 F dF)
@@ -41,7 +40,6 @@ public:
         double preference_slope = 0;  ///< of F² with the logarithm of the preference
         PerTechnique slope_squares{};
         double preference_slope_squares = 0;
-        PerTechnique errors_without{};  ///< of (F - 1)² if a technique had no share
 
         Sums& operator+=(const Sums& other);
     };

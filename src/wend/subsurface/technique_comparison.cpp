@@ -12,11 +12,6 @@ constexpr double cost_of_guided_flight = 2.2, cost_of_field_flight = 2.5;
 constexpr double flights_outside = 2;
 /// In classical flights, what looking for a way that boundaries refract takes.
 constexpr double cost_of_way = 4;
-/// What each strategy beside another takes of a guided flight's time; what is left of variance times cost where it is
-/// dropped for that; and by how many interior walks of equal weight they are compared.
-constexpr double cost_of_strategy = 0.1;
-constexpr double largest_without = 0.95;
-constexpr double enough_to_compare = 500;
 /// How much of the variance unguided interior walks may add while they are watched.
 constexpr float variance_for_watching = 0.1f;
 /// How much of guided interior walks is recorded where they have this advantage.
@@ -80,27 +75,6 @@ TechniqueAdvantage advantage(const SecondMoments::Sums& sums, NextWalks seen, fl
     const double cost_of_unguided_flight = seen == NextWalks::beside_field ? cost_of_field_flight : 1;
     return {saved + cost(unguided, cost_of_unguided_flight), std::sqrt(1 / guided_count + 1 / unguided_count), ratio,
             saved + cost(unguided, cost_of_field_flight)};
-}
-
-std::optional<std::size_t> dispensable(const SecondMoments::Sums& sums, std::span<const std::size_t> strategies) {
-    const auto [variance_of_all, count] = variance(sums.guided);
-    if (!(count > enough_to_compare) || strategies.size() < 2) {
-        return std::nullopt;
-    }
-    const double n = sums.guided.powers[0];
-    const double flights = cost_of_guided_flight * sums.guided.flights / n;
-    const double offset = sums.guided.powers[1] / n - 1;
-    double least = largest_without * variance_of_all * (flights_outside + flights);
-    std::optional<std::size_t> best;
-    for (const std::size_t i : strategies) {
-        const double without =
-            (sums.errors_without[i] / n - offset * offset) * (flights_outside + (1 - cost_of_strategy) * flights);
-        if (without < least) {
-            least = without;
-            best = i;
-        }
-    }
-    return best;
 }
 
 }  // namespace wend

@@ -5,10 +5,6 @@
 #include <wend/subsurface/second_moments.h>
 #include <wend/subsurface/technique_mix.h>
 
-#include <cstddef>
-#include <optional>
-#include <span>
-
 namespace wend {
 
 struct TechniqueVariance {
@@ -42,10 +38,6 @@ struct TechniqueAdvantage {
 /// `through_boundaries` is the probability that a collision is connected along a way that boundaries refract. Nothing
 /// is known of either where one kind does not vary.
 TechniqueAdvantage advantage(const SecondMoments::Sums& sums, NextWalks seen, float through_boundaries);
-
-/// Of the strategies in use the one that the others replace best: without it variance times cost would be clearly less.
-/// None where few interior walks tell.
-std::optional<std::size_t> dispensable(const SecondMoments::Sums& sums, std::span<const std::size_t> strategies);
 
 /// Share of unguided interior walks to begin with.
 inline constexpr float largest_share_for_watching = 0.0625f;

@@ -22,8 +22,8 @@ struct NextEventSettings {
 
 /// How interior walks are sampled.
 struct TechniqueMix {
-    /// Of guided interior walks.
-    InteriorGuide::Shares shares{1};
+    /// Probability of classical sampling in guided interior walks.
+    float defensive_fraction = 1;
     /// Of leaving an interior walk unguided.
     float unguided_probability = 0;
     /// Whether that means to classical sampling alone, or as well to what the learned field says.

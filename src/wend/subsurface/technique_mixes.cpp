@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 namespace wend {
 namespace {
@@ -61,44 +60,21 @@ Steps steps(const SecondMoments::Sums& sums, const Steps& expected) {
     return result;
 }
 
-void normalize(InteriorGuide::Shares& shares) {
-    const float total = std::accumulate(shares.begin(), shares.end(), 0.0f);
-    for (float& share : shares) {
-        share /= total;
-    }
-}
-
-/// Leaves a strategy out, unless it is the only one.
-void drop(std::size_t technique, InteriorGuide::Shares& shares) {
-    InteriorGuide::Shares others = shares;
-    others[technique] = 0;
-    if (std::any_of(others.begin() + 1, others.end(), [](float share) { return share > 0; })) {
-        normalize(others);
-        shares = others;
-    }
-}
-
 /// Makes the steps.
 void learn_guided(TechniqueMix& plan, const Steps& steps) {
     plan.guided.preference =
         std::clamp(plan.guided.preference * static_cast<float>(std::exp(steps.preference)), 1.0f, largest_preference);
-    InteriorGuide::Shares& shares = plan.shares;
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        shares[i] *= static_cast<float>(std::exp(steps.share[i]));
-    }
-    normalize(shares);
-    for (std::size_t i = 1; i < shares.size(); ++i) {
-        shares[i] = shares[i] < least_guided ? 0.0f : shares[i];
-    }
-    shares[0] = std::max(shares[0], least_defensive_fraction);
-    normalize(shares);
+    const float classical = plan.defensive_fraction * static_cast<float>(std::exp(steps.share[0]));
+    const float guided = (1 - plan.defensive_fraction) * static_cast<float>(std::exp(steps.share[1]));
+    const bool is_useless = guided < least_guided * (classical + guided);
+    plan.defensive_fraction = is_useless ? 1 : std::max(classical / (classical + guided), least_defensive_fraction);
 }
 
 }  // namespace
 
-TechniqueMixes::TechniqueMixes(const Box3& box, const InteriorGuide::Shares& start)
+TechniqueMixes::TechniqueMixes(const Box3& box, float defensive_fraction)
     : box_(box),
-      plans_(side * side * side, TechniqueMix{start,
+      plans_(side * side * side, TechniqueMix{defensive_fraction,
                                               largest_share_for_watching,
                                               true,
                                               {first_preference, connection_probability(first_preference),
@@ -138,14 +114,10 @@ void TechniqueMixes::learn(const std::map<int, SecondMoments::Sums>& moments, Ne
                                        : next == NextWalks::rendering ? 0.0f
                                                                       : guided.share_for_watching();
     const Steps overall = steps(all, {});
-    const std::optional<std::size_t> dispensed_with = is_first ? std::nullopt : dispensable(all, strategies());
     for (std::size_t cell = 0; cell < plans_.size(); ++cell) {
         const auto seen = moments.find(static_cast<int>(cell));
         TechniqueMix& plan = plans_[cell];
         learn_guided(plan, seen == moments.end() ? overall : steps(seen->second, overall));
-        if (dispensed_with) {
-            drop(*dispensed_with, plan.shares);
-        }
         plan.unguided_probability = unguided_probability;
         plan.is_unguided_classical = next == NextWalks::beside_classical;
         plan.recording_probability = guided.recording_probability();
@@ -154,16 +126,6 @@ void TechniqueMixes::learn(const std::map<int, SecondMoments::Sums>& moments, Ne
         plan.guided.through_boundaries = plan.unguided.through_boundaries = through_boundaries;
     }
     seen_ = next;
-}
-
-std::vector<std::size_t> TechniqueMixes::strategies() const {
-    std::vector<std::size_t> result;
-    for (std::size_t i = 1; i < InteriorGuide::Shares().size(); ++i) {
-        if (std::any_of(plans_.begin(), plans_.end(), [i](const TechniqueMix& plan) { return plan.shares[i] > 0; })) {
-            result.push_back(i);
-        }
-    }
-    return result;
 }
 
 auto TechniqueMixes::all_brought() const -> Brought {

@@ -16,7 +16,8 @@ namespace wend {
 /// Plans in a grid of cells.
 class TechniqueMixes {
 public:
-    TechniqueMixes(const Box3& box, const InteriorGuide::Shares& start);
+    /// `defensive_fraction` is that to begin with.
+    TechniqueMixes(const Box3& box, float defensive_fraction);
 
     int cell_at(const Vec3& entry) const;
     const TechniqueMix& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
@@ -27,9 +28,8 @@ public:
     /// `moments` by cell, of relative() interior walks. Moves the logarithms of each share, and of the preference, down
     /// the slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
     /// interior walks began in follow all others. Where no connection has ever succeeded, behind a boundary that
-    /// refracts, hardly any is made. A strategy that has become useless is dropped, and so is one without which
-    /// variance times cost is clearly less, as others do the same; classical sampling keeps a share that bounds all
-    /// weights. A few interior walks are left unguided, to compare variance times cost. Where that is clearly less for
+    /// refracts, hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that
+    /// bounds all weights. A few interior walks are left unguided, to compare variance times cost. Where that is clearly less for
     /// those that follow the learned field all are from then on, and if `next` is rendering unless it is clearly more.
     void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
 
@@ -39,8 +39,6 @@ private:
     };
     /// Everywhere.
     Brought all_brought() const;
-    /// Techniques beside classical sampling that have a share anywhere.
-    std::vector<std::size_t> strategies() const;
     /// Learns what interior walks bring.
     void expect(const std::map<int, SecondMoments::Sums>& moments);
 

@@ -6,17 +6,6 @@ namespace wend {
 
 using namespace walk_events;
 
-void FieldRecorder::on(const WasConnected& event) {
-    const Vertex& v = event.vertex;
-    if (!log_ || !caustics_ || (v.in_volume() && event.interior.is_inside())) {
-        return;
-    }
-    if (const auto seen = caustics_->near(v.position, v.facing, event.random)) {
-        hint({{v.position, seen->towards, mean_value(seen->fluence), 1, seen->distance, 0, 0, 0, seen->fluence},
-              v.in_volume()});
-    }
-}
-
 void FieldRecorder::on(const Scattered& event) {
     if (!log_) {
         return;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <wend/guide/path_log.h>
-#include <wend/light/caustic_photons.h>
 #include <wend/transport/walk_events.h>
 
 namespace wend {
@@ -12,9 +11,8 @@ class FieldRecorder {
 public:
     /// Records nothing.
     FieldRecorder() = default;
-    /// The log is started anew. What the caustics know, which may be null, is recorded beside what walks find.
-    explicit FieldRecorder(guide::PathLog* log, const CausticPhotons* caustics = nullptr)
-        : log_(log), caustics_(caustics) {}
+    /// The log is started anew.
+    explicit FieldRecorder(guide::PathLog* log) : log_(log) {}
 
     struct Branch {
         guide::PathLog::Branch path{};
@@ -59,19 +57,13 @@ public:
             log_->face(event.vertex.facing);
         }
     }
-    void on(const walk_events::WasConnected& event);
     void on(const walk_events::Scattered& event);
     void on(const walk_events::Connected& event);
     void on(const walk_events::ConnectedAhead& event);
     void on(const walk_events::EnteredMedium& event);
 
-    /// Whether hints at lights that no connection reaches are of use.
-    bool takes_hints() const { return log_ != nullptr; }
-    void hint(const guide::Hint& hint) { log_->hint(hint); }
-
 private:
     guide::PathLog* log_ = nullptr;
-    const CausticPhotons* caustics_ = nullptr;
     bool is_logged_ = true;
 };
 

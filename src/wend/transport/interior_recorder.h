@@ -19,8 +19,8 @@ public:
 
     struct Branch {
         int walk = -1;                         ///< the last one; negative if there is none
-        InteriorGuide::Shares relative{};      ///< relative densities in it, or at its end
-        InteriorGuide::Shares at_collision{};  ///< and at the collision that connections at the boundary began from
+        InteriorGuide::PerTechnique relative{};      ///< relative densities in it, or at its end
+        InteriorGuide::PerTechnique at_collision{};  ///< and at the collision that connections at the boundary began from
         float from_collision = 0;              ///< part of the last vertex's connections that began there
     };
     Branch branch() const { return now_; }
@@ -43,7 +43,7 @@ public:
     void on(const walk_events::ConnectedBefore& event) { now_.from_collision = event.part; }
     void on(const walk_events::Turning& event) {
         now_.at_collision =
-            walks_ && event.interior.is_inside() ? event.interior.relative_densities() : InteriorGuide::Shares{};
+            walks_ && event.interior.is_inside() ? event.interior.relative_densities() : InteriorGuide::PerTechnique{};
     }
     void on(const walk_events::Paused& event) { update(event.interior); }
 

@@ -347,9 +347,6 @@ private:
     /// The walk, if it is in a guided interior walk, after it went from a collision in a direction.
     template <class Directions>
     InteriorWalk interior_towards(const Vec3& direction, const Directions& directions) const;
-    /// Records a light that no connection reaches.
-    void hint_at_refracted(const ChosenSample& chosen, const Vertex& v);
-
     void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
         result_.sample.albedo = surface_albedo;
         result_.sample.normal = normal;

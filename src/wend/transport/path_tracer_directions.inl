@@ -19,7 +19,6 @@ template <class F, class Directions>
 bool PathTracer<Decisions, Recorders>::Walk::scatter(const F& f, const Directions& directions, const Vertex& v) {
     if (!f.is_specular()) {
         connect_to_lights(f, directions, v);
-        recorder_.record(WasConnected{v, now_.interior, sampler_.random()});
     }
     if (v.in_volume()) {
         connect_through_boundaries(f, directions, v);

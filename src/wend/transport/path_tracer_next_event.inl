@@ -2,7 +2,6 @@
 #pragma once
 
 #include <wend/decision/channels.h>
-#include <wend/light/glimpse.h>
 #include <wend/light/next_event.h>
 #include <wend/light/scattering.h>
 #include <wend/transport/path_tracer.h>
@@ -78,9 +77,6 @@ auto PathTracer<Decisions, Recorders>::Walk::connect(const ChosenSample& chosen,
     }
     const Sight sight = look_straight(chosen, directions, v);
     if (is_black(sight.passage.transmittance)) {
-        if (recorder_.template get<FieldRecorder>().takes_hints() && !sight.interior.is_inside()) {
-            hint_at_refracted(chosen, v);
-        }
         return {};
     }
     if (v.in_volume()) {
@@ -161,23 +157,6 @@ auto PathTracer<Decisions, Recorders>::Walk::look_through_boundaries(const Chose
                 {}};
     sight.passage = pass(scene_, d_.distance, *way, sight.interior, sampler_.random());
     return sight;
-}
-
-template <class Decisions, class Recorders>
-void PathTracer<Decisions, Recorders>::Walk::hint_at_refracted(const ChosenSample& chosen, const Vertex& v) {
-    constexpr float often = 0.25f;
-    const LightSample& light = chosen.light;
-    if (light.point_like || light.medium != vacuum || !(sampler_.random().uniform() < often)) {
-        return;
-    }
-    const ShadowRay shadow = shadow_ray(scene_, leave(v, light.direction), v.position, chosen);
-    if (const auto seen =
-            glimpse(scene_, shadow.ray, shadow.length, medium_towards(v, light.direction), sampler_.random())) {
-        const Rgb radiance = light.radiance * seen->transmittance;
-        recorder_.template get<FieldRecorder>().hint({{v.position, seen->direction, mean_value(radiance),
-                                                       often * chosen.density(), light.distance, 0, 0, 0, radiance},
-                                                      v.in_volume()});
-    }
 }
 
 }  // namespace wend

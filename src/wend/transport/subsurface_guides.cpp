@@ -32,10 +32,6 @@ bool may_be_dense(const HomogeneousMedium& medium) {
            std::abs(medium.phase.mean_cosine()) < most_peaked;
 }
 
-bool looks_around(InteriorStrategy strategy) {
-    return strategy != InteriorStrategy::entry;
-}
-
 /// That of the first surface around a medium.
 BoundarySurface surface_of_boundary(const SceneDescription& scene, MediumId medium) {
     const auto found = std::find_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
@@ -83,7 +79,7 @@ Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary
 }  // namespace
 
 SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
-    : strategies_(preset.strategies) {
+    : strategy_(preset.strategy) {
     if (preset.is_classical()) {
         return;
     }
@@ -106,22 +102,17 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
 auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
                                const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const
     -> std::unique_ptr<Dense> {
-    const auto slot_of = [this](InteriorStrategy strategy) {
-        const auto found = std::find(strategies_.begin(), strategies_.end(), strategy);
-        return found == strategies_.end() ? -1 : static_cast<int>(found - strategies_.begin());
-    };
-    InteriorGuide guide =
-        interior_guide(medium, half_space_modes(medium), static_cast<int>(strategies_.size()), defensive_fraction);
+    InteriorGuide guide = interior_guide(medium, half_space_modes(medium), defensive_fraction);
     const Box3 box = bounds_of(points);
     const BoundarySurface boundary = surface_of_boundary(scene.description(), id);
     const Rgb decay = decay_of(guide);
     std::optional<BoundaryField> field;
-    if (std::any_of(strategies_.begin(), strategies_.end(), looks_around)) {
+    if (strategy_ != InteriorStrategy::entry) {
         field.emplace(box, lit_points(scene, points, boundary, rays_to_lights, random), min_value(decay), threads);
     }
-    guide.lit = field && field->sees_emitters() ? slot_of(InteriorStrategy::learned) : -1;
+    guide.heads_for_emitters = strategy_ == InteriorStrategy::learned && field->sees_emitters();
     guide.connects_at_boundary = !boundary.bsdf().is_specular();
-    TechniqueMixes plans(box, guide.share);
+    TechniqueMixes plans(box, guide.defensive_fraction);
     return std::make_unique<Dense>(
         Dense{std::move(guide), std::move(plans), std::move(field), decay, returned_by(medium, boundary)});
 }
@@ -138,10 +129,8 @@ void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direct
                              InteriorWalk& walk) const {
     const Dense& dense = *media_[static_cast<std::size_t>(medium)];
     if (walk.guide() != &dense.guide) {
-        walk.enter(dense.guide, channels, plan(medium, hit.position)->shares);
-        for (int slot = 0; slot < walk.slots(); ++slot) {
-            walk.aim(slot, dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
-        }
+        walk.enter(dense.guide, channels, plan(medium, hit.position)->defensive_fraction);
+        walk.aim(dot(hit.normal, direction) < 0 ? hit.normal : -hit.normal);
     }
     aim(medium, hit.position, walk);
     walk.head(direction);
@@ -149,26 +138,20 @@ void SubsurfaceGuides::enter(MediumId medium, const Hit& hit, const Vec3& direct
 
 void SubsurfaceGuides::aim(MediumId medium, const Vec3& position, InteriorWalk& walk) const {
     const Dense& dense = *media_[static_cast<std::size_t>(medium)];
-    if (!dense.field) {
+    if (!dense.field || !walk.is_guided()) {
         return;
     }
     const BoundaryField::View around = dense.field->at(position);
-    for (int slot = 0; slot < walk.slots(); ++slot) {
-        const InteriorStrategy strategy = strategies_[static_cast<std::size_t>(walk.strategy(slot))];
-        if (looks_around(strategy)) {
-            const InteriorAim aim = strategy == InteriorStrategy::closest ? around.closest() : around.incident();
-            walk.aim(slot, aim.normal, aim.steepness);
-        }
-        if (walk.is_lit(slot)) {
-            walk.aim(around.lamps(dense.returned, dense.decay));
-        }
+    const InteriorAim aim = strategy_ == InteriorStrategy::closest ? around.closest() : around.incident();
+    walk.aim(aim.normal, aim.steepness);
+    if (walk.heads_for_emitters()) {
+        walk.aim(around.lamps(dense.returned, dense.decay));
     }
 }
 
 void SubsurfaceGuides::count(const InteriorWalkRecord& interior_walk, SecondMoments& moments) const {
     const TechniqueMixes& plans = media_[static_cast<std::size_t>(interior_walk.medium)]->plans;
-    const int cell = plans.cell_at(interior_walk.entry);
-    moments.add(cell, plans.relative(interior_walk), plans.plan(cell).shares);
+    moments.add(plans.cell_at(interior_walk.entry), plans.relative(interior_walk));
 }
 
 void SubsurfaceGuides::learn(const SecondMoments& moments, NextWalks next) {

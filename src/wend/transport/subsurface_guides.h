@@ -31,7 +31,7 @@ public:
     /// direction, or lets one in the same medium go on. `channels` are the probabilities of the walk's colour channels.
     void enter(MediumId medium, const Hit& hit, const Vec3& direction, const Rgb& channels, InteriorWalk& walk) const;
 
-    /// Aims the strategies that look around at every collision.
+    /// Aims a walk at a collision.
     void aim(MediumId medium, const Vec3& position, InteriorWalk& walk) const;
 
     /// What interior walks brought, counted apart by each thread.
@@ -43,7 +43,7 @@ private:
     struct Dense {
         InteriorGuide guide;
         TechniqueMixes plans;
-        std::optional<BoundaryField> field;  ///< where a strategy asks it
+        std::optional<BoundaryField> field;  ///< where the strategy asks it
         Rgb decay;                           ///< of diffuse light, per scene unit
         Rgb returned;                        ///< of an irradiance, the radiance that comes back
     };
@@ -52,7 +52,7 @@ private:
     std::unique_ptr<Dense> explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
                                    const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const;
 
-    std::vector<InteriorStrategy> strategies_;
+    std::optional<InteriorStrategy> strategy_;
     std::vector<std::unique_ptr<Dense>> media_;  // by medium; null: not guided
 };
 

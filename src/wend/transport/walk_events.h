@@ -42,12 +42,6 @@ struct Arrived {
 struct HitSurface {
     const Vertex& vertex;
 };
-/// The vertex at hand, which is not specular, was connected to lights.
-struct WasConnected {
-    const Vertex& vertex;
-    const InteriorWalk& interior;
-    Pcg32& random;
-};
 /// The walk goes on in a direction, with this throughput.
 struct Scattered {
     const DirectionSample& sample;
