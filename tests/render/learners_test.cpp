@@ -2,7 +2,7 @@
 #include <tests/support/scenes.h>
 
 #include <wend/render/learners.h>
-#include <wend/transport/path_tracer.inl>
+#include <wend/transport/path_tracer.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Walks of a hundred thousand collisions: they end, and in bounded memory.
 #include <tests/support/scenes.h>
 
-#include <wend/transport/path_tracer.inl>
+#include <wend/transport/path_tracer.h>
 
 #include <sys/resource.h>
 

@@ -24,6 +24,8 @@ public:
     bool is_specular() const { return false; }
     /// The guide has no picture of what is still more peaked.
     bool is_guidable() const { return std::abs(phase_.mean_cosine()) <= largest_pictured_g; }
+    /// The direction of propagation before the collision.
+    const Vec3& before() const { return before_; }
     float index_ratio(const Vec3&) const { return 1; }
     /// Absorption is the flight's matter.
     Rgb albedo() const { return Rgb(1.0f); }

@@ -27,6 +27,8 @@ struct LastVertex {
     Vec3 direction{0, 0, 1};
     MediumState medium;
     int refractions = 0;
+    /// Of the direction drawn there: the density of connections at the boundary ahead, over its own.
+    float emitters_ahead = 0;
 
     float own_density() const { return density * dot(channels, pass_probability); }
 };

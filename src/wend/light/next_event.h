@@ -64,11 +64,11 @@ struct Passage {
     Rgb probability{1.0f};
 };
 
-/// From a place in `medium`, and in an interior walk in a dense one if `interior` is inside, which ends where the
-/// medium does.
+/// From a place in `medium`, and in a guided interior walk in a dense one if `interior` is not null, which goes on and
+/// ends where the medium does.
 template <DistanceDecision Distance>
 Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shadow, MediumState medium,
-             InteriorWalk& interior, Pcg32& random) {
+             InteriorWalk* interior, Pcg32& random) {
     constexpr Passage blocked{Rgb(0.0f), Rgb(0.0f)};
     Passage passage;
     TracedRay ray = shadow.ray;
@@ -86,7 +86,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
             const Medium& passed = scene.medium(medium.id);
             passage.transmittance *= estimate_transmittance(passed, ray, length, random);
             passage.probability *=
-                interior.is_inside() ? Rgb(interior.pass(length)) : distance.pass_probability(passed, ray, length);
+                interior ? Rgb(interior->pass(length)) : distance.pass_probability(passed, ray, length);
             if (is_black(passage.transmittance)) {
                 return passage;
             }
@@ -99,7 +99,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
         const MediumId before = medium.id;
         medium = scene.medium_beyond(*hit, ray.direction, medium);
         if (medium.id != before) {
-            interior.leave();
+            interior = nullptr;
         }
         ray.pass(*hit);
     }
@@ -108,20 +108,20 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
 
 /// The same along a way that boundaries refract; the interior walk ends with its first leg's medium.
 template <DistanceDecision Distance>
-Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk& interior,
+Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk* interior,
              Pcg32& random) {
     Passage passage{Rgb(way.transmitted), Rgb(1.0f)};
     const MediumId first = way.legs().front().medium;
     for (const SpecularChain::Leg& leg : way.legs()) {
         if (leg.medium != first) {
-            interior.leave();
+            interior = nullptr;
         }
         if (leg.medium != vacuum) {
             const Medium& medium = scene.medium(leg.medium);
             const float length = std::min(leg.length, longest_segment);
             passage.transmittance *= estimate_transmittance(medium, leg.ray, length, random);
             passage.probability *=
-                interior.is_inside() ? Rgb(interior.pass(length)) : distance.pass_probability(medium, leg.ray, length);
+                interior ? Rgb(interior->pass(length)) : distance.pass_probability(medium, leg.ray, length);
         }
     }
     return passage;

@@ -3,7 +3,7 @@
 #include <wend/render/pass.h>
 #include <wend/render/render.h>
 #include <wend/render/schedule.h>
-#include <wend/transport/path_tracer.inl>
+#include <wend/transport/path_tracer.h>
 
 #include <algorithm>
 #include <atomic>

@@ -27,7 +27,6 @@ float extinction_of(const InteriorGuide& guide, int channel) {
 
 void InteriorWalk::enter(const InteriorGuide& guide, const Rgb& channels, float defensive_fraction) {
     guide_ = &guide;
-    is_inside_ = true;
     survived_ = 1;
     groups_ = defensive_fraction < 1 ? 2 : 1;
     is_lit_ = groups_ > 1 && guide.heads_for_emitters;

@@ -28,15 +28,13 @@ struct InteriorFlight {
 /// copies it.
 class InteriorWalk {
 public:
-    bool is_inside() const { return is_inside_; }
-    /// Of the interior walk; null outside.
-    const InteriorGuide* guide() const { return is_inside_ ? guide_ : nullptr; }
+    /// Null before enter().
+    const InteriorGuide* guide() const { return guide_; }
 
     /// Begins an interior walk; `channels` are the probabilities of the walk's colour channels, `defensive_fraction`
     /// that of classical sampling. The guide is referred to.
     void enter(const InteriorGuide& guide, const Rgb& channels, float defensive_fraction);
     void enter(const InteriorGuide& guide, const Rgb& channels) { enter(guide, channels, guide.defensive_fraction); }
-    void leave() { is_inside_ = false; }
 
     /// Whether anything but classical sampling may draw this interior walk: otherwise it need not be aimed.
     bool is_guided() const { return groups_ > 1; }
@@ -128,7 +126,6 @@ private:
     float weigh_flight(float length, bool collides);
 
     const InteriorGuide* guide_ = nullptr;
-    bool is_inside_ = false;
     bool is_lit_ = false;
     bool has_turned_ = false;
     int groups_ = 1;      // 2: classical and guided

@@ -2,16 +2,14 @@
 
 namespace wend {
 
-using namespace walk_events;
-
-void InteriorRecorder::on(const Contributed& event) {
+void InteriorRecorder::on(const walk_events::Contributed& event) {
     if (InteriorWalkRecord* const walk = last()) {
-        update(event.interior);
-        walk->bring(event.light, event.gradient.value_or(MixGradient{now_.relative, 0}));
+        update(event.technique);
+        walk->bring(event.light, gradient_of(event.found, event.technique));
     }
 }
 
-void InteriorRecorder::on(const EnteredMedium& event) {
+void InteriorRecorder::on(const walk_events::EnteredMedium& event) {
     if (walks_ && event.dense) {
         now_.walk = static_cast<int>(walks_->size());
         now_.relative = {};
@@ -19,38 +17,30 @@ void InteriorRecorder::on(const EnteredMedium& event) {
     }
 }
 
-void InteriorRecorder::update(const InteriorWalk& interior) {
-    if (InteriorWalkRecord* const walk = last(); walk && interior.is_inside()) {
-        walk->relative = now_.relative = interior.relative_densities();
+void InteriorRecorder::update(const PathTechnique& technique) {
+    const InteriorWalk* const interior = interior_of(technique);
+    if (InteriorWalkRecord* const walk = last(); walk && interior) {
+        walk->relative = now_.relative = interior->relative_densities();
     }
 }
 
-std::optional<MixGradient> InteriorRecorder::gradient_inside(const InteriorWalk& here, const InteriorWalk& there,
-                                                             float weight) const {
-    if (!walks_) {
-        return std::nullopt;
+MixGradient InteriorRecorder::gradient_of(const walk_events::LightFound& found, const PathTechnique& technique) const {
+    const InteriorWalk* const here = interior_of(technique);
+    if (found.towards && here) {
+        return {mix(here->relative_densities(), found.towards->relative_densities(), found.by_connections),
+                found.by_connections - 1};
     }
-    return MixGradient{mix(here.relative_densities(), there.relative_densities(), weight), weight - 1};
-}
-
-std::optional<MixGradient> InteriorRecorder::gradient_at_boundary(const InteriorWalk& here, float before) const {
-    if (!walks_) {
-        return std::nullopt;
+    if (found.from_collision > 0 && here) {
+        return {mix(now_.at_collision, here->relative_densities(), found.from_collision), 0};
     }
-    return MixGradient{mix(now_.at_collision, here.relative_densities(), before), 0};
-}
-
-std::optional<MixGradient> InteriorRecorder::gradient_of(const EmitterHit& arriving, const LastVertex& last_vertex,
-                                                         const InteriorWalk& interior) {
-    if (!walks_ || now_.from_collision == 0) {
-        return std::nullopt;
+    if (found.hit && now_.from_collision > 0) {
+        // Light that was weighted against connections from a collision changes less than the walk's density.
+        const float by_connections = found.hit->by_connections / mean_value(found.hit->radiance);
+        const bool in_volume = found.last->receiver.normal == Vec3(0, 0, 0);
+        return {mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
+                in_volume ? by_connections : 0.0f};
     }
-    update(interior);
-    // Light that was weighted against connections from a collision changes less than the walk's density.
-    const float by_connections = arriving.by_connections / mean_value(arriving.radiance);
-    const bool in_volume = last_vertex.receiver.normal == Vec3(0, 0, 0);
-    return MixGradient{mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
-                       in_volume ? by_connections : 0.0f};
+    return {now_.relative, 0};
 }
 
 }  // namespace wend

@@ -1,10 +1,9 @@
 // Records of walks inside dense media, for the technique mix.
 #pragma once
 
-#include <wend/light/emitter_hit.h>
+#include <wend/subsurface/interior_walk_record.h>
 #include <wend/transport/walk_events.h>
 
-#include <optional>
 #include <vector>
 
 namespace wend {
@@ -42,18 +41,10 @@ public:
     }
     void on(const walk_events::ConnectedBefore& event) { now_.from_collision = event.part; }
     void on(const walk_events::Turning& event) {
-        now_.at_collision =
-            walks_ && event.interior.is_inside() ? event.interior.relative_densities() : InteriorGuide::PerTechnique{};
+        const InteriorWalk* const interior = walks_ ? interior_of(event.technique) : nullptr;
+        now_.at_collision = interior ? interior->relative_densities() : InteriorGuide::PerTechnique{};
     }
-    void on(const walk_events::Paused& event) { update(event.interior); }
-
-    /// How what a connection brings changes with the technique mix: from a collision, where `weight` is the part of
-    /// connections in its density; from the boundary, `before` being the part that began at the collision; and of light
-    /// that a walk ran into. Nothing where nobody wants to know.
-    std::optional<MixGradient> gradient_inside(const InteriorWalk& here, const InteriorWalk& there, float weight) const;
-    std::optional<MixGradient> gradient_at_boundary(const InteriorWalk& here, float before) const;
-    std::optional<MixGradient> gradient_of(const EmitterHit& arriving, const LastVertex& last,
-                                           const InteriorWalk& interior);
+    void on(const walk_events::Paused& event) { update(event.technique); }
 
 private:
     InteriorWalkRecord* last() { return now_.walk >= 0 ? &(*walks_)[static_cast<std::size_t>(now_.walk)] : nullptr; }
@@ -62,7 +53,9 @@ private:
         return walk && walk->medium == medium ? walk : nullptr;
     }
     /// Brings what is known of the last one up to date.
-    void update(const InteriorWalk& interior);
+    void update(const PathTechnique& technique);
+    /// How light that was found like this changes with the technique mix.
+    MixGradient gradient_of(const walk_events::LightFound& found, const PathTechnique& technique) const;
 
     std::vector<InteriorWalkRecord>* walks_ = nullptr;
     Branch now_;

@@ -1,46 +1,65 @@
-// Where a walk is.
+// Where a path is.
 #pragma once
 
-#include <wend/core/ray.h>
+#include <wend/core/colour.h>
 #include <wend/light/emitter_hit.h>
+#include <wend/scene/scene.h>
 #include <wend/scene/traced_ray.h>
-#include <wend/subsurface/interior_walk.h>
 #include <wend/subsurface/technique_mix.h>
+#include <wend/transport/path_technique.h>
 
 namespace wend {
 
-/// All that a walk needs to go on from its last vertex. A walk that was split has several. `RecorderBranch`: what its
-/// recorders need for that.
-template <class RecorderBranch>
-struct PathState {
-    TracedRay ray{};
-    MediumState medium;
+/// What the path carries.
+struct PathWeight {
     Rgb throughput{1.0f};
     float density_ratio = 1;  ///< see WalkState
     float index_scale = 1;    ///< see WalkState
     float copies = 1;         ///< of the walk, as a mean: the product of all splits on the way here
-    int depth = 0;            ///< vertices so far
-    int uncounted = 0;        ///< of those, the ones that do not count towards the largest depth
+
+    /// ExpectedContribution::weight.
+    float value() const { return mean_value(throughput) * index_scale; }
+};
+
+/// What the path has met so far.
+struct PathCounts {
+    int vertices = 0;
+    int uncounted = 0;  ///< of those, the ones that do not count towards the largest depth
     int interfaces = 0;
+};
+
+/// The colour of a medium where it was entered.
+struct MediumTint {
+    MediumId medium = vacuum;     ///< the last one that was entered where the boundary has a colour
+    Rgb relative_albedo{1.0f};  ///< in it, over that of the medium
+};
+
+/// All that a path needs to go on from its last vertex. One that was split has several.
+struct PathState {
+    TracedRay ray{};
+    MediumState medium;
+    MediumTint tint;
+    PathWeight weight;
+    PathCounts counts;
     float travelled = 0;  ///< since the last vertex
     LastVertex last;
+    NextEventSettings next_event{};  ///< of collisions in the medium and of what is met from inside of it
+    PathTechnique technique;
 
-    // The interior walk in a dense medium.
-    InteriorWalk interior;           ///< if it is guided
-    bool is_classical = false;       ///< in an interior walk left to classical sampling alone
-    NextEventSettings next_event{};  ///< of vertices in the medium and on what it meets
+    /// The ray from a vertex that the path has just come to, in a direction, and the medium that it is in.
+    TracedRay leave(const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? TracedRay(Ray{v.position, w}) : ray.leave(*v.hit, w);
+    }
+    MediumState medium_towards(const Scene& scene, const Vertex& v, const Vec3& w) const {
+        return v.in_volume() ? medium : scene.medium_beyond(*v.hit, w, medium);
+    }
 
-    // Connections at the boundary of a dense medium that began at the last collision.
-    /// The density of such a connection's direction, over that of the direction that was drawn.
-    float emitters_ahead = 0;
-    /// How often the surface vertex at hand was connected from the collision before, as a mean.
-    float connected_before = 0;
-
-    RecorderBranch recorded{};  ///< where the walk was split
-
-    // The last medium that was entered where the boundary has a colour.
-    MediumId coloured = vacuum;
-    Rgb relative_albedo{1.0f};  ///< in it, over that of the medium
+    /// How often such a vertex is connected to lights that directions find as well, as a mean.
+    float connections(const Vertex& v) const {
+        return v.in_volume() ? next_event.probability : static_cast<float>(next_event.at_surfaces);
+    }
+    /// What multiplies the density of the path's own directions there where it is weighed against that of connections.
+    float preference(const Vertex& v) const { return v.in_volume() ? next_event.preference : 1.0f; }
 };
 
 }  // namespace wend

@@ -13,6 +13,9 @@ struct Vertex {
     Vec3 normal{0, 0, 0};      ///< of the surface, geometric, whichever side the walk comes from; zero in a medium
     Vec3 facing{0, 0, 0};      ///< the same on the side that the walk comes from
     const Hit* hit = nullptr;  ///< of the surface; null in a medium
+    /// How often it is connected to lights from the collision before, as a mean: InteriorTechnique connects the
+    /// boundary ahead.
+    float connected_before = 0;
 
     static Vertex in_medium(const Vec3& position) { return {position}; }
     static Vertex on_surface(const Hit& hit, const Vec3& arriving) {

@@ -3,12 +3,9 @@
 
 #include <wend/core/random.h>
 #include <wend/decision/direction.h>
-#include <wend/medium/medium.h>
-#include <wend/subsurface/interior_walk.h>
-#include <wend/subsurface/interior_walk_record.h>
+#include <wend/light/emitter_hit.h>
+#include <wend/transport/path_technique.h>
 #include <wend/transport/vertex.h>
-
-#include <optional>
 
 /// Each event is made where it happens and is over at once: it refers to what the walk has at hand.
 namespace wend::walk_events {
@@ -27,12 +24,22 @@ struct MetEmission {
     const Rgb& radiance;
     float distance;
 };
-/// What any light adds to the image, the walk's weight included, as the mean of its channels. `gradient`: how it hangs
-/// on the technique mix, where that differs from how the walk's density does.
+/// How light was found that counts otherwise, by multiple importance sampling, than the walk's density does.
+struct LightFound {
+    /// By a connection from a collision: the interior walk towards the light, and the part of connections in the density.
+    const InteriorWalk* towards = nullptr;
+    float by_connections = 0;
+    /// By a connection at a surface, of which this part began at the collision before.
+    float from_collision = 0;
+    /// By running into it, after this vertex.
+    const EmitterHit* hit = nullptr;
+    const LastVertex* last = nullptr;
+};
+/// What any light adds to the image, the walk's weight included, as the mean of its channels.
 struct Contributed {
     float light;
-    const std::optional<MixGradient>& gradient;
-    const InteriorWalk& interior;
+    const PathTechnique& technique;
+    const LightFound& found;
 };
 
 /// The walk came to a vertex, so far from the last one.
@@ -95,11 +102,11 @@ struct Flew {
 };
 /// A direction is about to be drawn at a collision, or was looked into.
 struct Turning {
-    const InteriorWalk& interior;
+    const PathTechnique& technique;
 };
 /// The walk ends, or comes to a boundary.
 struct Paused {
-    const InteriorWalk& interior;
+    const PathTechnique& technique;
 };
 
 }  // namespace wend::walk_events

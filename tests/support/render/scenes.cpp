@@ -1,7 +1,7 @@
 #include <tests/support/scenes.h>
 
 #include <wend/stats/moments.h>
-#include <wend/transport/path_tracer.inl>
+#include <wend/transport/path_tracer.h>
 
 #include <cmath>
 
