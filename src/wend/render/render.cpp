@@ -1,4 +1,5 @@
 #include <wend/core/parallel.h>
+#include <wend/decision/guided_distance.h>
 #include <wend/film/pixel_estimate.h>
 #include <wend/render/pass.h>
 #include <wend/render/render.h>

@@ -17,10 +17,11 @@ public:
     explicit InteriorRecorder(std::vector<InteriorWalkRecord>* walks) : walks_(walks) {}
 
     struct Branch {
-        int walk = -1;                         ///< the last one; negative if there is none
-        InteriorGuide::PerTechnique relative{};      ///< relative densities in it, or at its end
-        InteriorGuide::PerTechnique at_collision{};  ///< and at the collision that connections at the boundary began from
-        float from_collision = 0;              ///< part of the last vertex's connections that began there
+        int walk = -1;                           ///< the last one; negative if there is none
+        InteriorGuide::PerTechnique relative{};  ///< relative densities in it, or at its end
+        InteriorGuide::PerTechnique
+            at_collision{};        ///< and at the collision that connections at the boundary began from
+        float from_collision = 0;  ///< part of the last vertex's connections that began there
     };
     Branch branch() const { return now_; }
     void resume(const Branch& branch) { now_ = branch; }

@@ -8,6 +8,9 @@
 #include <wend/subsurface/technique_mix.h>
 #include <wend/transport/path_technique.h>
 
+#include <algorithm>
+#include <variant>
+
 namespace wend {
 
 /// What the path carries.
@@ -26,11 +29,14 @@ struct PathCounts {
     int vertices = 0;
     int uncounted = 0;  ///< of those, the ones that do not count towards the largest depth
     int interfaces = 0;
+
+    /// How many vertices more, that count, are not too many.
+    int vertices_left(int max_depth) const { return max_depth - (vertices - uncounted); }
 };
 
 /// The colour of a medium where it was entered.
 struct MediumTint {
-    MediumId medium = vacuum;     ///< the last one that was entered where the boundary has a colour
+    MediumId medium = vacuum;   ///< the last one that was entered where the boundary has a colour
     Rgb relative_albedo{1.0f};  ///< in it, over that of the medium
 };
 
@@ -52,6 +58,22 @@ struct PathState {
     }
     MediumState medium_towards(const Scene& scene, const Vertex& v, const Vec3& w) const {
         return v.in_volume() ? medium : scene.medium_beyond(*v.hit, w, medium);
+    }
+
+    /// By which guided decisions are the more classical the heavier the path is. Where the technique bounds its own
+    /// weights they are not: at the boundary of an interior walk connections from the collision before have to know
+    /// their densities, and not the roulette since. Copies of a path may grow as it might have, but only so many: each
+    /// that has become heavy is split again, and all of them together would know no bound.
+    float weight_to_bound() const {
+        constexpr float free_copies = 8;
+        const bool is_bounded = std::visit(
+            [](const auto& t) {
+                return requires {
+                    t.bounds_weights;
+                };
+            },
+            technique);
+        return is_bounded ? 0.0f : weight.value() * std::max(1.0f, weight.copies / free_copies);
     }
 
     /// How often such a vertex is connected to lights that directions find as well, as a mean.

@@ -23,8 +23,8 @@ struct FieldTechnique {
 /// In a dense medium, where this interior walk is left to classical sampling alone.
 struct ClassicalTechnique {
     template <class Decisions>
-    auto directions(const Decisions& /*decisions*/, const VolumeScattering& f, const Vertex& v,
-                    float /*weight*/, Pcg32& /*random*/) const {
+    auto directions(const Decisions& /*decisions*/, const VolumeScattering& f, const Vertex& v, float /*weight*/,
+                    Pcg32& /*random*/) const {
         return ClassicalDirection().at(v.position, f);
     }
 };

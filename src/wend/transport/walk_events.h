@@ -26,7 +26,8 @@ struct MetEmission {
 };
 /// How light was found that counts otherwise, by multiple importance sampling, than the walk's density does.
 struct LightFound {
-    /// By a connection from a collision: the interior walk towards the light, and the part of connections in the density.
+    /// By a connection from a collision: the interior walk towards the light, and the part of connections in the
+    /// density.
     const InteriorWalk* towards = nullptr;
     float by_connections = 0;
     /// By a connection at a surface, of which this part began at the collision before.
