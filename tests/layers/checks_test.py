@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The checks can fail: each is given a tree with a planted offence."""
 
+import json
 import shutil
 import subprocess
 import sys
@@ -8,9 +9,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "bench")]
 import check_citations
 import check_layers
+import measure
+import tables
 
 
 class Tree(unittest.TestCase):
@@ -88,6 +91,72 @@ class Citations(Tree):
     def test_double_entries_are_refused(self):
         self.write("docs/references.bib", "@article{duff2017,\n}\n@misc{duff2017,\n}\n")
         self.assertEqual(len(list(check_citations.offences(self.root))), 1)
+
+
+class Tables(Tree):
+    MARKERS = "text\n<!-- table: demo -->\n<!-- /table -->\nmore\n"
+
+    def setUp(self):
+        super().setUp()
+        self.write("bench/results/demo.json", json.dumps({
+            "commit": "abc", "dirty": False, "date": "2026-01-02", "machine": {"cpu": "A", "cores": 2, "os": "B"},
+            "settings": {"seconds": 5, "threads": 2}, "rows": [
+                {"scene": "demo", **preset, "seed": seed, "samples": 10 * seed, "seconds": 5, "cpu_seconds": 10,
+                 "wall_seconds": 5, "relmse": relmse, "relmse_trimmed": relmse / 2, "error_p9999": 1}
+                for seed, classical, full in ((1, 2, 0.5), (2, 9, 0.25), (3, 1, 0.125))
+                for preset, relmse in ((tables.CLASSICAL, classical), (tables.FULL, full))]}))
+
+    def offences(self, text):
+        self.write("README.md", text)
+        return list(tables.offences(self.root))
+
+    def rewritten(self):
+        return tables.rewritten(self.root, self.MARKERS)[0]
+
+    def test_medians_over_seeds(self):
+        self.assertIn("| `demo` | 20, 2 (1) | 20, 0.25 (0.125) | 8 (8) |\n", self.rewritten())
+        self.assertIn("*Commit `abc`, 2 January 2026, A, two cores, B. 5 seconds for each render, training included, "
+                      "three seeds (medians). ", self.rewritten())
+
+    def test_what_was_written_passes_and_is_not_written_again(self):
+        self.assertEqual(self.offences(self.rewritten()), [])
+        self.assertEqual(tables.rewritten(self.root, self.rewritten())[0], self.rewritten())
+
+    def test_another_figure_is_refused_with_its_place(self):
+        found = self.offences(self.rewritten().replace("0.25", "0.24"))
+        self.assertEqual(len(found), 1)
+        self.assertIn("README.md:2: table 'demo' is not what the results give", found[0])
+
+    def test_tables_without_results_name_or_end_are_refused(self):
+        self.assertIn("measure.py public", self.offences(self.MARKERS.replace("demo", "public-equal-time"))[0])
+        self.assertIn("no table 'nothing'", self.offences(self.MARKERS.replace("demo", "nothing"))[0])
+        self.assertIn("has no end", self.offences("<!-- table: demo -->\n|\n")[0])
+
+    def test_digits(self):
+        self.assertEqual([tables.digits(x) for x in (126.4, 11664.2, 0.27012, 7.263e-5, 0.27, 0, float("nan"))],
+                         ["126", "11700", "0.270", "7.26e-5", "0.27", "0", "–"])
+
+
+class Results(Tree):
+    HEADER = {"commit": "abc", "dirty": False, "date": "2026-01-02", "machine": {}, "settings": {"seconds": 5}}
+
+    def results(self, fresh=False, **changes):
+        return measure.Results(self.root / "results/x.json", {**self.HEADER, **changes}, fresh)
+
+    def test_a_stopped_run_goes_on(self):
+        self.results().append({"scene": "a", "seed": 1})
+        later = self.results(date="2026-01-03")
+        self.assertTrue(later.has(scene="a", seed=1))
+        self.assertFalse(later.has(scene="a", seed=2))
+        later.append({"scene": "a", "seed": 2})
+        self.assertEqual(len(json.loads((self.root / "results/x.json").read_text())["rows"]), 2)
+
+    def test_rows_of_another_program_or_setting_are_refused(self):
+        self.results().append({"scene": "a", "seed": 1})
+        for changes in ({"commit": "def"}, {"settings": {"seconds": 6}}, {"machine": {"cpu": "C"}}, {"dirty": True}):
+            with self.assertRaises(SystemExit):
+                self.results(**changes)
+        self.assertFalse(self.results(fresh=True, commit="def").has(scene="a"))
 
 
 @unittest.skipUnless(shutil.which("clang-format-14"), "clang-format-14 is absent")
