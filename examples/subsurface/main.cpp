@@ -6,7 +6,7 @@
 #include <wend/core/ray.h>
 #include <wend/sampling/warp.h>
 #include <wend/stats/moments.h>
-#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
 
 #include <algorithm>

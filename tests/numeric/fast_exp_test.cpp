@@ -1,4 +1,4 @@
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_math.h>
 
 #include <gtest/gtest.h>
 

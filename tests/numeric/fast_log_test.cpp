@@ -1,4 +1,4 @@
-#include <wend/numeric/fast_log.h>
+#include <wend/numeric/fast_math.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The modes of a medium: from no decay to its own, by channel, and bounded.
 #include <wend/core/error.h>
-#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/half_space_mode.h>
 
 #include <gtest/gtest.h>
 

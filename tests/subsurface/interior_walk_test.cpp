@@ -5,7 +5,7 @@
 #include <wend/planar/discrete_mode.h>
 #include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
-#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ InteriorGuide chromatic_guide(float g, bool lit = false) {
 
 /// The states that a guide's media and lights can put it into.
 enum class State { usual, lit, lossless, lossless_channel, clear_channel, unlit, unguided, no_decay };
-constexpr State states[] = {State::usual,         State::lit,   State::lossless,     State::lossless_channel,
-                            State::clear_channel, State::unlit, State::unguided,      State::no_decay};
+constexpr State states[] = {State::usual,         State::lit,   State::lossless, State::lossless_channel,
+                            State::clear_channel, State::unlit, State::unguided, State::no_decay};
 
 InteriorGuide guide_in(State state, float g) {
     InteriorGuide guide = chromatic_guide(g, state == State::lit || state == State::unlit);

@@ -1,7 +1,7 @@
 #include <wend/decision/flight_pieces.h>
 
 #include <wend/core/contracts.h>
-#include <wend/numeric/fast_exp2.h>
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 #include <cmath>

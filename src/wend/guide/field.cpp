@@ -1,4 +1,5 @@
 #include <wend/guide/field.h>
+#include <wend/guide/field_memory.h>
 
 #include <wend/core/contracts.h>
 
@@ -17,6 +18,24 @@ Field Field::empty(const Box3& bounds) {
 
 const Region* Field::find(const Vec3& position) const {
     return trained_ ? &regions_[nodes_[leaf_of(position)].child] : nullptr;
+}
+
+Field::Field(const Field& other) = default;
+Field::Field(Field&& other) noexcept = default;
+Field& Field::operator=(const Field& other) = default;
+Field& Field::operator=(Field&& other) noexcept = default;
+Field::~Field() = default;
+
+float Field::leaving(const Vec3& position, const Vec3& normal) const {
+    return trained_ ? memories_[nodes_[leaf_of(position)].child].scattered.leaving_to(normal) : 0.0f;
+}
+
+std::array<LobeSums, max_lobes> Field::lobe_sums(const Vec3& position) const {
+    return memories_[nodes_[leaf_of(position)].child].statistics.lobe_sums();
+}
+
+std::size_t Field::bytes_per_cell() {
+    return sizeof(Region) + sizeof(ScatteredLight) + sizeof(Memory) + 2 * sizeof(Node);
 }
 
 std::size_t Field::bytes() const {

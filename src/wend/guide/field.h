@@ -5,7 +5,6 @@
 #include <wend/core/vector.h>
 #include <wend/guide/region.h>
 #include <wend/guide/scattered_light.h>
-#include <wend/guide/statistics.h>
 
 #include <algorithm>
 #include <array>
@@ -16,10 +15,18 @@
 
 namespace wend::guide {
 
+struct LobeSums;
+
 /// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
 /// number of threads.
 class Field {
 public:
+    Field(const Field& other);
+    Field(Field&& other) noexcept;
+    Field& operator=(const Field& other);
+    Field& operator=(Field&& other) noexcept;
+    ~Field();
+
     /// A field that knows nothing yet about a scene of the given bounds, which must be finite and not empty.
     static Field empty(const Box3& bounds);
 
@@ -37,9 +44,7 @@ public:
 
     /// Radiance to be expected to leave a surface here towards the side of its normal; 0 as long as the field has
     /// learned nothing.
-    float leaving(const Vec3& position, const Vec3& normal) const {
-        return trained_ ? memories_[nodes_[leaf_of(position)].child].scattered.leaving_to(normal) : 0.0f;
-    }
+    float leaving(const Vec3& position, const Vec3& normal) const;
 
     /// Walks the cells that a ray crosses between t0 and t1, nearest first; the cells at the rim reach on without end.
     /// `visit(const ScatteredLight&, t_in, t_out)` returns false to stop. The intervals are not empty and leave no gap.
@@ -49,9 +54,7 @@ public:
     void walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest = 0) const;
 
     /// What the records told of each lobe of a position's cell, as seen from the region's reference point.
-    std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const {
-        return memories_[nodes_[leaf_of(position)].child].statistics.lobe_sums();
-    }
+    std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const;
 
     const Box3& bounds() const { return bounds_; }
     /// Most splits above a cell.
@@ -67,7 +70,7 @@ public:
     void for_each_cell(const std::function<void(const Box3&, const Region&, double)>& visit) const;
 
     /// What each cell costs: its region, its memory and two nodes of the tree.
-    static constexpr std::size_t bytes_per_cell();
+    static std::size_t bytes_per_cell();
 
 private:
     friend class Fitting;
@@ -86,21 +89,8 @@ private:
     /// As many as a node can count.
     static constexpr std::uint32_t largest_child = (1u << 30) - 1;
 
-    /// What only fitting needs to know of a cell.
-    struct Memory {
-        std::uint32_t depth = 0;
-        /// Largest distance of a record from the reference point so far.
-        float radius = 0;
-        /// Whether the region's reference point has been chosen.
-        bool anchored = false;
-        /// Records since then, older ones counting less, and of the vectors from them to the reference point and of
-        /// their squares the sums.
-        float located = 0;
-        Vec3 offset{0, 0, 0};
-        Vec3 offset_square{0, 0, 0};
-        Statistics statistics;
-        ScatterSums scattered;
-    };
+    /// What only fitting needs to know of a cell (field_memory.h).
+    struct Memory;
 
     explicit Field(const Box3& bounds);
 
@@ -121,10 +111,6 @@ private:
     std::vector<ScatteredLight> scattered_;
     std::vector<Memory> memories_;
 };
-
-constexpr std::size_t Field::bytes_per_cell() {
-    return sizeof(Region) + sizeof(ScatteredLight) + sizeof(Memory) + 2 * sizeof(Node);
-}
 
 template <class Visit>
 void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest) const {

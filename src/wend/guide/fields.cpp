@@ -1,4 +1,3 @@
-#include <wend/guide/fields.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/scatter_fit.h>
 

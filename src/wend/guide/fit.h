@@ -2,13 +2,24 @@
 #pragma once
 
 #include <wend/guide/field.h>
-#include <wend/guide/lobe_fit.h>
+#include <wend/guide/path_records.h>
 #include <wend/guide/records.h>
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace wend::guide {
+
+/// Beliefs before any record, in numbers of records.
+struct LobePriors {
+    /// Records that each lobe is believed to have.
+    double weight = 0.01;
+    /// Records with mean cosine 0 that each lobe is believed to have.
+    double mean_cosine = 0.003;
+    /// Concentrations stay below.
+    float max_kappa = 2e4f;
+};
 
 struct FitSettings {
     /// Lobes that a cell begins with, 1 to max_lobes.
@@ -60,5 +71,16 @@ struct FitResult {
 /// the records but not on the threads, bit for bit. Cost is proportional to the number of records times the depth of
 /// the tree. Throws InputError for settings out of range.
 FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads = 0);
+
+/// The two learned fields.
+struct Fields {
+    Field surface;
+    Field volume;
+
+    std::size_t bytes() const { return surface.bytes() + volume.bytes(); }
+};
+
+/// The next fields, learned from the records of all producers in the order given.
+Fields learn(const Fields& fields, std::vector<PathRecords> records, int threads);
 
 }  // namespace wend::guide

@@ -1,6 +1,7 @@
 // Weighted expectation maximization of one cell's lobes (docs/theory/learned_field.md).
 #pragma once
 
+#include <wend/guide/fit.h>
 #include <wend/guide/lobe_lanes.h>
 #include <wend/guide/mixture.h>
 #include <wend/guide/statistics.h>
@@ -14,16 +15,6 @@ namespace wend::guide {
 struct LobeModel {
     VmfMixture mixture;
     Lanes inverse_distance;
-};
-
-/// Beliefs before any record, in numbers of records.
-struct LobePriors {
-    /// Records that each lobe is believed to have.
-    double weight = 0.01;
-    /// Records with mean cosine 0 that each lobe is believed to have.
-    double mean_cosine = 0.003;
-    /// Concentrations stay below.
-    float max_kappa = 2e4f;
 };
 
 /// Equal lobes spread over the sphere on a Fibonacci spiral, wide enough to overlap.

@@ -1,13 +1,40 @@
 // Incident radiance times what scatters it: the distribution that guided directions are drawn from.
 #pragma once
 
+#include <wend/guide/lanes.h>
 #include <wend/guide/mixture.h>
-#include <wend/guide/product_lanes.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <span>
 
 namespace wend::guide {
+
+/// Of numbers that are not negative, what those before each one add up to, by a tree of few steps: never less than for
+/// the one before, and the same across a 0.
+struct SumsBelow {
+    int lanes;
+    float total;
+    float sum[max_lobes + 1];
+};
+
+/// A product V H / Z.
+struct ProductLanes {
+    /// Its weights are not set: nothing asks for them.
+    MixtureLanes mixture;
+    AxialLobes scatterer;
+    /// Of the parts that the lobes of the mixture have of Z.
+    SumsBelow below;
+    /// Z, and what the product of densities is multiplied by.
+    float integral, scale;
+    /// Of each pair of lobes, those of one axial lobe side by side, what the pairs up to it have of the part, so that a
+    /// sample need not find them again. Only the pairs there are have some.
+    float pair_sums[AxialLobes::capacity * max_lobes];
+
+    ProductLanes(int lobes, const AxialLobes& other) : mixture(lobes, Unset{}), scatterer(other) {}
+
+    /// The part of Z that each lobe of the mixture has.
+    const float* parts() const { return pair_sums + (scatterer.size() - 1) * mixture.lanes(); }
+};
 
 /// The normalized product V H / Z of a mixture V and lobes H, exact in both: samples come from the products of all
 /// pairs of their lobes, which are lobes again; the density asks V and H alone. Where the product is too small to tell

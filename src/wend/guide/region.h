@@ -4,9 +4,11 @@
 #include <wend/adjoint/adjoint.h>
 #include <wend/guide/lobe_colours.h>
 #include <wend/guide/product.h>
-#include <wend/guide/share.h>
 
 namespace wend::guide {
+
+/// The share of classical sampling where nothing is known.
+inline constexpr float unproven_defensive_fraction = 0.3f;
 
 /// The learned adjoint in one cell. The mixture belongs to a reference point; seen from elsewhere in the cell, lobes
 /// whose distance is known turn to keep pointing at their source.
@@ -17,7 +19,7 @@ public:
 
     /// `inverse_distance`: 1/distance of each lobe's source from the reference point; 0 where it is far or not known.
     Region(const Vec3& reference, const VmfMixture& mixture, const Lanes& inverse_distance, float fluence,
-           const LobeColours& colours = {}, float defensive_fraction = float{ShareSums::unproven})
+           const LobeColours& colours = {}, float defensive_fraction = unproven_defensive_fraction)
         : reference_(reference),
           fluence_(fluence),
           mixture_(mixture),
@@ -70,7 +72,7 @@ private:
     VmfMixture mixture_;
     Lanes inverse_distance_;
     LobeColours colours_;
-    float defensive_fraction_ = float{ShareSums::unproven};
+    float defensive_fraction_ = unproven_defensive_fraction;
 };
 
 static_assert(IncidentRadiance<VmfMixture>);

@@ -1,3 +1,4 @@
+#include <wend/guide/field_memory.h>
 #include <wend/guide/scatter_fit.h>
 
 #include <wend/core/error.h>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/guide/records.h>
+#include <wend/guide/region.h>
 
 #include <array>
 #include <cstddef>
@@ -18,6 +19,7 @@ struct ShareSums {
     static constexpr std::size_t half = 2;
     /// The share where nothing is known.
     static constexpr double unproven = shares[1];
+    static_assert(static_cast<float>(unproven) == unproven_defensive_fraction);
 
     /// Of Q_α for each of the shares.
     std::array<double, shares.size()> moment{};

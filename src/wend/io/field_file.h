@@ -1,7 +1,7 @@
 // Files of guiding fields: what a render learned, to look at or to go on with.
 #pragma once
 
-#include <wend/guide/fields.h>
+#include <wend/guide/fit.h>
 
 #include <filesystem>
 

@@ -6,6 +6,7 @@
 #include <wend/core/transform.h>
 #include <wend/medium/emission_sampler.h>
 #include <wend/medium/grid.h>
+#include <wend/medium/homogeneous.h>
 #include <wend/medium/majorant_grid.h>
 #include <wend/medium/phase.h>
 
@@ -14,19 +15,6 @@
 #include <vector>
 
 namespace wend {
-
-/// A medium that is the same everywhere. Coefficients are per scene unit.
-struct HomogeneousMedium {
-    Rgb absorption;
-    Rgb scattering;
-    Rgb emission;  ///< radiance emitted per unit length: absorption coefficient times the emitter's radiance
-    PhaseFunction phase;
-    /// Whether what a walk meets inside counts towards its largest depth. (Not in pbrt's `subsurface`, where each stay
-    /// is one event, that of entering.)
-    bool counts_vertices = true;
-
-    Rgb extinction() const { return absorption + scattering; }
-};
 
 /// Light that a heterogeneous medium emits: radiance per unit length is the absorption coefficient times at().
 struct GridEmission {

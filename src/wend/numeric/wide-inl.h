@@ -1,8 +1,7 @@
 // Floats side by side, as many of a block as a vector target holds, for functions that are compiled for several
 // targets: the same source, and the same bits, for each. Files that Highway compiles again and again include this each
 // time.
-#include <wend/numeric/fast_exp.h>
-#include <wend/numeric/fast_exp2.h>
+#include <wend/numeric/fast_math.h>
 
 #include <hwy/highway.h>
 

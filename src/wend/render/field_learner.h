@@ -1,7 +1,7 @@
 // The learned fields of directions and light.
 #pragma once
 
-#include <wend/guide/fields.h>
+#include <wend/guide/fit.h>
 #include <wend/light/caustic_photons.h>
 #include <wend/render/learner.h>
 #include <wend/render/record_budget.h>

@@ -3,7 +3,7 @@
 
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
-#include <wend/guide/fields.h>
+#include <wend/guide/fit.h>
 #include <wend/render/preset.h>
 #include <wend/sampling/sampler.h>
 #include <wend/transport/path_tracer.h>

@@ -1,7 +1,7 @@
 #include <wend/sampling/axial_lobes.h>
 
 #include <wend/core/contracts.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_math.h>
 #include <wend/sampling/discrete.h>
 #include <wend/sampling/vmf.h>
 

@@ -2,8 +2,7 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/frame.h>
-#include <wend/numeric/fast_log.h>
-#include <wend/numeric/fast_turn.h>
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,7 @@
 #include <wend/core/contracts.h>
 #include <wend/core/frame.h>
 #include <wend/core/vector.h>
-#include <wend/numeric/fast_exp.h>
-#include <wend/numeric/fast_log.h>
-#include <wend/numeric/fast_turn.h>
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <wend/core/random.h>
 #include <wend/core/vector.h>
-#include <wend/numeric/fast_log.h>
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_math.h>
 #include <wend/subsurface/half_space_mode.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/random.h>
+#include <wend/medium/homogeneous.h>
 #include <wend/medium/phase.h>
 
 #include <array>
@@ -61,5 +62,14 @@ private:
     float most_ = 1;  // bounds of radiance()
     float least_ = 1;
 };
+
+/// Modes of media with this phase function from no decay (the first) to the decay of the given albedo in [0, 1] (the
+/// last), evenly spaced in the rate of decay as far as diffusion theory goes. Of much absorption less is taken: such
+/// modes would have a walk go straight for the boundary, and sample all else too rarely.
+std::vector<HalfSpaceMode> half_space_modes(double albedo, const PhaseFunction& phase);
+
+/// The same for a medium, channel by channel, or for one channel where all are alike. Throws InputError for
+/// coefficients that are negative or not finite.
+std::vector<std::vector<HalfSpaceMode>> half_space_modes(const HomogeneousMedium& medium);
 
 }  // namespace wend

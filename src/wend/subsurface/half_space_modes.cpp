@@ -1,6 +1,6 @@
 #include <wend/core/error.h>
 #include <wend/planar/discrete_mode.h>
-#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/half_space_mode.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What walks in one dense medium know about it beforehand.
 #pragma once
 
-#include <wend/medium/medium.h>
+#include <wend/medium/homogeneous.h>
 #include <wend/subsurface/half_space_mode.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/medium/transmittance.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_math.h>
 #include <wend/sampling/discrete.h>
 #include <wend/subsurface/interior_walk.h>
 
@@ -66,9 +66,7 @@ void InteriorWalk::head(const Vec3& w, const EmitterGuide::PerEmitter& densities
     for (int c = 0; c < channels(); ++c) {
         rate_[static_cast<std::size_t>(c)] = extinction_of(*guide_, c);
     }
-    for_modes([&](std::size_t i, int c) {
-        rate_[i] = extinction_of(*guide_, c) * mode(c).rate(dot(w, normal_));
-    });
+    for_modes([&](std::size_t i, int c) { rate_[i] = extinction_of(*guide_, c) * mode(c).rate(dot(w, normal_)); });
     if (is_lit_) {
         const float mu = dot(w, normal_);
         for (int c = 0; c < channels(); ++c) {
@@ -139,9 +137,8 @@ float InteriorWalk::Directions::density(const Vec3& w) const {
     for (int c = 0; c < walk_.channels(); ++c) {
         density_ratio += relative_[static_cast<std::size_t>(c)];
     }
-    walk_.for_modes([&](std::size_t i, int c) {
-        density_ratio += relative_[i] * walk_.mode(c).radiance(dot(w, walk_.normal_));
-    });
+    walk_.for_modes(
+        [&](std::size_t i, int c) { density_ratio += relative_[i] * walk_.mode(c).radiance(dot(w, walk_.normal_)); });
     float density = density_ratio * walk_.guide_->medium.phase.evaluate(dot(before_, w));
     if (walk_.is_lit_) {
         const EmitterGuide::PerEmitter lobes = walk_.lamps_.densities(w);
@@ -213,7 +210,9 @@ void InteriorWalk::normalize(float total) {
         posterior_[i] *= scale;
     }
     WEND_ENSURE(scale == 0 ||
-                std::abs(std::accumulate(posterior_.begin(), posterior_.begin() + static_cast<std::ptrdiff_t>(techniques()), 0.0) - 1) < 1e-4);
+                std::abs(std::accumulate(posterior_.begin(),
+                                         posterior_.begin() + static_cast<std::ptrdiff_t>(techniques()), 0.0) -
+                         1) < 1e-4);
 }
 
 float InteriorWalk::draw_distance(float u) const {
@@ -283,8 +282,8 @@ InteriorGuide::PerTechnique InteriorWalk::relative_densities() const {
 }
 
 float InteriorWalk::survival(float throughput) {
-    // Under a guide that is right, density times what is to be expected is the same everywhere: so its density over that
-    // of the mixture is what the walk may yet bring, over what it might have brought when it entered.
+    // Under a guide that is right, density times what is to be expected is the same everywhere: so its density over
+    // that of the mixture is what the walk may yet bring, over what it might have brought when it entered.
     float expected = is_guided() ? relative_density(1) : 0.0f;
     expected = std::min(expected / survived_, throughput / least_throughput);
     if (expected >= least_expectation) {

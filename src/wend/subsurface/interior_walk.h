@@ -2,8 +2,9 @@
 // sampling.
 #pragma once
 
+#include <wend/core/random.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/distance.h>
+#include <wend/decision/flight.h>
 #include <wend/subsurface/emitter_guide.h>
 #include <wend/subsurface/interior_guide.h>
 
@@ -128,10 +129,10 @@ private:
     const InteriorGuide* guide_ = nullptr;
     bool is_lit_ = false;
     bool has_turned_ = false;
-    int groups_ = 1;      // 2: classical and guided
-    float share_[2]{};    // of classical and of guided sampling
-    Values posterior_;    // classical sampling first; channels within
-    Values rate_{};       // of the exponential flight under each technique
+    int groups_ = 1;    // 2: classical and guided
+    float share_[2]{};  // of classical and of guided sampling
+    Values posterior_;  // classical sampling first; channels within
+    Values rate_{};     // of the exponential flight under each technique
     EmitterGuide lamps_;
     std::array<float, 3> direct_{};  // by channel, the part of the light ahead that comes straight from lamps
     Vec3 normal_;

@@ -29,8 +29,9 @@ public:
     /// the slope of the second moment relative to the variance of F, as far as the slope is significant. Cells that few
     /// interior walks began in follow all others. Where no connection has ever succeeded, behind a boundary that
     /// refracts, hardly any is made. A guide that has become useless is dropped; classical sampling keeps a share that
-    /// bounds all weights. A few interior walks are left unguided, to compare variance times cost. Where that is clearly less for
-    /// those that follow the learned field all are from then on, and if `next` is rendering unless it is clearly more.
+    /// bounds all weights. A few interior walks are left unguided, to compare variance times cost. Where that is
+    /// clearly less for those that follow the learned field all are from then on, and if `next` is rendering unless it
+    /// is clearly more.
     void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
 
 private:

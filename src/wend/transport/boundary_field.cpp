@@ -1,5 +1,5 @@
 #include <wend/core/parallel.h>
-#include <wend/numeric/fast_exp.h>
+#include <wend/numeric/fast_math.h>
 #include <wend/transport/boundary_field.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <wend/decision/channels.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/half_space.h>
-#include <wend/subsurface/half_space_modes.h>
+#include <wend/subsurface/half_space_mode.h>
 #include <wend/transport/subsurface_guides.h>
 
 #include <algorithm>

@@ -1,0 +1,12 @@
+// The learned field, its training, and the decisions that follow it: all that a renderer needs to guide its own walks.
+// docs/embedding.md and examples/embed show how.
+#pragma once
+
+#include <wend/core/parallel.h>
+#include <wend/decision/direction.h>
+#include <wend/decision/roulette_splitting.h>
+#include <wend/decision/volume_scattering.h>
+#include <wend/guide/field.h>
+#include <wend/guide/fit.h>
+#include <wend/guide/path_log.h>
+#include <wend/guide/serialization.h>
