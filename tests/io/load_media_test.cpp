@@ -60,6 +60,23 @@ TEST(LoadMedia, Homogeneous) {
         1e-2f);
 }
 
+TEST(LoadMedia, PhaseFunctionsByName) {
+    const auto phase = [](const std::string& parameters) {
+        return load_one<HomogeneousMedium>("homogeneous", parameters).phase;
+    };
+    const auto same = [](const PhaseFunction& a, const PhaseFunction& b) {
+        return a.evaluate(0.9f) == b.evaluate(0.9f) && a.evaluate(-0.2f) == b.evaluate(-0.2f);
+    };
+    const std::string draine = "\"float g\" 0.4 \"string phase\" \"draine\" ";
+    EXPECT_TRUE(same(phase(draine + "\"float alpha\" 30"), PhaseFunction(Draine(0.4f, 30))));
+    EXPECT_TRUE(same(phase(draine), PhaseFunction(Draine(0.4f, 1))));
+    EXPECT_TRUE(same(phase("\"float g\" 0.4 \"string phase\" \"henyeygreenstein\""), phase("\"float g\" 0.4")));
+    EXPECT_TRUE(
+        same(load_one<GridMedium>("cloud", draine + "\"float alpha\" 2").phase(), PhaseFunction(Draine(0.4f, 2))));
+    EXPECT_EQ(warnings_with(load_text(medium_text("homogeneous", draine + "\"float alpha\" 2")), "alpha"), 0);
+    EXPECT_EQ(warnings_with(load_text(medium_text("homogeneous", "\"float alpha\" 2")), "alpha"), 1);
+}
+
 TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
     const auto message = [](const std::string& type, const std::string& parameters) {
         return message_of([&] { load_text(medium_text(type, parameters)); });
@@ -68,6 +85,10 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
                  "test.pbrt:3:49: error: a colour must be finite and not negative");
     EXPECT_PRED2(contains, message("homogeneous", "\"float g\" 1"),
                  "test.pbrt:3:49: error: \"g\" must lie between -1 and 1");
+    EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"mie\""),
+                 "test.pbrt:3:49: error: the phase function \"mie\" is unknown; known are draine, henyeygreenstein");
+    EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"draine\" \"float alpha\" -1"),
+                 "\"alpha\" must lie between 0 and");
     EXPECT_PRED2(contains, message("homogeneous", "\"float scale\" -1"), "\"scale\" must not be below 0");
     EXPECT_PRED2(contains, message("homogeneous", "\"string preset\" \"Gravel\""), "known are Apple");
     EXPECT_PRED2(contains, message("gas", ""), "Medium \"gas\" is unknown; known are cloud");

@@ -63,6 +63,31 @@ TEST(PhaseLobes, AMixtureHasTheLobesOfItsParts) {
     EXPECT_GT(worst_ratio(four, lobes_of(two)), 2);
 }
 
+/// The largest ratio over the least.
+double spread(const Draine& phase) {
+    const AxialLobes lobes = lobes_of(phase);
+    double least = 1e9, most = 0;
+    for (int i = 0; i <= 4000; ++i) {
+        const double angle = pi * i / 4000;
+        const Vec3 w(static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)));
+        const double ratio = lobes.density(w) / static_cast<double>(phase.evaluate(w.z));
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
+    }
+    return most / least;
+}
+
+TEST(PhaseLobes, FollowDraineWithinTheStatedFactor) {
+    for (const float g : {0.0f, 0.05f, -0.3f, 0.7f, 0.9f}) {
+        EXPECT_LT(worst_ratio(Draine(g, 0), lobes_of(Draine(g, 0))), stated_ratio(g)) << g;
+        const double beside = sqr(stated_ratio(g));
+        EXPECT_LT(spread(Draine(g, 1)), 1.03 * beside) << g;
+        EXPECT_LT(spread(Draine(g, 40)), 2.5 * beside) << g;
+        EXPECT_LT(spread(Draine(g, 250)), 7.2 * beside) << g;
+        EXPECT_GT(worst_ratio(Draine(g, 1), lobes_of(HenyeyGreenstein{g})), 1.3) << g;
+    }
+}
+
 TEST(PhaseLobes, WhatIsMorePeakedThanTheTableGetsItsLastPicture) {
     EXPECT_EQ(lobes_of(HenyeyGreenstein{0.999f}).amplitude(0), lobes_of(HenyeyGreenstein{0.99f}).amplitude(0));
 }

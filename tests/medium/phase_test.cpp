@@ -1,3 +1,5 @@
+#include "phase_checks.h"
+
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/core/error.h>
@@ -14,6 +16,9 @@
 namespace wend {
 namespace {
 
+using test::expect_convolved;
+using test::expect_normalized;
+
 /// Both signs, both sides of the switch at 0.5, and values so small that the usual inversion cancels.
 const std::vector<float> all_g = {0.0f,    1e-6f,    -1e-4f,   1e-2f, -0.3f, 0.4999f, 0.5f,
                                   0.5001f, -0.4999f, -0.5001f, 0.9f,  -0.9f, 0.99f};
@@ -26,18 +31,6 @@ HenyeyGreensteinMixture mixture() {
     return m;
 }
 
-/// 2 pi ∫ f(cosine) d cosine, in steps that grow away from forward and backward, where the lobes are.
-template <class Function>
-double integrate(const Function& f) {
-    constexpr int steps = 200000;
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double angle = pi * (i + 0.5) / steps;
-        sum += f(std::cos(angle)) * std::sin(angle);
-    }
-    return sum * pi / steps * 2 * pi;
-}
-
 /// The cumulative distribution of the cosine, in double precision.
 double cumulative(double g, double cosine) {
     const double root = std::sqrt(1 + g * (g - 2 * cosine));
@@ -45,13 +38,6 @@ double cumulative(double g, double cosine) {
         return 0.5 * (1 + cosine) - 0.75 * g * (1 - cosine * cosine);
     }
     return (1 - g * g) / (2 * g) * (1 / root - 1 / (1 + g));
-}
-
-template <class Phase>
-void expect_normalized(const Phase& phase) {
-    EXPECT_NEAR(integrate([&](double c) { return phase.evaluate(static_cast<float>(c)); }), 1, 1e-4);
-    EXPECT_NEAR(integrate([&](double c) { return c * phase.evaluate(static_cast<float>(c)); }), phase.mean_cosine(),
-                1e-4);
 }
 
 TEST(HenyeyGreenstein, IntegratesToOneAndHasTheMeanCosine) {
@@ -143,39 +129,6 @@ TEST(PhaseFunction, PositiveGScattersStraightOn) {
         cosine.add(dot(before, forward.sample(before, random.uniform2())));
     }
     EXPECT_TRUE(test::is_within_one_percent(cosine, 0.95));
-}
-
-/// ∫ p(before, ω) h(ω) dω for the function h around a mean direction, by the midpoint rule.
-template <class Phase>
-double convolved_by_quadrature(const Phase& phase, const Vec3& before, const Vec3& mean) {
-    constexpr int rows = 600;
-    const HenyeyGreenstein around{length(mean)};
-    const Vec3 axis = normalize(mean);
-    double sum = 0;
-    for (int i = 0; i < rows; ++i) {
-        const double z = -1 + (2 * i + 1.0) / rows, r = std::sqrt(1 - z * z);
-        for (int j = 0; j < 2 * rows; ++j) {
-            const double azimuth = pi * (j + 0.5) / rows;
-            const Vec3 w(static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)),
-                         static_cast<float>(z));
-            sum += phase.evaluate(dot(before, w)) * around.evaluate(dot(axis, w));
-        }
-    }
-    return sum * 2 * pi / (static_cast<double>(rows) * rows);
-}
-
-template <class Phase>
-void expect_convolved(const Phase& phase) {
-    const Vec3 before = normalize(Vec3(1, 2, -1));
-    for (const float size : {0.01f, 0.4f, 0.9f}) {
-        for (const Vec3& towards : {Vec3(1, 0, 0), Vec3(1, 2, -0.9f), Vec3(-1, -2, 1.2f)}) {
-            const Vec3 mean = normalize(towards) * size;
-            const double expected = convolved_by_quadrature(phase, before, mean);
-            EXPECT_NEAR(phase.convolved(before, mean), expected, 2e-3 * expected) << size << ' ' << towards;
-            EXPECT_NEAR(PhaseFunction(phase).convolved(before, mean), expected, 2e-3 * expected);
-        }
-    }
-    EXPECT_NEAR(phase.convolved(before, Vec3(0, 0, 0)), inv_4pi, 1e-6);
 }
 
 TEST(HenyeyGreenstein, BlurredIsTheConvolution) {

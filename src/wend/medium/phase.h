@@ -3,6 +3,7 @@
 #pragma once
 
 #include <wend/core/frame.h>
+#include <wend/medium/draine.h>
 #include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/warp.h>
 
@@ -76,7 +77,7 @@ private:
 /// The closed set of phase functions.
 class PhaseFunction {
 public:
-    using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture>;
+    using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture, Draine>;
 
     PhaseFunction() = default;
     /// Throws InputError for a mean cosine of -1, 1, beyond, or NaN.

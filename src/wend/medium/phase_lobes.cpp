@@ -10,7 +10,7 @@ namespace wend {
 namespace {
 
 constexpr int most_lobes = 5;
-static_assert(most_lobes * HenyeyGreensteinMixture::max_lobes <= AxialLobes::capacity);
+static_assert(most_lobes * std::max(HenyeyGreensteinMixture::max_lobes, 2) <= AxialLobes::capacity);
 
 /// With x = 2 g (1 - cos) / (1 - g)², Henyey and Greenstein's function is (1 + x)^(-3/2) but for a factor, and
 ///     (1 + x)^(-3/2) ≈ Σ exp(log_share - e^log_rate x)
@@ -97,6 +97,20 @@ AxialLobes lobes_of(const HenyeyGreensteinMixture& phase) {
         list.add(phase.weight(i), phase.lobe(i));
     }
     return list;
+}
+
+AxialLobes lobes_of(const Draine& phase) {
+    const AxialLobes parts = lobes_of(HenyeyGreenstein{phase.g()});
+    const float k = std::acosh(1 + phase.alpha());
+    std::array<AxialLobe, 2 * most_lobes> lobes;
+    std::size_t size = 0;
+    for (int j = 0; j < parts.size(); ++j) {
+        for (const float kappa : {parts.kappa(j) + k, parts.kappa(j) - k}) {
+            const float amplitude = parts.amplitude(j) * std::exp(std::abs(kappa) - std::abs(parts.kappa(j)) - k);
+            lobes[size++] = {amplitude / vmf_peak(std::abs(kappa)), kappa};
+        }
+    }
+    return AxialLobes(std::span(lobes.data(), size));
 }
 
 }  // namespace wend

@@ -17,4 +17,9 @@ AxialLobes lobes_of(const HenyeyGreenstein& phase);
 /// The lobes of its parts; the ratio stays within that of the worst part.
 AxialLobes lobes_of(const HenyeyGreensteinMixture& phase);
 
+/// Two for each of Henyey and Greenstein's. cosh(k cosine) with cosh(k) = 1 + alpha stands for 1 + alpha cosine²: lobes
+/// that only add up cannot follow it closer. Between the directions where the ratio to the function is largest and
+/// least, it differs by a factor of 1.03 at alpha = 1, 2.5 at 40 and 7.2 at 250, beside that of the lobes of g.
+AxialLobes lobes_of(const Draine& phase);
+
 }  // namespace wend
