@@ -5,9 +5,12 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wend)
 
 install(TARGETS wend_guide EXPORT wend-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
-foreach(module IN LISTS wend_guide_modules)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wend/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library
-    FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE)
+# What is promised, and what that includes (tests/layers/check_public.py keeps the list).
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/public-headers.txt wend_public_headers)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/public-headers.txt)
+foreach(header IN LISTS wend_public_headers)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT library)
 endforeach()
 install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)
 

@@ -1,16 +1,7 @@
 // A renderer of your own with Wend as its library: two foggy rooms joined by a door, the lamp in the far one. Rays,
 // surfaces and lights are written here, as a renderer has them; Wend learns where light comes from, chooses directions,
 // and decides which walks go on. The numbered comments are the steps of embedding it.
-#include <wend/core/parallel.h>
-#include <wend/core/random.h>
-#include <wend/decision/direction.h>
-#include <wend/decision/roulette_splitting.h>
-#include <wend/decision/volume_scattering.h>
-#include <wend/guide/field.h>
-#include <wend/guide/fit.h>
-#include <wend/guide/path_log.h>
-#include <wend/sampling/warp.h>
-#include <wend/stats/moments.h>
+#include <wend/guide.hpp>
 
 #include <algorithm>
 #include <array>
@@ -205,9 +196,26 @@ private:
 
 constexpr int width = 64, height = 36;
 
+/// Mean and variance of a stream of values.
+class Moments {
+public:
+    void add(double value) {
+        const double before = value - mean_;
+        mean_ += before / static_cast<double>(++count_);
+        squares_ += before * (value - mean_);
+    }
+    double mean() const { return mean_; }
+    double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
+    double standard_error() const { return std::sqrt(variance() / static_cast<double>(count_)); }
+
+private:
+    long count_ = 0;
+    double mean_ = 0, squares_ = 0;
+};
+
 struct Pixel {
     Rgb sum;
-    wend::Moments grey;
+    Moments grey;
 };
 using Picture = std::vector<Pixel>;
 
@@ -241,7 +249,7 @@ PathRecords render(const Directions& directions, int first, int count, Picture& 
 
 /// Over the picture: its pixels, and the squares of their standard errors.
 struct Quality {
-    wend::Moments radiance, variance;
+    Moments radiance, variance;
 };
 Quality report(const char* name, const Picture& picture) {
     Quality q;

@@ -1,13 +1,7 @@
 // A renderer of your own with Wend's walk inside its dense objects: a ball of coloured wax under a grey sky with a sun.
 // Intersection, sky and roulette's dice are written here, as a renderer has them; the walk is drawn to the boundary
 // where it entered. docs/subsurface_in_your_renderer.md explains the numbered steps.
-#include <wend/core/frame.h>
-#include <wend/core/random.h>
-#include <wend/core/ray.h>
-#include <wend/sampling/warp.h>
-#include <wend/stats/moments.h>
-#include <wend/subsurface/half_space_mode.h>
-#include <wend/subsurface/interior_walk.h>
+#include <wend/subsurface.hpp>
 
 #include <algorithm>
 #include <array>
@@ -131,7 +125,24 @@ private:
 
 // ---- The test ----
 
-using Measured = std::array<wend::Moments, 3>;
+/// Mean and variance of a stream of values.
+class Moments {
+public:
+    void add(double value) {
+        const double before = value - mean_;
+        mean_ += before / static_cast<double>(++count_);
+        squares_ += before * (value - mean_);
+    }
+    double mean() const { return mean_; }
+    double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
+    double standard_error() const { return std::sqrt(variance() / static_cast<double>(count_)); }
+
+private:
+    long count_ = 0;
+    double mean_ = 0, squares_ = 0;
+};
+
+using Measured = std::array<Moments, 3>;
 
 /// Radiance along one ray, by channel.
 Measured measure(const InteriorGuide& guide, int walks) {
@@ -160,7 +171,7 @@ int main() {
     bool agrees = true;
     std::printf("         classical            guided               variance\n");
     for (std::size_t c = 0; c < 3; ++c) {
-        const wend::Moments &a = classical[c], &b = guided[c];
+        const Moments &a = classical[c], &b = guided[c];
         const double error = std::hypot(a.standard_error(), b.standard_error());
         std::printf("%-6s  %.5f +- %.5f  %.5f +- %.5f   1 / %.1f\n", std::array{"red", "green", "blue"}[c], a.mean(),
                     a.standard_error(), b.mean(), b.standard_error(), a.variance() / b.variance());

@@ -1,7 +1,7 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/weight_bound.h>
+#include <wend/decision/weight_window.h>
 #include <wend/guide/product.h>
 #include <wend/medium/phase_lobes.h>
 

@@ -5,7 +5,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/contracts.h>
 #include <wend/decision/caustic_map.h>
-#include <wend/decision/weight_bound.h>
+#include <wend/decision/weight_window.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <algorithm>

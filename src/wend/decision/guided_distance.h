@@ -3,7 +3,7 @@
 
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
-#include <wend/decision/weight_bound.h>
+#include <wend/decision/weight_window.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/decision/direction.h>
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 namespace wend {
 

@@ -3,7 +3,7 @@
 
 #include <wend/core/frame.h>
 #include <wend/decision/volume_scattering.h>
-#include <wend/decision/weight_bound.h>
+#include <wend/decision/weight_window.h>
 #include <wend/scene/bsdf/bsdf.h>
 
 #include <algorithm>

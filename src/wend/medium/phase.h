@@ -12,6 +12,9 @@
 
 namespace wend {
 
+/// Beyond this g the picture of a phase function in lobes (phase_lobes.h) is that of ±largest_pictured_g.
+inline constexpr float largest_pictured_g = 0.99f;
+
 /// Henyey and Greenstein's phase function with mean cosine g in (-1, 1).
 struct HenyeyGreenstein {
     float g = 0;

@@ -6,9 +6,6 @@
 
 namespace wend {
 
-/// Beyond this the picture of a function g is that of ±largest_pictured_g.
-inline constexpr float largest_pictured_g = 0.99f;
-
 /// Henyey and Greenstein's function as one to five lobes, around +z for the direction of propagation before the
 /// collision. Over the whole sphere, the ratio to the function stays within 1.022 up to |g| = 0.9, 1.065 up to 0.95,
 /// 1.17 up to 0.98 and 1.29 up to 0.99.
