@@ -3,7 +3,7 @@
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/path_records.h>
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 #include <benchmark/benchmark.h>
 
@@ -66,7 +66,7 @@ std::vector<Query> random_queries(const AxialLobes& lobes) {
 }
 
 const AxialLobes& cosine = AxialLobes::cosine();
-const AxialLobes phase = lobes_of(HenyeyGreenstein{0.8f});
+const AxialLobes phase = HenyeyGreenstein{0.8f}.lobes();
 
 Field trained_field(int lobes) {
     return fit(Field::empty(unit_box), lamp_records(lobes, 200000, 1), settings_with(lobes), 1).field;

@@ -3,7 +3,7 @@
 #include <wend/decision/direction.h>
 #include <wend/decision/weight_window.h>
 #include <wend/guide/product.h>
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct Volume {
         const Vec3 w = PhaseFunction(phase).sample(before, u);
         return DirectionSample{w, evaluate(w), density(w)};
     }
-    AxialLobes lobes() const { return lobes_of(phase).around(before); }
+    AxialLobes lobes() const { return phase.lobes().around(before); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 };

@@ -3,7 +3,7 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/guide/product.h>
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ AxialLobes one_axial(const Vec3& along, float kappa) {
 }
 
 AxialLobes henyey_greenstein(float g) {
-    return lobes_of(HenyeyGreenstein{g}).around(axis);
+    return HenyeyGreenstein{g}.lobes().around(axis);
 }
 
 /// Forward and backward, as of clouds.
@@ -38,7 +38,7 @@ AxialLobes two_lobed() {
     HenyeyGreensteinMixture phase;
     phase.add(0.7f, 0.85f);
     phase.add(0.3f, -0.5f);
-    return lobes_of(phase).around(axis);
+    return phase.lobes().around(axis);
 }
 
 const std::vector<AxialLobes> all_lobes = {AxialLobes(),

@@ -7,11 +7,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "bench")]
 import check_citations
+import check_extensions
 import check_layers
+import check_public
 import measure
 import tables
 
@@ -91,6 +94,36 @@ class Citations(Tree):
     def test_double_entries_are_refused(self):
         self.write("docs/references.bib", "@article{duff2017,\n}\n@misc{duff2017,\n}\n")
         self.assertEqual(len(list(check_citations.offences(self.root))), 1)
+
+
+class Public(Tree):
+    def offences(self, listed):
+        self.write("src/wend/guide.hpp", "#include <wend/core/a.h>\n")
+        self.write("src/wend/core/a.h", "#include <wend/core/b.h>\n")
+        self.write("src/wend/core/b.h", "")
+        self.write("src/wend/capi/guide.h", "")
+        self.write("cmake/public-headers.txt", listed)
+        return list(check_public.offences(self.root))
+
+    def test_what_is_included_is_listed_and_nothing_else(self):
+        whole = "wend/capi/guide.h\nwend/core/a.h\nwend/core/b.h\nwend/guide.hpp\n"
+        self.assertEqual(self.offences(whole), [])
+        self.assertEqual(len(self.offences(whole.replace("wend/core/b.h\n", ""))), 1)
+        self.assertEqual(len(self.offences(whole + "wend/core/c.h\n")), 1)
+
+
+class Extensions(Tree):
+    def test_a_file_that_begins_to_know_one_is_refused(self):
+        for name, lines in {"medium/draine.h": "", "medium/draine.cpp": "", "medium/phase.h": "Draine\n" * 3,
+                            "io/load/media.cpp": "// Draine\n" + "Draine\n" * 5}.items():
+            self.write(f"src/wend/{name}", lines)
+        known = {"a phase function": check_extensions.EXTENSIONS["a phase function"]}
+        with unittest.mock.patch.object(check_extensions, "EXTENSIONS", known):
+            self.assertEqual(list(check_extensions.offences(self.root)), [])
+            self.write("src/wend/core/a.h", "Draine\n")
+            self.assertEqual(len(list(check_extensions.offences(self.root))), 1)
+            self.write("src/wend/medium/phase.h", "Draine\n" * 4)
+            self.assertEqual(len(list(check_extensions.offences(self.root))), 2)
 
 
 class Tables(Tree):

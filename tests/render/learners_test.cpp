@@ -38,6 +38,7 @@ class VertexLearner {
 public:
     VertexLearner(const LearningContext&) {}
 
+    static constexpr bool steers = false;
     using Recorder = VertexCounter;
     struct Records {
         std::uint64_t of_walk = 0, vertices = 0;

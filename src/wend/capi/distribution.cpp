@@ -1,6 +1,6 @@
 #include <wend/capi/boundary.h>
 #include <wend/capi/handles.h>
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 #include <array>
 #include <cmath>
@@ -163,7 +163,7 @@ wend_status wend_lobes_phase(const wend_phase_part* parts, size_t count, wend_lo
             total += part.weight;
         }
         require(std::isfinite(total), "the weights of the parts must have a finite sum");
-        store<Lobes>(*lobes, lobes_of(phase));
+        store<Lobes>(*lobes, phase.lobes());
         return WEND_OK;
     });
 }

@@ -2,8 +2,11 @@
 #include <wend/core/error.h>
 #include <wend/core/frame.h>
 #include <wend/medium/draine.h>
+#include <wend/medium/phase.h>
+#include <wend/sampling/vmf.h>
 
 #include <algorithm>
+#include <span>
 
 namespace wend {
 namespace {
@@ -96,6 +99,20 @@ float Draine::convolved(const Vec3& before, const Vec3& mean) const {
     const float d = d_at(1), power = d * std::sqrt(d);
     const float squares = sqr(g_ * (1 - m2) + 2 * along) + (1 - m2) * (sqr(1 + g2) / (1 - g2) + integral * power);
     return inv_4pi / (total_ * power) * (1 - square + 0.25f * alpha_ * (1 - g2) * squares);
+}
+
+AxialLobes Draine::lobes() const {
+    const AxialLobes parts = HenyeyGreenstein{g_}.lobes();
+    const float k = std::acosh(1 + alpha_);
+    std::array<AxialLobe, AxialLobes::capacity> lobes;
+    std::size_t size = 0;
+    for (int j = 0; j < parts.size(); ++j) {
+        for (const float kappa : {parts.kappa(j) + k, parts.kappa(j) - k}) {
+            const float amplitude = parts.amplitude(j) * std::exp(std::abs(kappa) - std::abs(parts.kappa(j)) - k);
+            lobes[size++] = {amplitude / vmf_peak(std::abs(kappa)), kappa};
+        }
+    }
+    return AxialLobes(std::span(lobes.data(), size));
 }
 
 }  // namespace wend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/vector.h>
+#include <wend/sampling/axial_lobes.h>
 
 #include <array>
 #include <cmath>
@@ -32,6 +33,11 @@ public:
     bool is_isotropic() const { return g_ == 0 && alpha_ == 0; }
     /// The integral of the function times Legendre's polynomial of the scattering cosine.
     double moment(int degree) const;
+
+    /// Two for each of Henyey and Greenstein's. cosh(k cosine) with cosh(k) = 1 + alpha stands for 1 + alpha cosine²: lobes
+    /// that only add up cannot follow it closer. Between the directions where the ratio to the function is largest and
+    /// least, it differs by a factor of 1.03 at alpha = 1, 2.5 at 40 and 7.2 at 250, beside that of the lobes of g.
+    AxialLobes lobes() const;
 
     /// Convolved with Henyey and Greenstein's function around `mean`, as PhaseFunction::convolved(); within 1e-4.
     float convolved(const Vec3& before, const Vec3& mean) const;

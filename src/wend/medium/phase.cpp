@@ -1,7 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/medium/phase.h>
-#include <wend/medium/phase_lobes.h>
 
 #include <algorithm>
 
@@ -66,7 +65,7 @@ PhaseFunction::PhaseFunction(Variant kind) : kind_(std::move(kind)) {
     if (!(std::abs(mean_cosine()) < 1)) {
         throw InputError("a phase function: the mean cosine must be within (-1, 1)");
     }
-    lobes_ = std::visit([](const auto& p) { return lobes_of(p); }, kind_);
+    lobes_ = std::visit([](const auto& p) { return p.lobes(); }, kind_);
 }
 
 }  // namespace wend

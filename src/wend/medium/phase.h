@@ -8,11 +8,12 @@
 #include <wend/sampling/warp.h>
 
 #include <array>
+#include <concepts>
 #include <variant>
 
 namespace wend {
 
-/// Beyond this g the picture of a phase function in lobes (phase_lobes.h) is that of ±largest_pictured_g.
+/// Beyond this g the picture of a phase function in lobes is that of ±largest_pictured_g.
 inline constexpr float largest_pictured_g = 0.99f;
 
 /// Henyey and Greenstein's phase function with mean cosine g in (-1, 1).
@@ -40,6 +41,10 @@ struct HenyeyGreenstein {
     bool is_isotropic() const { return g == 0; }
     /// The integral of the function times Legendre's polynomial of the scattering cosine.
     double moment(int degree) const { return std::pow(static_cast<double>(g), degree); }
+    /// Henyey and Greenstein's function as one to five lobes, around +z for the direction of propagation before the
+    /// collision. Over the whole sphere, the ratio to the function stays within 1.022 up to |g| = 0.9, 1.065 up to 0.95,
+    /// 1.17 up to 0.98 and 1.29 up to 0.99.
+    AxialLobes lobes() const;
 
     /// Convolved with a function of this kind with mean cosine length(mean), around the direction of `mean`, which is
     /// shorter than 1: the mean cosines multiply.
@@ -68,6 +73,8 @@ public:
     float mean_cosine() const;
     bool is_isotropic() const;
     double moment(int degree) const;
+    /// The lobes of its parts; the ratio stays within that of the worst part.
+    AxialLobes lobes() const;
     float convolved(const Vec3& before, const Vec3& mean) const;
 
 private:
@@ -75,6 +82,25 @@ private:
     float total_ = 0;
     std::array<float, max_lobes> weight_{};
     std::array<HenyeyGreenstein, max_lobes> lobe_{};
+};
+
+/// What a phase function is, as a function of the scattering cosine.
+template <class P>
+concept PhaseFunctionKind = requires(const P& phase, float number, int degree, const Vec3& v) {
+    /// Its density per steradian.
+    { phase.evaluate(number) } -> std::same_as<float>;
+    /// A cosine from a number in [0,1), exactly in proportion to it.
+    { phase.sample_cosine(number) } -> std::same_as<float>;
+    { phase.mean_cosine() } -> std::same_as<float>;
+    /// Whether it is 1 / (4 pi).
+    { phase.is_isotropic() } -> std::same_as<bool>;
+    /// The integral of the function times Legendre's polynomial of a degree: 1, the mean cosine, ...
+    { phase.moment(degree) } -> std::same_as<double>;
+    /// As PhaseFunction::convolved().
+    { phase.convolved(v, v) } -> std::same_as<float>;
+    /// Its picture around +z for the direction of propagation before the collision, for products with learned mixtures
+    /// (docs/theory/learned_field.md).
+    { phase.lobes() } -> std::same_as<AxialLobes>;
 };
 
 /// The closed set of phase functions.
@@ -115,12 +141,15 @@ public:
     float convolved(const Vec3& before, const Vec3& mean) const {
         return std::visit([&](const auto& p) { return p.convolved(before, mean); }, kind_);
     }
-    /// Its picture in von Mises-Fisher lobes (phase_lobes.h), given the direction of propagation before the collision.
+    /// Its picture in von Mises-Fisher lobes, given the direction of propagation before the collision.
     AxialLobes lobes(const Vec3& before) const { return lobes_.around(before); }
 
 private:
     Variant kind_;
     AxialLobes lobes_;
 };
+
+static_assert(PhaseFunctionKind<HenyeyGreenstein> && PhaseFunctionKind<HenyeyGreensteinMixture> &&
+              PhaseFunctionKind<Draine>);
 
 }  // namespace wend

@@ -1,4 +1,4 @@
-#include <wend/medium/phase_lobes.h>
+#include <wend/medium/phase.h>
 
 #include <wend/sampling/vmf.h>
 
@@ -10,6 +10,7 @@ namespace wend {
 namespace {
 
 constexpr int most_lobes = 5;
+// Draine's function has two for each.
 static_assert(most_lobes * std::max(HenyeyGreensteinMixture::max_lobes, 2) <= AxialLobes::capacity);
 
 /// With x = 2 g (1 - cos) / (1 - g)², Henyey and Greenstein's function is (1 + x)^(-3/2) but for a factor, and
@@ -85,32 +86,18 @@ private:
 
 }  // namespace
 
-AxialLobes lobes_of(const HenyeyGreenstein& phase) {
+AxialLobes HenyeyGreenstein::lobes() const {
     LobeList list;
-    list.add(1, phase);
+    list.add(1, *this);
     return list;
 }
 
-AxialLobes lobes_of(const HenyeyGreensteinMixture& phase) {
+AxialLobes HenyeyGreensteinMixture::lobes() const {
     LobeList list;
-    for (int i = 0; i < phase.size(); ++i) {
-        list.add(phase.weight(i), phase.lobe(i));
+    for (int i = 0; i < size(); ++i) {
+        list.add(weight(i), lobe(i));
     }
     return list;
-}
-
-AxialLobes lobes_of(const Draine& phase) {
-    const AxialLobes parts = lobes_of(HenyeyGreenstein{phase.g()});
-    const float k = std::acosh(1 + phase.alpha());
-    std::array<AxialLobe, 2 * most_lobes> lobes;
-    std::size_t size = 0;
-    for (int j = 0; j < parts.size(); ++j) {
-        for (const float kappa : {parts.kappa(j) + k, parts.kappa(j) - k}) {
-            const float amplitude = parts.amplitude(j) * std::exp(std::abs(kappa) - std::abs(parts.kappa(j)) - k);
-            lobes[size++] = {amplitude / vmf_peak(std::abs(kappa)), kappa};
-        }
-    }
-    return AxialLobes(std::span(lobes.data(), size));
 }
 
 }  // namespace wend

@@ -1,5 +1,5 @@
-// Elementary functions short enough to be inlined, and the same on every machine: exponentials of which the compiler can
-// do several at once, a logarithm, and sine and cosine of a share of a turn.
+// Elementary functions short enough to be inlined, and the same on every machine: exponentials of which the compiler
+// can do several at once, a logarithm, and sine and cosine of a share of a turn.
 #pragma once
 
 #include <bit>

@@ -15,6 +15,7 @@ class FieldLearner {
 public:
     FieldLearner(const LearningContext& context);
 
+    static constexpr bool steers = true;
     using Recorder = FieldRecorder;
     struct Records {
         guide::PathRecords records;

@@ -14,6 +14,7 @@ public:
     InteriorLearner(const LearningContext& context)
         : settings_(context.settings), guides_(context.scene, context.settings.subsurface, context.settings.threads) {}
 
+    static constexpr bool steers = true;
     using Recorder = InteriorRecorder;
     struct Records {
         SecondMoments moments;

@@ -38,7 +38,8 @@ struct LearningContext {
 
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts
 /// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. What
-/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order.
+/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order. Records are told apart
+/// by their type, which is each learner's own.
 template <class L>
 concept Learner = requires(L& learner, const L& known, typename L::Records& records,
                            std::vector<typename L::Records>& all, const PassPlan& plan) {
@@ -46,6 +47,8 @@ concept Learner = requires(L& learner, const L& known, typename L::Records& reco
     learner.begin(plan);
     /// Whether this pass is recorded.
     { known.records() } -> std::same_as<bool>;
+    /// Whether walks go by what it knows. A pass that changes that begins a new stage of the film.
+    { L::steers } -> std::convertible_to<bool>;
     { known.recorder(records, true) } -> std::same_as<typename L::Recorder>;
     known.keep(records, true);
     learner.learn(all, plan);

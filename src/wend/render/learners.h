@@ -24,10 +24,8 @@ public:
     void begin(const PassPlan& plan) {
         std::apply([&](auto&... each) { (each.begin(plan), ...); }, learners_);
     }
-    /// Whether any of them records the pass.
-    bool records() const {
-        return std::apply([](const auto&... each) { return (each.records() || ...); }, learners_);
-    }
+    /// Whether any by which walks go records the pass: the next one will go otherwise.
+    bool changes_walks() const { return ((Each::steers && get<Each>().records()) || ...); }
     Recorders recorders(Records& records, bool is_recorded) const {
         return Recorders(get<Each>().recorder(std::get<typename Each::Records>(records), is_recorded)...);
     }

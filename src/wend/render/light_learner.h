@@ -12,6 +12,7 @@ class LightLearner {
 public:
     LightLearner(const LearningContext& context) : settings_(context.settings), selection_(context.scene) {}
 
+    static constexpr bool steers = true;
     using Recorder = LightRecorder;
     using Records = std::vector<LightRecord>;
 

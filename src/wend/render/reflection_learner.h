@@ -12,6 +12,7 @@ class ReflectionLearner {
 public:
     ReflectionLearner(const LearningContext& context) : probability_(context.scene.bounds()) {}
 
+    static constexpr bool steers = true;
     using Recorder = ReflectionRecorder;
     using Records = std::vector<ReflectionRecord>;
 

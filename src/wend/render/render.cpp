@@ -108,7 +108,7 @@ public:
         statistics.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
-        if (statistics.samples >= warm_up_samples && (learners_.records() || warms_up)) {
+        if (statistics.samples >= warm_up_samples && (learners_.changes_walks() || warms_up)) {
             film_.begin_stage();
         }
     }

@@ -40,8 +40,8 @@ SubsurfacePreset parse_subsurface(std::string_view text) {
 }
 
 std::string to_string(const SubsurfacePreset& preset) {
-    const auto found = std::find_if(canonical.begin(), canonical.end(),
-                                    [&](const Entry& e) { return e.strategy == preset.strategy; });
+    const auto found =
+        std::find_if(canonical.begin(), canonical.end(), [&](const Entry& e) { return e.strategy == preset.strategy; });
     return std::string(found->name);
 }
 
