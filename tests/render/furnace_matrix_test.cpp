@@ -32,7 +32,8 @@ constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
 constexpr float sizes[] = {0.3f, 3, 10, 100};  // in mean free paths
 enum class Boundary { matched, smooth, rough };
 enum class Body { ball, thin_slab, cube, two_boxes };
-constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "auto"};
+// Two of them twice: the references are those of the pairs of seven.
+constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "closest", "auto", "auto"};
 constexpr const char* samplings[] = {"classical", "scatter", "distance", "direction", "roulette", "splitting", "full"};
 constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
 
@@ -45,7 +46,7 @@ struct Furnace {
     const char* sampling;
     int samples;
 
-    static std::vector<int> levels() { return {4, 4, 4, 3, 4, 2, 2, 5, 7, 4}; }
+    static std::vector<int> levels() { return {4, 4, 4, 3, 4, 2, 2, 7, 7, 4}; }
     explicit Furnace(const std::vector<int>& row)
         : albedo(albedos[row[0]]),
           g(mean_cosines[row[1]]),

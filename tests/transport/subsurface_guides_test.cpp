@@ -308,7 +308,7 @@ TEST(SlowGuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
         const ReflectionProbability reflections(scene.bounds());
         const PathTracer tracer(scene, decisions, subsurface, lights, reflections, 100000);
         Moments brought, by_preference;
-        std::array<Moments, 3> by_share;
+        std::array<Moments, 2> by_share;
         std::vector<InteriorWalkRecord> interior_walks;
         constexpr std::uint32_t walks = 50000;
         for (std::uint32_t i = 0; i < walks; ++i) {
@@ -316,7 +316,7 @@ TEST(SlowGuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
             interior_walks.clear();
             tracer.trace(ray, 0, sampler, StandardRecorders({}, InteriorRecorder(&interior_walks), {}, {}));
             double light = 0, slope = 0;
-            std::array<double, 3> slopes{};
+            std::array<double, 2> slopes{};
             for (const InteriorWalkRecord& interior_walk : interior_walks) {
                 if (interior_walk.guided) {
                     light += interior_walk.brought;

@@ -100,6 +100,22 @@ void warn_of_lacks(const RenderStatistics& statistics, std::ostream& err) {
     }
 }
 
+nlohmann::json report(const Session& session, const RenderSettings& settings, const RenderStatistics& statistics,
+                      const std::filesystem::path& output) {
+    nlohmann::json described = session.describe(settings);
+    described["passes"] = statistics.passes;
+    described["output"] = output.string();
+    return {{"spp", statistics.samples},
+            {"seconds", statistics.seconds},
+            {"training_seconds", statistics.training_seconds},
+            {"paths", statistics.counts.paths},
+            {"segments", statistics.counts.segments},
+            {"field_bytes", statistics.field_bytes},
+            {"rejected_samples", statistics.counts.rejected},
+            {"interrupted", statistics.interrupted},
+            {"settings", std::move(described)}};
+}
+
 void render_scene(const RenderOptions& options, const Streams& streams) {
     const Preset preset = parse_preset(options.sampling);
     const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
@@ -150,18 +166,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
     warn_of_lacks(statistics, streams.err);
-    nlohmann::json described = session.describe(settings);
-    described["passes"] = statistics.passes;
-    described["output"] = output.string();
-    options.common.write_json(streams, {{"spp", statistics.samples},
-                                        {"seconds", statistics.seconds},
-                                        {"training_seconds", statistics.training_seconds},
-                                        {"paths", statistics.counts.paths},
-                                        {"segments", statistics.counts.segments},
-                                        {"field_bytes", statistics.field_bytes},
-                                        {"rejected_samples", statistics.counts.rejected},
-                                        {"interrupted", statistics.interrupted},
-                                        {"settings", std::move(described)}});
+    options.common.write_json(streams, report(session, settings, statistics, output));
 }
 
 }  // namespace

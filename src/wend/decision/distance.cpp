@@ -46,24 +46,12 @@ Flight fly(const HomogeneousMedium& medium, float length, const Rgb& throughput,
     return flight;
 }
 
-}  // namespace
-
-Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
+/// Goes on with a flight through a medium that collides, to its first real collision.
+void track(const GridMedium& medium, const FlightStart& start, Flight& flight, Pcg32& random) {
     const Ray& ray = start.ray;
-    Flight flight;
-    flight.distance = start.length;
-    flight.weight = Rgb(1.0f);
-    flight.emitted = Rgb(0.0f);
     const Rgb& extinction = medium.extinction();
     const float largest = max_value(extinction);
-    if (!(largest > 0)) {
-        return flight;
-    }
     const GridEmission* emission = medium.emission();
-    if (is_black(medium.scattering()) && !emission) {
-        flight.weight = estimate_transmittance(medium, ray, start.length, random);
-        return flight;
-    }
     const auto index_ray = medium.to_index(ray);
     const Rgb relative = extinction / largest;
     const bool grey = relative.r == relative.g && relative.g == relative.b;
@@ -117,6 +105,23 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
         return true;
     };
     medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length, cross);
+}
+
+}  // namespace
+
+Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
+    Flight flight;
+    flight.distance = start.length;
+    flight.weight = Rgb(1.0f);
+    flight.emitted = Rgb(0.0f);
+    if (!(max_value(medium.extinction()) > 0)) {
+        return flight;
+    }
+    if (is_black(medium.scattering()) && !medium.emission()) {
+        flight.weight = estimate_transmittance(medium, start.ray, start.length, random);
+        return flight;
+    }
+    track(medium, start, flight, random);
     return flight;
 }
 

@@ -200,6 +200,22 @@ Grid::Cell Grid::cell_in_brick(const float* samples, const Vec3& local) {
             local.z - static_cast<float>(z)};
 }
 
+// Of a part of a brick: the extremes of a trilinear function lie at the corners of cells and of the part.
+Grid::Range Grid::range_in_brick(const float* samples, const Vec3& low, const Vec3& high) {
+    Range range{std::numeric_limits<float>::max(), 0};
+    const Breakpoints xs(low.x, high.x), ys(low.y, high.y), zs(low.z, high.z);
+    for (int k = 0; k < zs.count; ++k) {
+        for (int j = 0; j < ys.count; ++j) {
+            for (int i = 0; i < xs.count; ++i) {
+                const float v = cell_in_brick(samples, {xs.at[i], ys.at[j], zs.at[k]}).interpolate();
+                range.min = std::min(range.min, v);
+                range.max = std::max(range.max, v);
+            }
+        }
+    }
+    return range;
+}
+
 Grid::Range Grid::range(const Box3& box) const {
     // Outside the bounds, and on their faces, the field is 0: the part inside has it all.
     Vec3 low, high;
@@ -243,15 +259,8 @@ Grid::Range Grid::range(const Box3& box) const {
             include(whole.min, whole.max);
             return;
         }
-        const Breakpoints xs(local_low.x, local_high.x), ys(local_low.y, local_high.y), zs(local_low.z, local_high.z);
-        for (int k = 0; k < zs.count; ++k) {
-            for (int j = 0; j < ys.count; ++j) {
-                for (int i = 0; i < xs.count; ++i) {
-                    const float v = cell_in_brick(brick_samples(brick), {xs.at[i], ys.at[j], zs.at[k]}).interpolate();
-                    include(v, v);
-                }
-            }
-        }
+        const Range part = range_in_brick(brick_samples(brick), local_low, local_high);
+        include(part.min, part.max);
     };
     for (int z = from.z; z <= to.z; ++z) {
         for (int y = from.y; y <= to.y; ++y) {

@@ -109,6 +109,7 @@ private:
     };
     Cell cell_at(const Vec3& p) const;
     static Cell cell_in_brick(const float* samples, const Vec3& local);
+    static Range range_in_brick(const float* samples, const Vec3& low, const Vec3& high);
 
     int brick_number(int bx, int by, int bz) const { return (bz * bricks_count_.y + by) * bricks_count_.x + bx; }
     const float* brick_samples(std::int32_t brick) const {

@@ -8,6 +8,16 @@ namespace {
 // Estimates below this are brought back to it, or ended, by roulette.
 constexpr float roulette_threshold = 0.05f;
 
+/// At density 1.
+double depth_of(const GridMedium& medium, const GridMedium::IndexRay& ray, float t_in, float t_out) {
+    double depth = 0;
+    walk_voxels(medium.density(), ray.origin, ray.direction, t_in, t_out, [&depth](const VoxelPassage& passage) {
+        depth += passage.depth();
+        return true;
+    });
+    return depth;
+}
+
 }  // namespace
 
 Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random) {
@@ -36,23 +46,14 @@ Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float dista
         return true;
     };
     TentativeCollisions collisions(random);
-    const auto cross_exactly = [&](float t_in, float t_out) {
-        double depth = 0;
-        walk_voxels(medium.density(), index_ray.origin, index_ray.direction, t_in, t_out,
-                    [&depth](const VoxelPassage& passage) {
-                        depth += passage.depth();
-                        return true;
-                    });
-        estimate *= transmitted(extinction, depth);
-        return survives();
-    };
     constexpr double countable = 1e30;
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
         const double most = double{largest} * (t_out - t_in);
         const double tentative_collisions = most * (cell.maximum - cell.minimum);
         if ((exact && tentative_collisions > 0) || tentative_collisions > most_tentative_collisions ||
             most * cell.maximum > countable) {
-            return cross_exactly(t_in, t_out);
+            estimate *= transmitted(extinction, depth_of(medium, index_ray, t_in, t_out));
+            return survives();
         }
         if (cell.minimum > 0) {
             const float control = -largest * cell.minimum * (t_out - t_in);

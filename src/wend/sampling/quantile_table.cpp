@@ -48,6 +48,24 @@ double value(const std::array<double, 4>& p, double s) {
     return p[0] + s * (p[1] + s * (p[2] + s * p[3]));
 }
 
+/// Up to where in [0, 1] the integral of a cubic is `wanted`, of `whole` up to 1: bisection, with Newton's steps where
+/// they stay inside.
+double upper_limit(const std::array<double, 4>& p, double wanted, double whole) {
+    double low = 0, high = 1, s = std::clamp(wanted / whole, 0.0, 1.0);
+    for (int iteration = 0; iteration < 60; ++iteration) {
+        const double error = integral(p, s) - wanted;
+        (error > 0 ? high : low) = s;
+        const double rise = value(p, s);
+        const double newton = s - error / rise;
+        const double next = rise > 0 && newton > low && newton < high ? newton : (low + high) / 2;
+        if (std::abs(next - s) < 1e-12) {
+            return next;
+        }
+        s = next;
+    }
+    return s;
+}
+
 }  // namespace
 
 QuantileTable::QuantileTable(std::vector<double> breaks, int cells, int rows)
@@ -137,23 +155,8 @@ void QuantileTable::set_piece(int row, int piece, std::span<const double> densit
         while (cell + 2 < n && cumulative[cell + 1] < target) {
             ++cell;
         }
-        // Bisection with Newton's steps where they stay inside.
-        const std::array<double, 4> p = local_cubic(rate, cell);
         const double wanted = std::min(target, cumulative[cell + 1]) - cumulative[cell];
-        const double whole = cumulative[cell + 1] - cumulative[cell];
-        double low = 0, high = 1, s = std::clamp(wanted / whole, 0.0, 1.0);
-        for (int iteration = 0; iteration < 60; ++iteration) {
-            const double error = integral(p, s) - wanted;
-            (error > 0 ? high : low) = s;
-            const double rise = value(p, s);
-            const double newton = s - error / rise;
-            const double next = rise > 0 && newton > low && newton < high ? newton : (low + high) / 2;
-            if (std::abs(next - s) < 1e-12) {
-                s = next;
-                break;
-            }
-            s = next;
-        }
+        double s = upper_limit(local_cubic(rate, cell), wanted, cumulative[cell + 1] - cumulative[cell]);
         if (j == 0 || j + 1 == fraction_.size()) {
             s = j == 0 ? 0 : 1;
         }

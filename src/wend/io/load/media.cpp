@@ -220,26 +220,27 @@ Medium load_uniform_grid(LoadContext& context, const pbrt::MediumEntity& entity)
                       load_grid_emission(context, p, size, index_from_world));
 }
 
+/// The colours of a grid's voxels; none where the parameter is not given.
+std::vector<Rgb> load_colours(LoadContext& context, const pbrt::ParameterSet& p, std::string_view name) {
+    std::vector<Rgb> values;
+    for (const pbrt::RgbColour& colour : p.get_rgbs(name)) {
+        values.push_back(reduce_colour(context, colour, SpectrumKind::unbounded, p.place_of(name)));
+        if (const Rgb& value = values.back(); !is_finite(value) || !(min_value(value) >= 0)) {
+            throw InputError(p.place_of(name),
+                             fmt::format("\"{}\": voxel {} holds ({}, {}, {}): values must be finite and not negative",
+                                         name, values.size() - 1, value.r, value.g, value.b));
+        }
+    }
+    return values;
+}
+
 /// Three coefficients a voxel become one density, whose colour is that of the mean.
 Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
     const pbrt::ParameterSet& p = entity.parameters;
     context.warnings.add(entity.place, "Medium \"rgbgrid\" is not implemented: a grid of one colour takes its place");
-    const auto colours = [&](std::string_view name) {
-        std::vector<Rgb> values;
-        for (const pbrt::RgbColour& colour : p.get_rgbs(name)) {
-            values.push_back(reduce_colour(context, colour, SpectrumKind::unbounded, p.place_of(name)));
-            if (const Rgb& value = values.back(); !is_finite(value) || !(min_value(value) >= 0)) {
-                throw InputError(p.place_of(name),
-                                 fmt::format("\"{}\": voxel {} holds ({}, {}, {}): values must be finite and not "
-                                             "negative",
-                                             name, values.size() - 1, value.r, value.g, value.b));
-            }
-        }
-        return values;
-    };
-    const std::vector<Rgb> absorption = colours("sigma_a");
-    const std::vector<Rgb> scattering = colours("sigma_s");
-    const std::vector<Rgb> emitted = colours("Le");
+    const std::vector<Rgb> absorption = load_colours(context, p, "sigma_a");
+    const std::vector<Rgb> scattering = load_colours(context, p, "sigma_s");
+    const std::vector<Rgb> emitted = load_colours(context, p, "Le");
     const std::size_t count = std::max(absorption.size(), scattering.size());
     if (count == 0) {
         throw InputError(entity.place, "\"rgbgrid\" needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\"");
