@@ -10,3 +10,11 @@
 #include <wend/guide/fit.h>
 #include <wend/guide/path_log.h>
 #include <wend/guide/serialization.h>
+
+/// Zero-variance-based path sampling: what walks ask, the decisions that they take, media and their walks inside.
+namespace wend {
+
+/// The learned field: records of walks in, incident radiance out.
+namespace guide {}
+
+}  // namespace wend

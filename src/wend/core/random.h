@@ -33,10 +33,12 @@ constexpr float to_unit_float(std::uint32_t bits) {
 /// PCG32 (oneill2014): 64 bits of state, 32 bits out, independent streams by key.
 class Pcg32 {
 public:
+    /// The stream of a key: equal keys give equal numbers.
     explicit constexpr Pcg32(std::uint64_t key) : state_(mix(key)), increment_(mix(key ^ 0xda3e39cb94b95bdbull) | 1u) {
         next();
     }
 
+    /// 32 uniform bits.
     constexpr std::uint32_t next() {
         const std::uint64_t old = state_;
         state_ = old * 6364136223846793005ull + increment_;
@@ -53,6 +55,7 @@ public:
         const auto high = static_cast<std::uint64_t>(next());
         return static_cast<double>((high << 32 | next()) >> 11) * 0x1p-53;
     }
+    /// Uniform in [0, 1)², x drawn first.
     Vec2 uniform2() {
         const float x = uniform();
         return {x, uniform()};

@@ -9,31 +9,44 @@
 
 namespace wend {
 
+/// A point of the plane, or two random numbers.
 using Vec2 = Imath::V2f;
+/// A point, or a direction.
 using Vec3 = Imath::V3f;
+/// A pixel, or another pair of integers.
 using Vec2i = Imath::V2i;
+/// A voxel, or another triple of integers.
 using Vec3i = Imath::V3i;
+/// A box along the axes; empty at first.
 using Box3 = Imath::Box3f;
 
+/// π.
 inline constexpr float pi = 3.14159265358979323846f;
+/// 1 / π: the value of a white diffuse reflector, in 1/sr.
 inline constexpr float inv_pi = 0.31830988618379067154f;
+/// 1 / (4 π): the uniform density over directions, in 1/sr.
 inline constexpr float inv_4pi = 0.07957747154594766788f;
 
 /// Largest float below 1: where a uniform number in [0,1) is clamped to.
 inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 
+/// Inner product.
 inline float dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// The inner product without its sign: of unit vectors the cosine between lines.
 inline float abs_dot(const Vec3& a, const Vec3& b) {
     return std::abs(dot(a, b));
 }
+/// Right-handed vector product.
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// dot(v, v), without a root.
 inline float length_squared(const Vec3& v) {
     return dot(v, v);
 }
+/// Euclidean norm.
 inline float length(const Vec3& v) {
     return std::sqrt(dot(v, v));
 }
@@ -41,9 +54,11 @@ inline float length(const Vec3& v) {
 inline Vec3 normalize(const Vec3& v) {
     return v * (1.0f / length(v));
 }
+/// Whether no coordinate is infinite or NaN.
 inline bool is_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+/// x².
 inline float sqr(float x) {
     return x * x;
 }

@@ -14,16 +14,17 @@ namespace wend {
 
 /// What a photon tells of the place where it arrived.
 struct CausticLobe {
-    Vec3 position{0, 0, 0};
-    Vec3 towards{0, 0, 1};  ///< where it came from, unit length
-    float distance = 0;     ///< of the light, along the way
-    Rgb light;              ///< the photon's flux, or what is in proportion to it
+    Vec3 position{0, 0, 0};  ///< of that place, in scene units
+    Vec3 towards{0, 0, 1};   ///< where it came from, unit length
+    float distance = 0;      ///< of the light, along the way
+    Rgb light;               ///< the photon's flux, or what is in proportion to it
 };
 
 /// CausticLobes by place: cells of a few that arrived next to each other, in groups of similar directions, of which
 /// each is mostly one way to one light.
 class CausticMap {
 public:
+    /// Most groups of a cell.
     static constexpr std::size_t most_groups = 8;
 
     /// Mostly one way to one light.
@@ -33,19 +34,20 @@ public:
         Vec3 image{0, 0, 0};  ///< where its light would be if all mirrors were plane
         float turn = 0;       ///< by how much directions turn away from a step aside, in 1/length
         float distance = 0;   ///< of its light, along the way
-        Rgb light;
+        Rgb light;            ///< sum over its caustic lobes
 
         /// Where its light comes from, as seen from a position.
         Vec3 direction(const Vec3& position) const { return normalize(lobe.mean - (position - place) * turn); }
     };
 
+    /// Caustic lobes that arrived next to each other.
     struct Cell {
-        Box3 reach;       ///< where it has something to say
-        Vec3 extent;      ///< of the space that its caustic lobes lie in
-        float light = 0;  ///< of bright groups, as a mean over channels
-        std::size_t count = 0;
-        std::size_t bright = 0;  ///< groups that are worth drawing from; these come first
-        std::array<Group, most_groups> groups;
+        Box3 reach;                             ///< where it has something to say
+        Vec3 extent;                            ///< of the space that its caustic lobes lie in
+        float light = 0;                        ///< of bright groups, as a mean over channels
+        std::size_t count = 0;                  ///< of groups
+        std::size_t bright = 0;                 ///< groups that are worth drawing from; these come first
+        std::array<Group, most_groups> groups;  ///< the first `count` are in use
 
         /// Of all bright groups together, about: in a medium light per volume, on surfaces per area.
         float fluence(bool in_volume) const;
@@ -81,6 +83,7 @@ public:
     /// None.
     CausticLobeMixture() = default;
 
+    /// The bright groups of a cell, as seen from a position, for a ScatteringFunction. Refers to none of them.
     template <class F>
     CausticLobeMixture(const CausticMap::Cell& cell, const Vec3& position, const F& f) : count_(cell.bright) {
         for (std::size_t i = 0; i < count_; ++i) {

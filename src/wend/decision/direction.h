@@ -23,11 +23,12 @@ struct DirectionSample {
     float density = 0;        ///< per steradian; a probability if specular
     bool specular = false;    ///< drawn from a discrete set of directions
     float density_ratio = 1;  ///< density over what the scattering function's own sampling would have had
-    /// The densities that the scattering function's own sampling and the guide had, where it was drawn from a mixture
-    /// of both; otherwise 0.
+    /// What the scattering function's own sampling had, where it was drawn from a mixture with a guide's; otherwise 0.
     float classical_density = 0;
+    /// What the guide had, likewise.
     float guided_density = 0;
 
+    /// What the walk's throughput is multiplied by.
     Rgb weight() const { return value * (1 / density); }
 };
 
@@ -48,12 +49,17 @@ concept ScatteringFunction = requires(const F& f, const Vec3& w, float u, const 
 /// Directions in proportion to the scattering function alone.
 class ClassicalDirection {
 public:
+    /// The directions at one vertex. Refers to the scattering function.
     template <ScatteringFunction F>
     class Distribution {
     public:
+        /// Those of `f`, which must outlive it.
         explicit Distribution(const F& f) : f_(f) {}
+        /// As F::sample(): nothing where the direction would carry nothing.
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
+        /// Per steradian, of any direction; discrete ones have none.
         float density(const Vec3& w) const { return f_.density(w); }
+        /// Nothing: no adjoint is known.
         std::optional<Rgb> in_scattered() const { return std::nullopt; }
 
     private:
@@ -78,6 +84,7 @@ concept AdjointField = requires(const F& field, const Vec3& position) {
 template <AdjointField Field>
 class GuidedDirection {
 public:
+    /// What the fields tell around a position.
     using LocalAdjoint = std::remove_cvref_t<decltype(*std::declval<Field>().find(Vec3()))>;
     /// The distribution of what scatters times incident radiance.
     using Product = std::remove_cvref_t<decltype(std::declval<LocalAdjoint>().incident(Vec3()).product(AxialLobes()))>;
@@ -93,6 +100,7 @@ public:
           surface_caustics_(surface_caustics),
           volume_caustics_(volume_caustics) {}
 
+    /// The directions at one vertex. Refers to the scattering function and to the adjoint.
     template <ScatteringFunction F>
     class Distribution {
     public:
@@ -117,6 +125,8 @@ public:
             }
         }
 
+        /// A direction, from a number of [0,1), which chooses where it is drawn from, and a point of [0,1)²; nothing
+        /// where it would carry nothing.
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
             if (!product_ && caustic_share_ == 0) {
                 return f_.sample(u, u2);
@@ -155,6 +165,8 @@ public:
             s.density_ratio = own > 0 ? s.density / own : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
+        /// Per steradian, of any direction, however it might be drawn: for multiple importance sampling. Discrete ones
+        /// have none.
         float density(const Vec3& w) const {
             const float others = product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
             return caustic_share_ > 0 ? (1 - caustic_share_) * others + caustic_share_ * caustic_lobes_.density(w)

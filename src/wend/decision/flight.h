@@ -5,11 +5,12 @@
 
 namespace wend {
 
-/// The outcome of a flight through a medium. The walk multiplies its throughput by `weight`: for a collision
-/// transmittance times scattering coefficient over density, for the end of the segment transmittance over probability.
+/// The outcome of a flight through a medium.
 struct Flight {
-    bool scatters = false;
-    float distance = 0;  ///< of the collision; the segment's length if it does not scatter
+    bool scatters = false;  ///< whether it ends in a collision
+    float distance = 0;     ///< of the collision; the segment's length if it does not scatter
+    /// What the walk multiplies its throughput by: for a collision transmittance times scattering coefficient over
+    /// density, for the end of the segment transmittance over probability.
     Rgb weight;
     Rgb emitted;              ///< radiance picked up from an emissive medium on the way, before `weight`
     float glow = 0;           ///< the mean channel of `emitted`, each part over the distance it came from

@@ -13,6 +13,7 @@ namespace wend {
 
 /// What a walk knows of itself when it decides whether to go on.
 struct WalkState {
+    /// What the walk carries: the product of all weights so far.
     Rgb throughput;
     /// Product of the density ratios of guided directions (DirectionSample::density_ratio): throughput times
     /// density_ratio is what the walk would carry had it gone the same way unguided. A direction that is rich in light
@@ -57,10 +58,12 @@ public:
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_density_ratio = 1e4f;
 
+    /// Nothing: it always judges by the weight, once a direction is drawn.
     std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& /*expected*/,
                                                           Pcg32& /*random*/) const {
         return std::nullopt;
     }
+    /// Probability of going on; 1 up to the first vertex.
     float after_direction(const WalkState& state) const {
         if (state.depth <= 1) {
             return 1;
@@ -96,6 +99,7 @@ public:
         window_.low *= std::max(least_roulette, 1 / std::sqrt(1 + 1 / sample_variance));
     }
 
+    /// How many directions to draw; nothing where neither expected contribution nor weight calls for a decision here.
     std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected, Pcg32& random) const {
         std::optional<float> ratio = expected.ratio;
         if (splitting_ && expected.weight > window_.high) {
@@ -108,6 +112,7 @@ public:
         window.most = std::min(window.most, expected.split_capacity);
         return window.sample(*ratio, random);
     }
+    /// Probability of going on by weight alone, for where before_direction() had nothing to say.
     float after_direction(const WalkState& state) const {
         return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end)
             .after_direction(state);

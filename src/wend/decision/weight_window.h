@@ -19,9 +19,10 @@ struct WeightWindow {
     /// Number of continuations, 1 or more with the given expectation when it splits; each one's weight is divided by
     /// `expected`.
     struct Outcome {
-        int copies = 1;
-        double expected = 1;
+        int copies = 1;       ///< continuations; 0 ends the walk
+        double expected = 1;  ///< their mean number, positive
     };
+    /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is.
     Outcome sample(double ratio, Pcg32& random) const {
         if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
             return {};

@@ -21,9 +21,13 @@ struct LobeSums;
 /// number of threads.
 class Field {
 public:
+    /// As large as the other, and independent of it.
     Field(const Field& other);
+    /// Leaves the other to be assigned to or destroyed, and nothing else.
     Field(Field&& other) noexcept;
+    /// As the copy; regions that were found in this one are gone.
     Field& operator=(const Field& other);
+    /// As the move; regions that were found in this one are gone.
     Field& operator=(Field&& other) noexcept;
     ~Field();
 
@@ -56,6 +60,7 @@ public:
     /// What the records told of each lobe of a position's cell, as seen from the region's reference point.
     std::array<LobeSums, max_lobes> lobe_sums(const Vec3& position) const;
 
+    /// Those that it was made for: where the rim's cells end for whoever draws them.
     const Box3& bounds() const { return bounds_; }
     /// Most splits above a cell.
     static constexpr int max_depth = 64;

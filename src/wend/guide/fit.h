@@ -21,6 +21,7 @@ struct LobePriors {
     float max_kappa = 2e4f;
 };
 
+/// How a field is fitted. fit() refuses what is out of range.
 struct FitSettings {
     /// Lobes that a cell begins with, 1 to max_lobes.
     int lobes = 8;
@@ -30,9 +31,9 @@ struct FitSettings {
     /// A cell holding more records than this is split where its halves differ; older records count less (see `decay`).
     double leaf_samples = 1000;
     /// A cell whose halves do not differ may hold this many times more, at least 1; and three times that where few of
-    /// its records carry radiance, so that they are worth less than `uniform_evidence` ones of equal weight: what is
-    /// rare cannot be learned in small cells. The latter is not negative.
+    /// its records carry radiance, since what is rare cannot be learned in small cells.
     double uniform_factor = 8;
+    /// Few are those that are worth less than this many records of equal weight; not negative.
     double uniform_evidence = 60;
     /// Halves differ when what is seen varies by more than this divergence in nats within the cell, and that is no
     /// chance; not negative.
@@ -47,24 +48,30 @@ struct FitSettings {
     int max_iterations = 12;
     /// Rounds end when the resultant vectors of the lobes move less than this share of the total weight.
     double tolerance = 5e-3;
+    /// What lobes are drawn to as long as there are few records.
     LobePriors priors;
 };
 
+/// What a fit did.
 struct FitReport {
+    /// All that were given.
     std::size_t records = 0;
     /// Records with a number that is not finite or out of range (is_usable), which taught nothing.
     std::size_t ignored = 0;
     /// Usable records with zero radiance.
     std::size_t dark = 0;
+    /// Field::size() of the new field.
     std::size_t cells = 0;
+    /// Field::bytes() of the new field.
     std::size_t bytes = 0;
     /// Whether cells stayed unsplit for lack of memory.
     bool memory_limited = false;
 };
 
+/// What fit() makes.
 struct FitResult {
-    Field field;
-    FitReport report;
+    Field field;       ///< the next one
+    FitReport report;  ///< for whoever wants to know how it went
 };
 
 /// Refines the previous field by the records, on at most `threads` threads (0: all). The result depends on the order of
@@ -72,11 +79,12 @@ struct FitResult {
 /// the tree. Throws InputError for settings out of range.
 FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads = 0);
 
-/// The two learned fields.
+/// The two learned fields: surfaces and volumes in the same place see different light.
 struct Fields {
-    Field surface;
-    Field volume;
+    Field surface;  ///< asked at surfaces
+    Field volume;   ///< asked at collisions in media
 
+    /// Memory of both.
     std::size_t bytes() const { return surface.bytes() + volume.bytes(); }
 };
 

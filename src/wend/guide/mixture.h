@@ -9,9 +9,11 @@
 
 namespace wend::guide {
 
+/// One lobe of a mixture.
 struct WeightedVmf {
     /// Share in the mixture, not negative.
     float weight;
+    /// Its directions.
     Vmf vmf;
 };
 
@@ -28,7 +30,9 @@ public:
     /// rounding), and one at least must be positive.
     explicit VmfMixture(std::span<const WeightedVmf> lobes);
 
+    /// Number of lobes, 1 to max_lobes.
     int size() const { return lanes_.size; }
+    /// A lobe, i in [0, size()).
     WeightedVmf lobe(int i) const;
 
     /// Density at a unit direction, in 1/sr. Relative error 1e-6 · (1 + kappa angle²).
@@ -60,13 +64,18 @@ private:
 /// questions turn the mixture each time, so whoever has many of them should make a VmfMixture of this.
 class MixtureView {
 public:
+    /// The arguments of VmfMixture::re_aimed().
     MixtureView(const VmfMixture& mixture, const Vec3& offset, const Lanes& inverse_distance)
         : mixture_(mixture), inverse_distance_(inverse_distance), offset_(offset) {}
 
+    /// The mixture, turned.
     operator VmfMixture() const { return mixture_.re_aimed(offset_, inverse_distance_); }
 
+    /// VmfMixture::density() of the turned mixture.
     float density(const Vec3& direction) const { return VmfMixture(*this).density(direction); }
+    /// VmfMixture::sample() of the turned mixture.
     Vec3 sample(Vec2 u) const { return VmfMixture(*this).sample(u); }
+    /// The product of the turned mixture, which is turned on the way.
     MixtureProduct product(const AxialLobes& lobes) const;
 
 private:

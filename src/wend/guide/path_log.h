@@ -17,6 +17,7 @@ namespace wend::guide {
 /// A walk may have any number of vertices, its log has not: what is found after the last one belongs to that.
 class PathLog {
 public:
+    /// What the log of one walk holds.
     static constexpr std::size_t most_vertices = 1 << 18;
 
     /// Forgets the last walk.
@@ -99,19 +100,27 @@ public:
 
     /// Where the walk is: where it is split, each copy goes on from the place kept before.
     struct Branch {
+        /// The last vertex whose direction was drawn.
         std::int32_t vertex = PathVertex::root;
         /// Gained since that vertex.
         Rgb weight{1.0f};
-        /// Of the vertex at hand, whose direction is not drawn yet.
+        /// Brought by connections at the vertex at hand, whose direction is not drawn yet. What follows is of it too.
         Rgb connected;
+        /// The direction of the connection that outweighs the others.
         Vec3 to_light{0, 0, 0};
+        /// How far that light is.
         float light_distance = std::numeric_limits<float>::infinity();
+        /// Fluence that all connections found.
         float light_fluence = 0;
+        /// Of the surface; zero in a volume.
         Vec3 normal{0, 0, 0};
     };
+    /// Where the walk is now: to be kept before it is split.
     const Branch& branch() const { return at_; }
+    /// Goes on from a place that was kept, within the same walk.
     void resume(const Branch& branch) { at_ = branch; }
 
+    /// The walk so far, parents before children: for PathRecords::add(). Valid until the walk goes on.
     std::span<const PathVertex> vertices() const { return vertices_; }
 
 private:

@@ -15,21 +15,25 @@ namespace wend::guide {
 
 /// A place where a walk drew a direction. A walk that was split is a tree: several vertices name the same parent.
 struct PathVertex {
+    /// In place of a parent's index where there is none.
     static constexpr std::int32_t root = -1;
 
+    /// In scene units.
     Vec3 position;
     /// Drawn here, unit length, towards where the walk went on.
     Vec3 direction;
     /// The direction was drawn with, in 1/sr; 0 for one of a discrete set (a mirror's), of which nothing is learned.
     float density = 0;
-    /// Of the direction, by classical sampling and by the guide where it was drawn from a mixture of both; 0 otherwise.
+    /// What classical sampling has for the direction, where it was drawn from a mixture with a guide's; 0 otherwise.
     float classical_density = 0;
+    /// What the guide has for the direction, likewise.
     float guided_density = 0;
     /// Along the direction to what the walk met first; infinity where there was nothing.
     float distance = std::numeric_limits<float>::infinity();
-    /// Of the radiance gathered, the mean channel of what came from a medium before any vertex, and the same over its
-    /// distance.
-    float glow = 0, glow_over_distance = 0;
+    /// Of the radiance gathered, the mean channel of what came from a medium before any vertex.
+    float glow = 0;
+    /// The same, each part over the distance that it came from.
+    float glow_over_distance = 0;
     /// Weight that the walk gained on the way here since the parent's direction was drawn: transmittance over the
     /// density of the flight, 1 over the probability of surviving, 1 over the number of copies.
     Rgb arrival{1.0f};
@@ -39,17 +43,21 @@ struct PathVertex {
     /// direction was drawn: light met, the medium's own, and the next vertex's connection to a light, each with its
     /// weight of multiple importance sampling.
     Rgb gathered;
-    /// What a connection to a light brought at this vertex, the scattering function included, and the direction and the
-    /// distance of the light and the connection's estimate of its fluence. For records of scattered light alone: what
-    /// arrives at the parent has it among what was gathered there.
+    /// What connections to lights brought at this vertex, the scattering function included. This and the three that
+    /// follow are for records of scattered light alone: what arrives at the parent has it among what was gathered
+    /// there.
     Rgb connected;
+    /// Towards the light that outweighs the others, unit length; zero without a connection.
     Vec3 to_light{0, 0, 0};
+    /// How far that light is.
     float light_distance = std::numeric_limits<float>::infinity();
+    /// The connections' estimate of the fluence of lights, in radiance times sr.
     float light_fluence = 0;
     /// Of the surface, on the side that the walk came from; zero in a volume.
     Vec3 normal{0, 0, 0};
     /// The vertex whose direction led here: a lower index, or root.
     std::int32_t parent = root;
+    /// Whether it is a collision in a medium: the field of volumes learns from it, otherwise that of surfaces.
     bool in_volume = false;
 };
 
@@ -111,10 +119,13 @@ public:
         volume_scattered_.clear();
     }
 
+    /// For the field of surfaces: fit() takes them.
     const Records& surface() const { return surface_; }
+    /// For the field of volumes.
     const Records& volume() const { return volume_; }
-    /// Of every vertex that also has a record, and of those whose direction has no density.
+    /// Of every vertex on a surface that also has a record, and of those whose direction has no density.
     const ScatterRecords& surface_scattered() const { return surface_scattered_; }
+    /// Of every vertex in a volume, likewise.
     const ScatterRecords& volume_scattered() const { return volume_scattered_; }
 
 private:

@@ -12,8 +12,9 @@ namespace wend::guide {
 /// Of numbers that are not negative, what those before each one add up to, by a tree of few steps: never less than for
 /// the one before, and the same across a 0.
 struct SumsBelow {
-    int lanes;
-    float total;
+    int lanes;    ///< how many numbers there are
+    float total;  ///< of all of them
+    /// By index, what those before it have; behind the last one the total again.
     float sum[max_lobes + 1];
 };
 
@@ -21,15 +22,19 @@ struct SumsBelow {
 struct ProductLanes {
     /// Its weights are not set: nothing asks for them.
     MixtureLanes mixture;
+    /// H, along its axis.
     AxialLobes scatterer;
     /// Of the parts that the lobes of the mixture have of Z.
     SumsBelow below;
-    /// Z, and what the product of densities is multiplied by.
-    float integral, scale;
+    /// Z, in 1/sr; 0 where it is too small to tell.
+    float integral;
+    /// What the product of densities is multiplied by to be one.
+    float scale;
     /// Of each pair of lobes, those of one axial lobe side by side, what the pairs up to it have of the part, so that a
     /// sample need not find them again. Only the pairs there are have some.
     float pair_sums[AxialLobes::capacity * max_lobes];
 
+    /// For a mixture of as many lobes; the product itself is to be written.
     ProductLanes(int lobes, const AxialLobes& other) : mixture(lobes, Unset{}), scatterer(other) {}
 
     /// The part of Z that each lobe of the mixture has.
@@ -42,7 +47,9 @@ struct ProductLanes {
 /// reference.
 class MixtureProduct {
 public:
+    /// The product of a mixture as it is. Refers to neither afterwards.
     MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes);
+    /// The product of a mixture as it is seen from elsewhere. Refers to neither afterwards.
     MixtureProduct(const MixtureView& view, const AxialLobes& lobes);
 
     /// Z = ∫ V H dω, in 1/sr.

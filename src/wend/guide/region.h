@@ -61,9 +61,13 @@ public:
     /// How much of directions is best drawn by classical sampling, as measured (share.h).
     float defensive_fraction() const { return defensive_fraction_; }
 
+    /// The point that mixture() belongs to.
     const Vec3& reference() const { return reference_; }
+    /// The incident radiance as seen from the reference point: incident() gives it for others.
     const VmfMixture& mixture() const { return mixture_; }
+    /// By lobe, 1/distance of its source from the reference point; 0 where it is far or not known.
     const Lanes& inverse_distance() const { return inverse_distance_; }
+    /// By lobe, its radiance by channel over their mean.
     const LobeColours& colours() const { return colours_; }
 
 private:

@@ -19,8 +19,9 @@ struct ArrivingLight {
     Vec3 mean{0, 0, 0};
 };
 
-/// Sides of a surface: the axis that is nearest to its normal, and its sign.
+/// How many sides are told apart: three axes, two signs.
 inline constexpr int sides = 6;
+/// The side of a surface, in [0, sides): twice the axis that is nearest to its normal, plus 1 if that points down it.
 inline int side_of(const Vec3& normal) {
     const Vec3 size(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
@@ -30,6 +31,7 @@ inline int side_of(const Vec3& normal) {
 /// Lights close to a cell, taken for one. What arrives from them grows as 1/r² towards them, which no mean over the
 /// cell tells.
 struct NearLight {
+    /// Where they are, as a mean.
     Vec3 position{0, 0, 0};
     /// The mean of the squared distances of its parts from the position.
     float extent_squared = 0;
@@ -44,8 +46,10 @@ struct NearLight {
 /// function around its mean direction: that kind is closed under convolution, so the in-scattered radiance for a phase
 /// function of that kind costs one evaluation.
 struct ScatteredLight {
-    /// What walks found on their way, and what their connections to lights did: together all the light.
-    ArrivingLight walked, connected;
+    /// What walks found on their way.
+    ArrivingLight walked;
+    /// What their connections to lights found: together with `walked` all the light.
+    ArrivingLight connected;
     /// Part of what was connected.
     NearLight near;
     /// How far the cell is to be trusted, 0 to 1: a handful of bright records among dark ones may be chance.
@@ -72,11 +76,16 @@ private:
 
 /// Sums over the records of a cell, older ones counting less.
 struct ScatterSums {
-    /// By side.
-    std::array<float, sides> records{}, leaving{};
+    /// How many there were, by side.
+    std::array<float, sides> records{};
+    /// ScatterRecord::leaving, by side.
+    std::array<float, sides> leaving{};
+    /// ScatterRecord::connected.
     float connected = 0;
+    /// The same times ScatterRecord::to_light.
     Vec3 connected_direction{0, 0, 0};
 
+    /// How many records there were on all sides.
     float all_records() const { return std::accumulate(records.begin(), records.end(), 0.0f); }
 
     /// Mean radiance that leaves the vertices of the cell towards where walks came from, by the side that they came
@@ -93,6 +102,7 @@ struct ScatterSums {
         return (leaving[side] + prior * mean) / (records[side] + prior);
     }
 
+    /// All sums times a factor: what is older counts less.
     ScatterSums scaled(float factor) const {
         ScatterSums result = *this;
         for (std::size_t side = 0; side < sides; ++side) {
@@ -103,6 +113,7 @@ struct ScatterSums {
         result.connected_direction *= factor;
         return result;
     }
+    /// Adds the sums over other records.
     ScatterSums& operator+=(const ScatterSums& o) {
         for (std::size_t side = 0; side < sides; ++side) {
             records[side] += o.records[side];

@@ -18,8 +18,9 @@ inline constexpr float largest_pictured_g = 0.99f;
 
 /// Henyey and Greenstein's phase function with mean cosine g in (-1, 1).
 struct HenyeyGreenstein {
-    float g = 0;
+    float g = 0;  ///< mean cosine: positive scatters forwards
 
+    /// Density per steradian.
     float evaluate(float cosine) const {
         const float d = 1 + g * (g - 2 * cosine);
         return inv_4pi * (1 - g * g) / (d * std::sqrt(d));
@@ -37,13 +38,15 @@ struct HenyeyGreenstein {
         return std::clamp((1 + g * g - s * s) / (2 * g), -1.0f, 1.0f);
     }
 
+    /// As it was given.
     float mean_cosine() const { return g; }
+    /// Whether all directions are alike.
     bool is_isotropic() const { return g == 0; }
     /// The integral of the function times Legendre's polynomial of the scattering cosine.
     double moment(int degree) const { return std::pow(static_cast<double>(g), degree); }
     /// Henyey and Greenstein's function as one to five lobes, around +z for the direction of propagation before the
-    /// collision. Over the whole sphere, the ratio to the function stays within 1.022 up to |g| = 0.9, 1.065 up to 0.95,
-    /// 1.17 up to 0.98 and 1.29 up to 0.99.
+    /// collision. Over the whole sphere, the ratio to the function stays within 1.022 up to |g| = 0.9, 1.065 up to
+    /// 0.95, 1.17 up to 0.98 and 1.29 up to 0.99.
     AxialLobes lobes() const;
 
     /// Convolved with a function of this kind with mean cosine length(mean), around the direction of `mean`, which is
@@ -58,23 +61,32 @@ struct HenyeyGreenstein {
 /// A convex combination of up to four Henyey-Greenstein functions.
 class HenyeyGreensteinMixture {
 public:
+    /// Most functions that can be added.
     static constexpr int max_lobes = 4;
 
     /// Adds a lobe; weights are relative and must be positive.
     void add(float weight, float g);
 
+    /// How many were added.
     int size() const { return count_; }
     /// The share of a lobe, between 0 and 1.
     float weight(int i) const { return weight_[static_cast<std::size_t>(i)] / total_; }
+    /// The function of a lobe, in the order of add().
     const HenyeyGreenstein& lobe(int i) const { return lobe_[static_cast<std::size_t>(i)]; }
 
+    /// Density per steradian: the sum of the parts by their shares.
     float evaluate(float cosine) const;
+    /// A cosine of a part, which is chosen by the same number; u in [0,1).
     float sample_cosine(float u) const;
+    /// The mean of those of the parts, by their shares.
     float mean_cosine() const;
+    /// Whether all parts are isotropic.
     bool is_isotropic() const;
+    /// The integral of the function times Legendre's polynomial of the scattering cosine.
     double moment(int degree) const;
     /// The lobes of its parts; the ratio stays within that of the worst part.
     AxialLobes lobes() const;
+    /// As PhaseFunction::convolved(), part by part.
     float convolved(const Vec3& before, const Vec3& mean) const;
 
 private:
@@ -106,12 +118,15 @@ concept PhaseFunctionKind = requires(const P& phase, float number, int degree, c
 /// The closed set of phase functions.
 class PhaseFunction {
 public:
+    /// Any of the kinds.
     using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture, Draine>;
 
+    /// Isotropic.
     PhaseFunction() = default;
     /// Throws InputError for a mean cosine of -1, 1, beyond, or NaN.
     PhaseFunction(Variant kind);
 
+    /// Density per steradian.
     float evaluate(float cosine) const {
         return std::visit([&](const auto& p) { return p.evaluate(cosine); }, kind_);
     }
@@ -120,6 +135,7 @@ public:
         const float cosine = std::visit([&](const auto& p) { return p.sample_cosine(u.x); }, kind_);
         return Frame::from_z(before).to_world(direction_from_cosine(cosine, u.y));
     }
+    /// The mean of the scattering cosine, in (-1, 1).
     float mean_cosine() const {
         return std::visit([](const auto& p) { return p.mean_cosine(); }, kind_);
     }

@@ -10,22 +10,29 @@ namespace wend {
 
 /// A float with its integer part, rounded to nearest, moved into the low bits of the mantissa.
 struct RoundedExponent {
+    /// What moves it there: to be added, and taken away again.
     static constexpr float to_integer = 0x1.8p23f;
 
-    float shifted;
+    float shifted;  ///< the rounded number plus `to_integer`
 
+    /// Of x, |x| < 2^22.
     explicit RoundedExponent(float x) : shifted(x + to_integer) {}
+    /// The integer next to x, as a float.
     float integer() const { return shifted - to_integer; }
 };
 
 /// A power of two by its factors, 2^n (1 + rest), |rest| < 1/2.
 struct FastPower {
-    /// 1 plus the polynomial of these has the least largest relative error, 1e-7, and all digits of a small r.
-    static constexpr float first = 0.6931472f, second = 0.24022283f, third = 0.055505585f, fourth = 0.009669691f,
-                           fifth = 0.0013300605f;
+    /// Coefficient of r. 1 plus the polynomial of the five has the least largest relative error, 1e-7, and all digits
+    /// of a small r.
+    static constexpr float first = 0.6931472f;
+    static constexpr float second = 0.24022283f;   ///< of r²
+    static constexpr float third = 0.055505585f;   ///< of r³
+    static constexpr float fourth = 0.009669691f;  ///< of r to the power of 4
+    static constexpr float fifth = 0.0013300605f;  ///< of r to the power of 5
 
-    float rest;
-    std::uint32_t shifted_n;
+    float rest;               ///< by how much 2^r differs from 1
+    std::uint32_t shifted_n;  ///< n where a float has its exponent: adding it to the bits multiplies by 2^n
 
     /// 2^(n + r), |r| <= 1/2.
     FastPower(RoundedExponent n, float r) {
@@ -37,7 +44,9 @@ struct FastPower {
         shifted_n = std::bit_cast<std::uint32_t>(n.shifted) << 23;
     }
 
+    /// The power itself.
     float value() const { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(1 + rest) + shifted_n); }
+    /// The power minus 1, near 1 with all digits.
     float minus_one() const {
         const float power = std::bit_cast<float>(0x3f800000u + shifted_n);
         return power * rest + (power - 1);
@@ -47,6 +56,7 @@ struct FastPower {
 /// Below this, fast_exp2 stays at its value there (2e-35) rather than underflow, which would slow down what follows.
 inline constexpr float fast_exp2_smallest = -115.0f;
 
+/// 2^x in factors, for whoever wants both fast_exp2() and fast_exp2m1() of it.
 inline FastPower fast_power_of_two(float x) {
     x = x > fast_exp2_smallest ? x : fast_exp2_smallest;
     const RoundedExponent n(x);
@@ -70,11 +80,15 @@ inline constexpr float fast_exp_smallest = -80.0f;
 
 /// From powers of e to powers of 2.
 struct NaturalBase {
+    /// What powers are multiplied by.
     static constexpr float log2_e = std::numbers::log2e_v<float>;
-    /// ln 2 in two parts, the first with few enough digits for its multiples to be exact.
-    static constexpr float ln2_high = 0.693359375f, ln2_low = -2.12194440e-4f;
+    /// Of two parts of ln 2 the larger one, with few enough digits for its multiples to be exact.
+    static constexpr float ln2_high = 0.693359375f;
+    /// The other part: what the larger one lacks.
+    static constexpr float ln2_low = -2.12194440e-4f;
 };
 
+/// e^x in factors, for whoever wants both fast_exp() and fast_expm1() of it.
 inline FastPower fast_power_of_e(float x) {
     using B = NaturalBase;
     x = x > fast_exp_smallest ? x : fast_exp_smallest;
@@ -117,8 +131,10 @@ inline float fast_log1p(float x) {
     return fast_log(y) + (x - (y - 1)) / y;
 }
 
+/// A point of the unit circle.
 struct Turn {
-    float cosine, sine;
+    float cosine;  ///< of the angle to the first axis
+    float sine;    ///< of the same angle
 };
 
 /// Cosine and sine of 2 pi u for u in [0, 1]. Error below 1e-7. Quarters are told apart by bits instead of branches,

@@ -9,6 +9,7 @@
 
 namespace wend {
 
+/// One lobe of AxialLobes.
 struct AxialLobe {
     /// Share in the sum, not negative.
     float weight;
@@ -20,6 +21,7 @@ struct AxialLobe {
 /// to 1. A value of fixed size without heap memory.
 class AxialLobes {
 public:
+    /// Most lobes.
     static constexpr int capacity = 24;
 
     /// The uniform distribution: one lobe of concentration 0.
@@ -28,8 +30,9 @@ public:
     /// 1 to `capacity` lobes around +z; weights are scaled to the sum 1, and one at least must be positive.
     explicit AxialLobes(std::span<const AxialLobe> lobes);
 
-    // Written out, to copy no more than the lobes there are.
+    /// Copies no more than the lobes there are.
     AxialLobes(const AxialLobes& other) { *this = other; }
+    /// Likewise.
     AxialLobes& operator=(const AxialLobes& other) {
         axis_ = other.axis_;
         size_ = other.size_;
@@ -47,15 +50,19 @@ public:
     /// The same lobes along another axis, of unit length.
     AxialLobes around(const Vec3& axis) const;
 
+    /// What the means of all lobes are on; unit length.
     const Vec3& axis() const { return axis_; }
+    /// Number of lobes, 1 to `capacity`.
     int size() const { return size_; }
     /// Concentration of a lobe, negative for a backward one.
     float kappa(int j) const { return kappa_[j]; }
     /// Weight of a lobe times its density at its mean, in 1/sr.
     float amplitude(int j) const { return amplitude_[j]; }
-    /// The same for whoever goes over whole blocks: `lanes` numbers, of which those of lobes that are not there are 0.
+    /// All concentrations, for whoever goes over whole blocks: lanes() numbers, 0 for lobes that are not there.
     const float* kappas() const { return kappa_; }
+    /// All amplitudes, likewise.
     const float* amplitudes() const { return amplitude_; }
+    /// size() rounded up to whole blocks of 8.
     int lanes() const { return (size_ + block - 1) / block * block; }
 
     /// Density at a unit direction, in 1/sr.

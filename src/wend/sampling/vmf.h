@@ -15,6 +15,7 @@ namespace wend {
 /// written in 1 - cos, the half square of the chord, and hold for concentrations from 0 to max_kappa in single
 /// precision.
 struct Vmf {
+    /// Largest concentration: beyond it single precision cannot tell directions of the lobe apart.
     static constexpr float max_kappa = 1e5f;
 
     /// Unit length.

@@ -28,6 +28,7 @@ inline Vec3 to_cosine_hemisphere(const Vec2& u) {
     const Vec2 d = to_disk(u);
     return {d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
 }
+/// The density of to_cosine_hemisphere(), in 1/sr; 0 below the horizon.
 inline float cosine_hemisphere_density(float cosine) {
     return std::max(0.0f, cosine) * inv_pi;
 }
@@ -51,6 +52,7 @@ inline Vec3 to_cone(const Vec2& u, float one_minus_cosine) {
     const float phi = 2 * pi * u.y;
     return {sine * std::cos(phi), sine * std::sin(phi), 1 - x};
 }
+/// The density of to_cone() within the cone, in 1/sr.
 inline float cone_density(float one_minus_cosine) {
     return 1 / (2 * pi * one_minus_cosine);
 }

@@ -29,14 +29,22 @@ struct EmitterView {
 /// cosine), and is seen within its lobe.
 class EmitterGuide {
 public:
+    /// Most lamps; those beyond are left out.
     static constexpr std::size_t most = 4;
+    /// One number a lamp, 0 for those that are not there.
     using PerEmitter = std::array<float, most>;
 
+    /// Of no lamp.
     EmitterGuide() = default;
+    /// What a view becomes in a medium of this extinction, of which the first `channels` channels, 1 or 3, are asked
+    /// for. Refers to the view's lamps.
     EmitterGuide(const EmitterView& view, const Rgb& extinction, int channels);
 
+    /// EmitterView::diffuse, at least 1e-20, so that walks always have somewhere to go.
     const Rgb& diffuse() const { return diffuse_; }
+    /// How many lamps there are.
     std::size_t size() const { return size_; }
+    /// Directions in which a walk flies out to a lamp.
     const Vmf& lobe(std::size_t lamp) const { return lamps_[lamp].lobe; }
 
     /// The densities of the lobes in a direction.

@@ -25,7 +25,9 @@ public:
     /// those of a discrete mode of the phase function that the walk is going to use.
     HalfSpaceMode(double k, double albedo, std::span<const double> source);
 
+    /// Of flights at cosine mu to the normal: over that of the medium, positive.
     float rate(float mu) const { return 1 - k_ * mu; }
+    /// By how much light grows per mean free path, in [0, 1); 0: no preference.
     float k() const { return k_; }
     /// S(mu) up to a factor.
     float source(float mu) const {

@@ -18,6 +18,7 @@ struct InteriorGuide {
     /// One number each for classical and for guided sampling.
     using PerTechnique = std::array<float, 2>;
 
+    /// What walks go through.
     HomogeneousMedium medium;
     /// Modes that decay ever faster, the first not at all and the last as the medium's own; for one channel where all
     /// channels are alike, or for three.
@@ -29,12 +30,14 @@ struct InteriorGuide {
     /// Whether walks can be connected to lamps where they meet the boundary, as they can if it is rough.
     bool connects_at_boundary = false;
 
+    /// Colour channels that are told apart: 1 or 3.
     int channels() const { return static_cast<int>(modes.size()); }
     /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.
     int level(float steepness) const {
         const auto last = static_cast<float>(modes[0].size() - 1);
         return static_cast<int>(std::lround(std::clamp(steepness, 0.0f, 1.0f) * last));
     }
+    /// A mode by its channel and its level().
     const HalfSpaceMode& mode(int channel, int level) const {
         return modes[static_cast<std::size_t>(channel)][static_cast<std::size_t>(level)];
     }

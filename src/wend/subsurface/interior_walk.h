@@ -14,10 +14,10 @@
 
 namespace wend {
 
-/// A flight, and the probability of passing its whole segment.
+/// How far a walk got, and how likely it was to get through.
 struct InteriorFlight {
-    Flight flight;
-    float pass_probability = 1;
+    Flight flight;               ///< its weight is complete
+    float pass_probability = 1;  ///< under the mixture, of passing the segment; 1 if it scatters
 };
 
 /// One interior walk in a medium is drawn by one technique, {classical, guided} x colour channels, and weighted by the
@@ -35,6 +35,7 @@ public:
     /// Begins an interior walk; `channels` are the probabilities of the walk's colour channels, `defensive_fraction`
     /// that of classical sampling. The guide is referred to.
     void enter(const InteriorGuide& guide, const Rgb& channels, float defensive_fraction);
+    /// The same with the guide's own share of classical sampling.
     void enter(const InteriorGuide& guide, const Rgb& channels) { enter(guide, channels, guide.defensive_fraction); }
 
     /// Whether anything but classical sampling may draw this interior walk: otherwise it need not be aimed.
@@ -42,8 +43,9 @@ public:
     /// From now on the boundary has this outward normal, and light decays by `steepness`, in [0, 1], relative to the
     /// medium's own decay.
     void aim(const Vec3& normal, float steepness = 1);
-    /// Whether the guide heads for lamps, and what it sees of them from now on.
+    /// Whether the guide heads for lamps: then it is to be told what it sees of them.
     bool heads_for_emitters() const { return is_lit_; }
+    /// What the walk sees of lamps from now on; their span is referred to.
     void aim(const EmitterView& view);
 
     /// Goes on in direction w, which no technique has drawn: at the entry, or where the boundary reflects.
@@ -52,10 +54,15 @@ public:
     /// Directions after a collision, given the one before. The walk is not changed, and must not change meanwhile.
     class Directions {
     public:
+        /// At a collision, for a walk that arrived along `before`. Refers to the walk and to the generator.
         Directions(const InteriorWalk& walk, const Vec3& before, Pcg32& random);
 
+        /// A direction, from a number of [0,1), which chooses the technique, and a point of [0,1)². A direction along a
+        /// mode takes further numbers from the generator.
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const;
+        /// Of any direction under the mixture, in 1/sr.
         float density(const Vec3& w) const;
+        /// Nothing: survival() judges walks instead.
         std::optional<Rgb> in_scattered() const { return std::nullopt; }
 
         /// A direction out to a lamp, for a connection to it at the boundary: the more often the more of the light that
