@@ -38,8 +38,8 @@ struct LearningContext {
 
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts
 /// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. What
-/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order. Records are told apart
-/// by their type, which is each learner's own.
+/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order. Records are told
+/// apart by their type, which is each learner's own.
 template <class L>
 concept Learner = requires(L& learner, const L& known, typename L::Records& records,
                            std::vector<typename L::Records>& all, const PassPlan& plan) {
