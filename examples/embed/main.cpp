@@ -204,6 +204,7 @@ public:
         mean_ += before / static_cast<double>(++count_);
         squares_ += before * (value - mean_);
     }
+    long count() const { return count_; }
     double mean() const { return mean_; }
     double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
     double standard_error() const { return std::sqrt(variance() / static_cast<double>(count_)); }
@@ -280,7 +281,7 @@ int main() {
     constexpr int samples = 128, passes = 7;
     Picture classical(width * height), guided(width * height), training(width * height);
     render(wend::ClassicalDirection(), 0, samples, classical);
-    // Surfaces and volumes have a field each: what they see differs. Half of the directions stay classical, the defence
+    // Surfaces and volumes have a field each: what they see differs. Some directions stay classical, the defence
     // against what the fields do not know yet. (The decision refers to the fields: new ones are assigned to them.)
     Field surface = Field::empty(bounds), volume = Field::empty(bounds);
     const wend::GuidedDirection<Field> directions(&surface, &volume);
