@@ -54,7 +54,7 @@ inline InteriorGuide::PerTechnique mix(const InteriorGuide::PerTechnique& a, con
 }
 
 /// A guide with this probability of classical sampling, in (0, 1]; `modes` are those of the medium
-/// (subsurface/half_space_modes.h has them). Throws InputError for numbers out of range, and for modes that are not as
+/// (subsurface/half_space_mode.h has them). Throws InputError for numbers out of range, and for modes that are not as
 /// InteriorGuide has them.
 InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
                              float defensive_fraction = 0.25f);
