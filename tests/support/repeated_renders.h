@@ -14,7 +14,7 @@ namespace wend::test {
 
 /// Eight renders with seeds from `settings.seed` on, or as many more as it takes to see a bias of 1 %.
 struct RepeatedRenders {
-    Moments mean;  ///< of the luminance of whole pictures
+    Moments mean;      ///< of the luminance of whole pictures
     double noise = 0;  ///< mean of squared differences of pictures in luminance, between renders that follow each other
 
     RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution) {
