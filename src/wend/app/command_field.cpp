@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -104,6 +105,41 @@ guide::Records records_in(const guide::Region* region, const guide::Field& field
     return found;
 }
 
+/// The lobes of a region as they are seen from a position: rows of a table, and JSON.
+struct Lobes {
+    std::vector<std::vector<std::string>> rows;
+    nlohmann::json json;
+};
+
+Lobes describe_lobes(const guide::Field& field, const guide::Region& region, const Vec3& position) {
+    const guide::VmfMixture incident = region.incident(position);
+    std::vector<std::vector<std::string>> rows = {
+        {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
+    const auto sums = field.lobe_sums(position);
+    nlohmann::json lobes = nlohmann::json::array();
+    for (int i = 0; i < incident.size(); ++i) {
+        const auto [weight, vmf] = incident.lobe(i);
+        const double inverse = static_cast<double>(region.inverse_distance()[i]);
+        const guide::LobeSums& seen = sums[static_cast<std::size_t>(i)];
+        const double records = guide::effective_records(seen);
+        const double misfit = guide::misfit(seen, region.mixture().lobe(i).vmf).total();
+        const Rgb colour = region.colours()[i];
+        rows.push_back({std::to_string(i + 1), fmt::format("{:.4f}", weight),
+                        fmt::format("{:.3f} {:.3f} {:.3f}", vmf.mean.x, vmf.mean.y, vmf.mean.z),
+                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far",
+                        fmt::format("{:.1f}", records), fmt::format("{:.3f}", misfit),
+                        fmt::format("{:.2f} {:.2f} {:.2f}", colour.r, colour.g, colour.b)});
+        lobes.push_back({{"weight", weight},
+                         {"mean", vector_json(vmf.mean)},
+                         {"kappa", vmf.kappa},
+                         {"records", json_number(records)},
+                         {"misfit", json_number(misfit)},
+                         {"colour", {colour.r, colour.g, colour.b}},
+                         {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
+    }
+    return {std::move(rows), std::move(lobes)};
+}
+
 nlohmann::json show_position(const FieldOptions& options, const std::array<Part, 2>& parts,
                              const std::optional<RecordSamples>& samples, const Streams& streams) {
     const Vec3 position = parse_position(options.at);
@@ -122,31 +158,8 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     const bool floating_point = std::filesystem::path(options.picture).extension() == ".exr";
     write_picture(options.picture, floating_point ? numbers_picture(maps) : colours_picture(maps, incident));
 
-    std::vector<std::vector<std::string>> rows = {
-        {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
-    const auto sums = part.field->lobe_sums(position);
+    const auto [rows, lobes] = describe_lobes(*part.field, *region, position);
     const guide::ScatteredLight& light = *part.field->scattered_light(position);
-    nlohmann::json lobes = nlohmann::json::array();
-    for (int i = 0; i < incident.size(); ++i) {
-        const auto [weight, vmf] = incident.lobe(i);
-        const double inverse = static_cast<double>(region->inverse_distance()[i]);
-        const guide::LobeSums& seen = sums[static_cast<std::size_t>(i)];
-        const double records = guide::effective_records(seen);
-        const double misfit = guide::misfit(seen, region->mixture().lobe(i).vmf).total();
-        const Rgb colour = region->colours()[i];
-        rows.push_back({std::to_string(i + 1), fmt::format("{:.4f}", weight),
-                        fmt::format("{:.3f} {:.3f} {:.3f}", vmf.mean.x, vmf.mean.y, vmf.mean.z),
-                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far",
-                        fmt::format("{:.1f}", records), fmt::format("{:.3f}", misfit),
-                        fmt::format("{:.2f} {:.2f} {:.2f}", colour.r, colour.g, colour.b)});
-        lobes.push_back({{"weight", weight},
-                         {"mean", vector_json(vmf.mean)},
-                         {"kappa", vmf.kappa},
-                         {"records", json_number(records)},
-                         {"misfit", json_number(misfit)},
-                         {"colour", {colour.r, colour.g, colour.b}},
-                         {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
-    }
     if (options.common.json != "-") {
         streams.out
             << fmt::format(
@@ -168,7 +181,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
             {"classical_share", region->defensive_fraction()},
             {"connected_fluence", light.connected.fluence},
             {"reference", vector_json(region->reference())},
-            {"lobes", std::move(lobes)},
+            {"lobes", lobes},
             {"records", told ? nlohmann::json(told->size()) : nlohmann::json(nullptr)},
             {"picture", options.picture}};
 }
