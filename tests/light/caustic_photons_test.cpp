@@ -172,7 +172,7 @@ TEST(CausticPhotons, DoNotDependOnThreads) {
     }
 }
 
-// Three ways, eight renders of 8 x 8 pixels by 8192 samples each: 13 million samples.
+// Three ways, sixteen renders of 8 x 8 pixels by 8192 samples each: 25 million samples.
 TEST(SlowCausticPhotons, TeachTheGuideOfWhatAMirrorShows) {
     constexpr int resolution = 8;
     constexpr float size = 0.5f, radiance = 20, albedo = 0.5f;

@@ -132,7 +132,7 @@ TEST(LightSelection, AreLeftToTheSceneWhereThereAreTooManyOrOne) {
     }
 }
 
-// Three ways, eight renders of 16 x 16 pixels by 512 samples each: 3 million samples.
+// Three ways, sixteen renders of 16 x 16 pixels by 512 samples each: 6 million samples.
 TEST(SlowLightSelection, GiveTheSamePictureWithLessNoise) {
     const Scene scene(lamps());
     RenderSettings settings;

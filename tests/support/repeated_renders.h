@@ -12,14 +12,14 @@
 
 namespace wend::test {
 
-/// Eight renders with seeds from `settings.seed` on, or as many more as it takes to see a bias of 1 %.
+/// Sixteen renders with seeds from `settings.seed` on, or as many more as it takes to see a bias of 1 %.
 struct RepeatedRenders {
     Moments mean;      ///< of the luminance of whole pictures
     double noise = 0;  ///< mean of squared differences of pictures in luminance, between renders that follow each other
 
     RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution) {
         Image last;
-        constexpr int least = 8, most = 64;
+        constexpr int least = 16, most = 64;
         constexpr double enough = 0.0015;
         int i = 0;
         for (; i < least || (i < most && mean.relative_error() > enough); ++i, ++settings.seed) {

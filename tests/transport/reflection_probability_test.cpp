@@ -117,7 +117,7 @@ constexpr int resolution = 6;
 
 class DarkGlass : public testing::TestWithParam<float> {};
 
-// Three ways, eight renders of 6 x 6 pixels by 4096 samples each, or more: 3.5 million samples.
+// Three ways, sixteen renders of 6 x 6 pixels by 4096 samples each, or more: 7 million samples.
 TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
     SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, resolution);
