@@ -51,7 +51,7 @@ typedef enum wend_status {
     WEND_BAD_ARGUMENT = 2,
     /** Bytes to load are no field, of another version, truncated, or were changed. */
     WEND_BAD_BYTES = 3,
-    /** wend_field_save() needs more bytes; it has told how many. */
+    /** wend_field_save() needs more bytes; it has said how many. */
     WEND_BUFFER_TOO_SMALL = 4,
     /** Memory could not be had; nothing was made. */
     WEND_OUT_OF_MEMORY = 5,

@@ -19,7 +19,7 @@ struct ArrivingLight {
     Vec3 mean{0, 0, 0};
 };
 
-/// How many sides are told apart: three axes, two signs.
+/// How many sides are distinguished: three axes, two signs.
 inline constexpr int sides = 6;
 /// The side of a surface, in [0, sides): twice the axis that is nearest to its normal, plus 1 if that points down it.
 inline int side_of(const Vec3& normal) {

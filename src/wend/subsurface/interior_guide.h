@@ -30,7 +30,7 @@ struct InteriorGuide {
     /// Whether walks can be connected to lamps where they meet the boundary, as they can if it is rough.
     bool connects_at_boundary = false;
 
-    /// Colour channels that are told apart: 1 or 3.
+    /// Colour channels that are distinguished: 1 or 3.
     int channels() const { return static_cast<int>(modes.size()); }
     /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.
     int level(float steepness) const {

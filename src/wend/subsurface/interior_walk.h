@@ -43,7 +43,7 @@ public:
     /// From now on the boundary has this outward normal, and light decays by `steepness`, in [0, 1], relative to the
     /// medium's own decay.
     void aim(const Vec3& normal, float steepness = 1);
-    /// Whether the guide heads for lamps: then it is to be told what it sees of them.
+    /// Whether the guide heads for lamps: then it is to be given what it sees of them.
     bool heads_for_emitters() const { return is_lit_; }
     /// What the walk sees of lamps from now on; their span is referred to.
     void aim(const EmitterView& view);

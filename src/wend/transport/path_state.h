@@ -66,13 +66,7 @@ struct PathState {
     /// that has become heavy is split again, and all of them together would know no bound.
     float weight_to_bound() const {
         constexpr float free_copies = 8;
-        const bool is_bounded = std::visit(
-            [](const auto& t) {
-                return requires {
-                    t.bounds_weights;
-                };
-            },
-            technique);
+        const bool is_bounded = std::visit([](const auto& t) { return t.bounds_weights; }, technique);
         return is_bounded ? 0.0f : weight.value() * std::max(1.0f, weight.copies / free_copies);
     }
 

@@ -13,6 +13,8 @@ namespace wend {
 
 /// Where a path has nothing of its own: it follows the render's decisions.
 struct FieldTechnique {
+    static constexpr bool bounds_weights = false;
+
     template <class Decisions>
     auto directions(const Decisions& decisions, const VolumeScattering& f, const Vertex& v, float weight,
                     Pcg32& /*random*/) const {
@@ -22,6 +24,8 @@ struct FieldTechnique {
 
 /// In a dense medium, where this interior walk is left to classical sampling alone.
 struct ClassicalTechnique {
+    static constexpr bool bounds_weights = false;
+
     template <class Decisions>
     auto directions(const Decisions& /*decisions*/, const VolumeScattering& f, const Vertex& v, float /*weight*/,
                     Pcg32& /*random*/) const {
@@ -29,14 +33,14 @@ struct ClassicalTechnique {
     }
 };
 
-/// A technique says how directions are drawn at a path's collisions: directions(decisions, f, vertex, weight, random).
-/// It may do more, which the path tracer asks of each that can (InteriorTechnique can do all of it):
+/// A technique says how directions are drawn at a path's collisions: directions(decisions, f, vertex, weight, random),
+/// and whether it bounds its own weights, so that decisions at surfaces need not see to that (`bounds_weights`). It may
+/// do more, which the path tracer asks of each that can (InteriorTechnique can do all of it):
 /// - enter(): learn that the path is at a boundary; turn() and head(): which direction it goes on in;
 /// - draw_distance() and fly(): draw free flights;
-/// - survival(): play roulette;
-/// - bounds_weights: its own weights are bounded, so that decisions at surfaces need not see to that.
-/// And its directions may have towards(), the density of what a path to a light meets, and sample_emitters(), lights to
-/// connect to at the boundary ahead.
+/// - survival(): play roulette.
+/// And its directions may have towards(), the interior walk on the way to a light, whose densities connections ask for,
+/// and sample_emitters(), ways to lights that are connected to at the boundary ahead.
 using PathTechnique = std::variant<FieldTechnique, ClassicalTechnique, InteriorTechnique>;
 
 /// That of a path which enters a medium; `mix` is null where the medium is not dense.

@@ -445,6 +445,7 @@ private:
         result_.sample.normal = normal;
         result_.sample.depth = path_.now.travelled;
     }
+
     const PathTracer& tracer_;
     const Scene& scene_;
     const Decisions& d_;
