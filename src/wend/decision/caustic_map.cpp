@@ -123,6 +123,21 @@ void spread_groups(std::span<const CausticLobe> caustics, const Grouping& groupi
     }
 }
 
+float light_of(std::span<const CausticMap::Group> groups) {
+    return std::accumulate(groups.begin(), groups.end(), 0.0f, [](float sum, const CausticMap::Group& group) {
+        return sum + mean_value(group.light);
+    });
+}
+
+/// Of the first so many groups those become the bright ones that are.
+template <class IsBright>
+void leave_bright(CausticMap::Cell& cell, std::size_t count, const IsBright& is_bright) {
+    const std::span groups(cell.groups.data(), count);
+    const auto dim = std::partition(groups.begin(), groups.end(), is_bright);
+    cell.bright = static_cast<std::size_t>(dim - groups.begin());
+    cell.light = light_of(groups.first(cell.bright));
+}
+
 CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& bounds) {
     const Vec3 size = bounds.size();
     const Vec3 around = Vec3(1, 1, 1) * (2 * std::max({size.x, size.y, size.z, 1e-6f}));
@@ -142,13 +157,10 @@ CausticMap::Cell cell_of(std::span<const CausticLobe> caustics, const Box3& boun
     place_groups(caustics, grouping, groups);
     turn_groups(caustics, grouping, members, 1 / std::max({size.x, size.y, size.z, 1e-6f}), groups);
     spread_groups(caustics, grouping, members, groups);
-    const auto add_light = [](float sum, const CausticMap::Group& group) { return sum + mean_value(group.light); };
-    const float all = std::accumulate(groups.begin(), groups.end(), 0.0f, add_light);
-    const auto dim = std::partition(groups.begin(), groups.end(), [all](const CausticMap::Group& group) {
+    const float all = light_of(groups);
+    leave_bright(cell, cell.count, [all](const CausticMap::Group& group) {
         return vmf_peak(group.lobe.kappa) * mean_value(group.light) >= least_contrast * inv_4pi * all;
     });
-    cell.bright = static_cast<std::size_t>(dim - groups.begin());
-    cell.light = std::accumulate(groups.begin(), dim, 0.0f, add_light);
     return cell;
 }
 
@@ -202,6 +214,17 @@ CausticMap::CausticMap(std::vector<CausticLobe> caustics) : size_(caustics.size(
     }
 }
 
+CausticMap CausticMap::keeping(const std::function<bool(const Cell&, const Group&)>& is_worth) const {
+    CausticMap kept = *this;
+    bool any = false;
+    for (Cell& cell : kept.cells_) {
+        const Cell before = cell;
+        leave_bright(cell, cell.bright, [&](const Group& group) { return is_worth(before, group); });
+        any |= cell.bright > 0;
+    }
+    return any ? kept : CausticMap();
+}
+
 const CausticMap::Cell* CausticMap::find(const Vec3& position) const {
     if (nodes_.empty()) {
         return nullptr;
@@ -211,7 +234,7 @@ const CausticMap::Cell* CausticMap::find(const Vec3& position) const {
         node = &nodes_[node->next + (position[node->axis] < node->split ? 0 : 1)];
     }
     const Cell& cell = cells_[node->next];
-    return cell.reach.intersects(position) ? &cell : nullptr;
+    return cell.bright > 0 && cell.reach.intersects(position) ? &cell : nullptr;
 }
 
 Vec3 CausticLobeMixture::sample(float u, const Vec2& u2) const {

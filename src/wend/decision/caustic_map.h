@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace wend {
@@ -57,6 +58,10 @@ public:
     CausticMap() = default;
     /// All caustic lobes of surfaces, or all of media.
     explicit CausticMap(std::vector<CausticLobe> caustics);
+
+    /// The same map with those bright groups alone that are worth drawing from; none where no group is.
+    /// `is_worth(cell, group)` is asked of each.
+    CausticMap keeping(const std::function<bool(const Cell&, const Group&)>& is_worth) const;
 
     /// What is known around a position, or null.
     const Cell* find(const Vec3& position) const;

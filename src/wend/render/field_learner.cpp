@@ -6,10 +6,35 @@
 namespace wend {
 namespace {
 
-// Photons from lights to smooth surfaces: as many as there have been walks, between these.
-constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
+// Photons from lights to smooth surfaces: one to so many walks, between these.
+constexpr int fewest_photons = 1 << 12, most_photons = 1 << 20;
+constexpr double walks_to_a_photon = 16, walks_to_an_idle_photon = 64;
+
 // More vertices of one walk say little that is new: they are correlated.
 constexpr std::size_t most_records_of_walk = 64;
+
+/// The groups of caustic lobes that directions have to be drawn from. Where the fluence of a cell is E, of which a group
+/// brings the share s within a lobe of density g, sampling with a density p finds the second moment
+///     E² s² ∫ g² / p dω  ≈  E² s² g(mean) / (2 p(mean))
+/// of it. Where that is less than E² times this, others' noise is more; where the field has learned the lobe, p is
+/// enough. What the field knows nothing of is taken to be all that there is.
+CausticMap beyond(const guide::Field& field, const CausticMap& caustics, bool in_volume) {
+    constexpr float most_missed = 1;
+    return caustics.keeping([&](const CausticMap::Cell& cell, const CausticMap::Group& group) {
+        const guide::Region* region = field.find(group.place);
+        if (!region) {
+            return false;
+        }
+        if (!(region->fluence() > 0)) {
+            return true;
+        }
+        const float share = cell.fluence(in_volume) * mean_value(group.light) / (cell.light * region->fluence());
+        const float classical = region->defensive_fraction();
+        const float density = classical * inv_4pi +
+                              (1 - classical) * region->incident(group.place).density(group.lobe.mean);
+        return share * share * vmf_peak(group.lobe.kappa) > 2 * most_missed * density;
+    });
+}
 
 }  // namespace
 
@@ -27,13 +52,22 @@ void FieldLearner::begin(const PassPlan& plan) {
     if (!records_ || !preset.direction) {
         return;
     }
-    const int due =
-        static_cast<int>(std::clamp(context_.pixels * plan.first, double{fewest_photons}, double{most_photons}));
-    // Anew, once there may be twice as many.
-    if (due >= 2 * photons_ || (due == most_photons && photons_ < due)) {
-        caustics_ = CausticPhotons(context_.scene, due, context_.settings.seed, context_.settings.threads);
-        photons_ = due;
+    if (fields_.surface.is_trained() || fields_.volume.is_trained()) {
+        send_photons(plan.first);
     }
+}
+
+void FieldLearner::send_photons(int samples) {
+    const bool are_idle = photons_sent_ > 0 && surface_caustics_.size() + volume_caustics_.size() == 0;
+    const double wanted = context_.pixels * samples / (are_idle ? walks_to_an_idle_photon : walks_to_a_photon);
+    const int due = static_cast<int>(std::clamp(wanted, double{fewest_photons}, double{most_photons}));
+    // Anew, once there may be twice as many.
+    if (due >= 2 * photons_sent_ || (due == most_photons && photons_sent_ < due)) {
+        photons_ = CausticPhotons(context_.scene, due, context_.settings.seed, context_.settings.threads);
+        photons_sent_ = due;
+    }
+    surface_caustics_ = beyond(fields_.surface, photons_.on_surfaces(), false);
+    volume_caustics_ = beyond(fields_.volume, photons_.in_media(), true);
 }
 
 void FieldLearner::keep(Records& records, bool is_recorded) const {

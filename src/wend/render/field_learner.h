@@ -35,13 +35,18 @@ public:
     double recorded_share(double walks) const { return budget_.share(walks); }
     const guide::Fields& fields() const { return fields_; }
     guide::Fields take_fields() { return std::move(fields_); }
-    const CausticPhotons& caustics() const { return caustics_; }
+    /// What photons know that the fields do not.
+    const CausticMap& surface_caustics() const { return surface_caustics_; }
+    const CausticMap& volume_caustics() const { return volume_caustics_; }
 
 private:
+    void send_photons(int samples);
+
     LearningContext context_;
     guide::Fields fields_;
-    CausticPhotons caustics_;
-    int photons_ = 0;  ///< that were sent
+    CausticPhotons photons_;
+    int photons_sent_ = 0;
+    CausticMap surface_caustics_, volume_caustics_;
     RecordBudget budget_;
     bool records_ = false;
 };

@@ -153,13 +153,13 @@ private:
             return;
         }
         const guide::Fields& fields = learners_.get<FieldLearner>().fields();
-        const CausticPhotons& caustics = learners_.get<FieldLearner>().caustics();
+        const auto& learned = learners_.get<FieldLearner>();
         const GuidedDistance distance(
             &fields.surface, &fields.volume, classical_flights,
             preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume,
-                                        preset.direction ? std::nullopt : std::optional(1.0f), &caustics.on_surfaces(),
-                                        &caustics.in_media());
+                                        preset.direction ? std::nullopt : std::optional(1.0f), &learned.surface_caustics(),
+                                        &learned.volume_caustics());
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
                 run_with(GuidedDecisions{distance, direction, survival});
