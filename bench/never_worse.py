@@ -131,7 +131,7 @@ class Judge:
     def judge(self, case, seed, results):
         """All budgets of a scene with one seed."""
         self.make_reference(case)
-        price = 1.5  # of a sample of the default, in classical ones: a guess, for the first budget
+        price = 1.1  # of a sample of the default, in classical ones: a guess, for the first budget
         for budget in self.arguments.budgets:
             key = {"scene": case.name, "seed": seed, "budget": budget}
             if results.has(**key):

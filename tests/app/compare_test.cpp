@@ -119,17 +119,19 @@ TEST_F(Compare, ShowsWhatWalksDid) {
     ASSERT_EQ(result.status, 0) << result.err;
     const std::string page = test::read_text(folder_.path() / "report" / "index.html");
     for (const char* text : {"<b>reference</b>", "<b>classical</b>", "spp, relMSE", "<h2>Error</h2>",
-                             "<h2>Scattering</h2>", "<h2>Walk length</h2>", "<h2>Splitting</h2>"}) {
+                             "<h2>Scattering</h2>", "<h2>Walk length</h2>", "<h2>Guiding</h2>", "<h2>Splitting</h2>"}) {
         EXPECT_NE(page.find(text), std::string::npos) << text;
     }
     const Picture picture = read_picture(folder_.file("report/classical.exr"));
-    ASSERT_EQ(picture.layers.size(), 3u);
+    ASSERT_EQ(picture.layers.size(), 4u);
     for (const Layer& layer : picture.layers) {
         const auto [least, most] = std::minmax_element(layer.values.begin(), layer.values.end());
         if (layer.name == "scatter") {
             EXPECT_GE(*least, 0);
             EXPECT_LE(*most, 1);
             EXPECT_GT(*most, 0) << "the room is foggy";
+        } else if (layer.name == "guided") {
+            EXPECT_EQ(*most, 0) << "classical walks are not guided";
         } else if (layer.name == "branches") {
             EXPECT_EQ(*least, 1);
             EXPECT_EQ(*most, 1) << "classical walks are not split";

@@ -133,8 +133,8 @@ TEST_F(Program, RenderReportsTheKeysOfTheContract) {
         ASSERT_EQ(result.status, 0) << result.err;
         const json report = result.json();
         EXPECT_EQ(keys(report),
-                  (std::vector<std::string>{"field_bytes", "interrupted", "paths", "rejected_samples", "seconds",
-                                            "segments", "settings", "spp", "training_seconds"}));
+                  (std::vector<std::string>{"field_bytes", "guiding", "interrupted", "paths", "rejected_samples",
+                                            "seconds", "segments", "settings", "spp", "training_seconds"}));
         EXPECT_EQ(report["spp"], 3);
         EXPECT_EQ(report["paths"], 3 * 16 * 12);
         EXPECT_GE(report["segments"], report["paths"]);

@@ -61,6 +61,35 @@ TEST(CausticLobes, OneAloneIsKnownWhereItArrived) {
     EXPECT_EQ(map.find({1, 2, 4}), nullptr);
 }
 
+TEST(CausticLobes, ThoseThatAreNotWorthItAreLeftOut) {
+    const CausticMap map(two_lamps(4000, 3, 0.02f));
+    const CausticMap kept = map.keeping(
+        [](const CausticMap::Cell&, const CausticMap::Group& group) { return dot(group.lobe.mean, faint) > 0.9f; });
+    Pcg32 random(3);
+    int found = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 p = place(random);
+        const CausticMap::Cell *cell = kept.find(p), *all = map.find(p);
+        if (!cell || cell->bright == 0) {
+            continue;
+        }
+        ++found;
+        ASSERT_NE(all, nullptr);
+        ASSERT_GE(cell->bright, 1u);
+        EXPECT_LT(cell->light, all->light);
+        float light = 0;
+        for (std::size_t g = 0; g < cell->bright; ++g) {
+            EXPECT_GT(dot(cell->groups[g].lobe.mean, faint), 0.9f);
+            light += mean_value(cell->groups[g].light);
+        }
+        EXPECT_FLOAT_EQ(cell->light, light);
+    }
+    EXPECT_GT(found, 900);
+    const CausticMap none = map.keeping([](const CausticMap::Cell&, const CausticMap::Group&) { return false; });
+    EXPECT_EQ(none.size(), 0u);
+    EXPECT_EQ(none.find({0.5f, 0.5f, 0}), nullptr);
+}
+
 TEST(CausticLobes, LightIsNeitherLostNorMade) {
     constexpr int n = 10000;
     const CausticMap map(two_lamps(n, 10, 0.02f));

@@ -70,16 +70,16 @@ TEST(AdjointRouletteSplitting, KeepsTheExpectedWeight) {
 TEST(AdjointRouletteSplitting, IsReluctantToEndWalksWhereSamplesVaryLittle) {
     // A second moment of four times the variance halves the window's lower edge.
     const AdjointRouletteSplitting quiet(true, true, 1.0 / 3);
-    EXPECT_NEAR(mean_continuations(quiet, 0.17f).copies, 1, 1e-9);
-    EXPECT_NEAR(mean_continuations(quiet, 0.16f).copies, 0.5, 0.01);
-    EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, noisy), 0.34f).copies, 1, 1e-9);
-    EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, noisy), 0.33f).copies, 0.5, 0.01);
+    EXPECT_NEAR(mean_continuations(quiet, 0.084f).copies, 1, 1e-9);
+    EXPECT_NEAR(mean_continuations(quiet, 0.083f).copies, 0.5, 0.01);
+    EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, noisy), 0.167f).copies, 1, 1e-9);
+    EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, noisy), 0.166f).copies, 0.5, 0.01);
     // Splitting does not depend on it.
     EXPECT_NEAR(mean_continuations(quiet, 2.5f).copies, 2.5, 0.02);
-    // What is worth a thirtieth is ended without any noise, or where that is not known.
+    // What is worth a sixtieth is ended without any noise, or where that is not known.
     for (const double variance : {0.0, 1e-6, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, variance), 0.034f).copies, 1, 1e-9);
-        EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, variance), 0.033f).copies, 0.5, 0.01);
+        EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, variance), 0.017f).copies, 1, 1e-9);
+        EXPECT_NEAR(mean_continuations(AdjointRouletteSplitting(true, true, variance), 0.0166f).copies, 0.5, 0.01);
     }
 }
 

@@ -49,8 +49,10 @@ TEST(Film, TellsWhatWalksDid) {
     sample.scattered = true;
     sample.segments = 5;
     sample.branches = 4;
+    sample.guided = true;
     film.add({0, 0}, sample);
     const Picture picture = film.picture();
+    EXPECT_EQ(layer(picture, "guided").values, (std::vector<float>{0.5f, 0}));
     EXPECT_EQ(layer(picture, "scatter").values, (std::vector<float>{0.5f, 0}));
     EXPECT_EQ(layer(picture, "segments").values, (std::vector<float>{6, 0}));
     EXPECT_EQ(layer(picture, "branches").values, (std::vector<float>{2.5f, 0}));

@@ -197,7 +197,7 @@ TEST(Render, TellsNoMoreThanItsBudget) {
     const auto told_by = [&](int threads, double budget) {
         Told told;
         RenderSettings settings;
-        settings.preset = parse_preset("full");
+        settings.preset = parse_preset("distance+direction+roulette+splitting");
         settings.samples = 31;
         settings.seed = 1;
         settings.threads = threads;
@@ -250,8 +250,11 @@ TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
     EXPECT_EQ(to_string(parse_preset("splitting+direction")), "direction+splitting");
     EXPECT_EQ(to_string(parse_preset("scatter+distance")), "distance");
     EXPECT_EQ(parse_preset("distance"), parse_preset("scatter+distance"));
-    EXPECT_EQ(parse_preset("distance+direction+roulette+splitting"), parse_preset("full"));
     EXPECT_EQ(to_string(parse_preset("full")), "full");
+    // All decisions, but everywhere.
+    const Preset everywhere = parse_preset("distance+direction+roulette+splitting");
+    EXPECT_FALSE(everywhere.where_it_pays);
+    EXPECT_EQ(to_string(everywhere), "distance+direction+roulette+splitting");
     try {
         parse_preset("directions");
         FAIL();

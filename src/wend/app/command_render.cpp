@@ -1,4 +1,5 @@
 #include <wend/app/commands.h>
+#include <wend/app/comparison.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/progress.h>
 #include <wend/app/session.h>
@@ -110,6 +111,7 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
             {"training_seconds", statistics.training_seconds},
             {"paths", statistics.counts.paths},
             {"segments", statistics.counts.segments},
+            {"guiding", kinds_json(statistics.kinds)},
             {"field_bytes", statistics.field_bytes},
             {"rejected_samples", statistics.counts.rejected},
             {"interrupted", statistics.interrupted},
@@ -139,6 +141,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     settings.seconds = options.seconds;
     settings.passes = passes;
     RecordSamples records;
+    settings.keeps_fields = !options.save_field.empty() || !options.save_records.empty();
     if (!options.save_records.empty()) {
         settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
     }

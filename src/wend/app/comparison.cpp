@@ -106,6 +106,7 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
         row.flip = flip(run.image, reference.average()).mean;
         row.image = std::move(run.image);
         row.walks = std::move(run.walks);
+        row.kinds = run.statistics.kinds;
         row.convergence = {to_string(ways[p]), points[p][median]};
         rows.push_back(std::move(row));
     }
@@ -119,15 +120,42 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
     return rows;
 }
 
+nlohmann::json kinds_json(const std::vector<WalkKind>& kinds) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const WalkKind& kind : kinds) {
+        const double price = kind.squared_error * kind.work, first = kinds[0].squared_error * kinds[0].work;
+        list.push_back({{"sampling", to_string(kind.preset)},
+                        {"share", kind.share},
+                        {"squared_error", json_number(kind.squared_error)},
+                        {"work", json_number(kind.work)},
+                        {"gain", price > 0 && first > 0 ? json_number(first / price) : nlohmann::json(nullptr)}});
+    }
+    return list;
+}
+
+namespace {
+
+/// Of walks, those that were guided.
+double guided_share(const std::vector<WalkKind>& kinds) {
+    double share = 0;
+    for (const WalkKind& kind : kinds) {
+        share += kind.preset.is_classical() ? 0.0 : kind.share;
+    }
+    return share;
+}
+
+}  // namespace
+
 std::string comparison_table(const std::vector<ComparisonRow>& rows) {
     std::vector<std::vector<std::string>> table = {
-        {"sampling", "", "spp", "seconds", "relMSE", "trimmed", "99.99 %", "FLIP", "ratio"}};
+        {"sampling", "", "spp", "guided", "seconds", "relMSE", "trimmed", "99.99 %", "FLIP", "ratio"}};
     for (const ComparisonRow& r : rows) {
         const Metrics& m = r.metrics;
         table.push_back({to_string(r.way), ablation_role(r.way.preset), fmt::format("{:.0f}", r.samples),
-                         fmt::format("{:.2f}", r.seconds), fmt::format("{:.4g}", m.relmse),
-                         fmt::format("{:.4g}", m.relmse_trimmed), fmt::format("{:.4g}", m.error_p9999),
-                         fmt::format("{:.4f}", r.flip), r.ratio ? fmt::format("{:.2f}", *r.ratio) : "-"});
+                         fmt::format("{:.0f} %", 100 * guided_share(r.kinds)), fmt::format("{:.2f}", r.seconds),
+                         fmt::format("{:.4g}", m.relmse), fmt::format("{:.4g}", m.relmse_trimmed),
+                         fmt::format("{:.4g}", m.error_p9999), fmt::format("{:.4f}", r.flip),
+                         r.ratio ? fmt::format("{:.2f}", *r.ratio) : "-"});
     }
     return text_table(table, 2);
 }
@@ -144,6 +172,7 @@ nlohmann::json comparison_json(const std::vector<ComparisonRow>& rows) {
                         {"mse", json_number(r.metrics.mse)},
                         {"mape", json_number(r.metrics.mape)},
                         {"flip", json_number(r.flip)},
+                        {"guiding", kinds_json(r.kinds)},
                         {"ratio", r.ratio ? json_number(*r.ratio) : nlohmann::json(nullptr)}});
     }
     return list;

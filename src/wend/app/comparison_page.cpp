@@ -49,6 +49,7 @@ std::vector<WalkMap> walk_maps(const std::vector<ComparisonRow>& rows) {
         {"segments",
          {"Walk length", "segments a sample, of all branches",
           common_scale(rows, "segments", Kind::logarithmic, 1.0f)}},
+        {"guided", {"Guiding", "share of walks that were guided", {Kind::linear, 0.0f, 1.0f}}},
         {"branches", {"Splitting", "branches a sample", common_scale(rows, "branches", Kind::logarithmic, 1.0f)}}};
 }
 

@@ -124,9 +124,8 @@ void spread_groups(std::span<const CausticLobe> caustics, const Grouping& groupi
 }
 
 float light_of(std::span<const CausticMap::Group> groups) {
-    return std::accumulate(groups.begin(), groups.end(), 0.0f, [](float sum, const CausticMap::Group& group) {
-        return sum + mean_value(group.light);
-    });
+    return std::accumulate(groups.begin(), groups.end(), 0.0f,
+                           [](float sum, const CausticMap::Group& group) { return sum + mean_value(group.light); });
 }
 
 /// Of the first so many groups those become the bright ones that are.
@@ -234,7 +233,7 @@ const CausticMap::Cell* CausticMap::find(const Vec3& position) const {
         node = &nodes_[node->next + (position[node->axis] < node->split ? 0 : 1)];
     }
     const Cell& cell = cells_[node->next];
-    return cell.bright > 0 && cell.reach.intersects(position) ? &cell : nullptr;
+    return cell.reach.intersects(position) ? &cell : nullptr;
 }
 
 Vec3 CausticLobeMixture::sample(float u, const Vec2& u2) const {

@@ -128,7 +128,7 @@ public:
         /// A direction, from a number of [0,1), which chooses where it is drawn from, and a point of [0,1)²; nothing
         /// where it would carry nothing.
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const {
-            if (!product_ && caustic_share_ == 0) {
+            if (caustic_share_ == 0 && (!product_ || defensive_fraction_ >= 1)) {
                 return f_.sample(u, u2);
             }
             const float own_share = product_ ? defensive_fraction_ : 1.0f;
@@ -168,7 +168,8 @@ public:
         /// Per steradian, of any direction, however it might be drawn: for multiple importance sampling. Discrete ones
         /// have none.
         float density(const Vec3& w) const {
-            const float others = product_ ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
+            const float others =
+                product_ && defensive_fraction_ < 1 ? mixed(f_.density(w), product_->density(w)) : f_.density(w);
             return caustic_share_ > 0 ? (1 - caustic_share_) * others + caustic_share_ * caustic_lobes_.density(w)
                                       : others;
         }

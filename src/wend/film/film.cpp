@@ -44,6 +44,7 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
     p.depth += sample.depth;
     ++p.count;
     p.scattered += sample.scattered ? 1 : 0;
+    p.guided += sample.guided ? 1 : 0;
     p.segments += sample.segments;
     p.branches += sample.branches;
 }
@@ -221,13 +222,15 @@ std::vector<Layer> Film::walk_layers() const {
     Layer scatter{"scatter", {"P"}, {}};
     Layer segments{"segments", {"N"}, {}};
     Layer branches{"branches", {"N"}, {}};
+    Layer guided{"guided", {"P"}, {}};
     for (const Pixel& p : pixels_) {
         const double scale = p.samples() > 0 ? 1.0 / p.samples() : 0.0;
         scatter.values.push_back(static_cast<float>(p.scattered * scale));
+        guided.values.push_back(static_cast<float>(p.guided * scale));
         segments.values.push_back(static_cast<float>(static_cast<double>(p.segments) * scale));
         branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));
     }
-    return {std::move(scatter), std::move(segments), std::move(branches)};
+    return {std::move(scatter), std::move(segments), std::move(branches), std::move(guided)};
 }
 
 double Film::relative_noise() const {

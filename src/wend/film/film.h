@@ -17,6 +17,7 @@ struct FilmSample {
     Vec3 normal{0, 0, 0};
     float depth = 0;             ///< distance to the first vertex; 0 where there is none
     bool scattered = false;      ///< whether the first vertex was in a medium
+    bool guided = false;         ///< whether any decision was
     std::uint32_t segments = 0;  ///< flights to a collision, surface or interface, of all branches
     std::uint32_t branches = 1;  ///< 1 and one more for each copy that splitting made
 };
@@ -60,7 +61,8 @@ public:
     Picture picture() const;
     /// What walks did, over the samples of all stages alike: `scatter`, the share of samples that met a medium before
     /// any surface (an estimate of the probability that the first flight was given, not of its absorption), `segments`,
-    /// the mean length of walks, and `branches`, the mean number of those that splitting made of one.
+    /// the mean length of walks, `branches`, the mean number of those that splitting made of one, and `guided`, the
+    /// share of samples whose walks were guided.
     std::vector<Layer> walk_layers() const;
     /// Root mean square of the relative standard error of pixels, their luminance measured against at least a tenth of
     /// the mean.
@@ -84,6 +86,7 @@ private:
         float normal[3] = {0, 0, 0};
         float depth = 0;
         std::uint32_t scattered = 0;
+        std::uint32_t guided = 0;
         std::uint64_t segments = 0;
         std::uint64_t branches = 0;
 

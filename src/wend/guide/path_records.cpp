@@ -39,7 +39,7 @@ Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incide
     return brought;
 }
 
-void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
+void PathRecords::add(std::span<const PathVertex> path, std::size_t most, bool scattered) {
     WEND_EXPECT(most > 0);
     incident_radiance(path, incident_);
     const auto teaches = [](const PathVertex& v) { return v.density != 0; };
@@ -50,7 +50,10 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
         if (!(teaches(v) ? drawn : mirrored).keeps_next()) {
             continue;
         }
-        (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i]));
+        ++size_;
+        if (scattered) {
+            (v.in_volume ? volume_scattered_ : surface_scattered_).push_back(scatter_record_of(v, incident_[i]));
+        }
         if (teaches(v)) {
             (v.in_volume ? volume_ : surface_).push_back(record_of(v, incident_[i]));
         }
@@ -59,6 +62,9 @@ void PathRecords::add(std::span<const PathVertex> path, std::size_t most) {
 
 PathRecords PathRecords::joined(std::vector<PathRecords> parts) {
     PathRecords all;
+    for (PathRecords& part : parts) {
+        all.size_ += std::exchange(part.size_, 0);
+    }
     const auto take = [&](auto PathRecords::*kind) {
         std::size_t count = 0;
         for (const PathRecords& part : parts) {

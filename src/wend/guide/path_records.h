@@ -102,14 +102,16 @@ public:
     /// Appends the records of a walk: one for each vertex whose direction has a density, with the mean of the colour
     /// channels as radiance, and one of the scattered light for every vertex. Of more than `most` vertices with a
     /// density every k-th is kept, with the least k that fits, and likewise of those without. Nothing is clamped: a
-    /// record that is not finite stays as it is, for fit() to ignore and count.
-    void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max());
+    /// record that is not finite stays as it is, for fit() to ignore and count. Without `scattered` there are none of
+    /// the scattered light, which only guided flights ask for.
+    void add(std::span<const PathVertex> path, std::size_t most = std::numeric_limits<std::size_t>::max(),
+             bool scattered = true);
 
     /// The records of all producers, in the order given; each one's memory is free as soon as they are taken.
     static PathRecords joined(std::vector<PathRecords> parts);
 
     /// Of vertices, those without a density included.
-    std::size_t size() const { return surface_scattered_.size() + volume_scattered_.size(); }
+    std::size_t size() const { return size_; }
 
     /// Forgets the records and keeps their memory.
     void clear() {
@@ -117,13 +119,15 @@ public:
         volume_.clear();
         surface_scattered_.clear();
         volume_scattered_.clear();
+        size_ = 0;
     }
 
     /// For the field of surfaces: fit() takes them.
     const Records& surface() const { return surface_; }
     /// For the field of volumes.
     const Records& volume() const { return volume_; }
-    /// Of every vertex on a surface that also has a record, and of those whose direction has no density.
+    /// Of every vertex on a surface that also has a record, and of those whose direction has no density: where asked
+    /// for.
     const ScatterRecords& surface_scattered() const { return surface_scattered_; }
     /// Of every vertex in a volume, likewise.
     const ScatterRecords& volume_scattered() const { return volume_scattered_; }
@@ -131,6 +135,7 @@ public:
 private:
     Records surface_, volume_;
     ScatterRecords surface_scattered_, volume_scattered_;
+    std::size_t size_ = 0;
     std::vector<Rgb> incident_;
 };
 

@@ -13,8 +13,8 @@ constexpr double walks_to_a_photon = 16, walks_to_an_idle_photon = 64;
 // More vertices of one walk say little that is new: they are correlated.
 constexpr std::size_t most_records_of_walk = 64;
 
-/// The groups of caustic lobes that directions have to be drawn from. Where the fluence of a cell is E, of which a group
-/// brings the share s within a lobe of density g, sampling with a density p finds the second moment
+/// The groups of caustic lobes that directions have to be drawn from. Where the fluence of a cell is E, of which a
+/// group brings the share s within a lobe of density g, sampling with a density p finds the second moment
 ///     E² s² ∫ g² / p dω  ≈  E² s² g(mean) / (2 p(mean))
 /// of it. Where that is less than E² times this, others' noise is more; where the field has learned the lobe, p is
 /// enough. What the field knows nothing of is taken to be all that there is.
@@ -30,8 +30,8 @@ CausticMap beyond(const guide::Field& field, const CausticMap& caustics, bool in
         }
         const float share = cell.fluence(in_volume) * mean_value(group.light) / (cell.light * region->fluence());
         const float classical = region->defensive_fraction();
-        const float density = classical * inv_4pi +
-                              (1 - classical) * region->incident(group.place).density(group.lobe.mean);
+        const float density =
+            classical * inv_4pi + (1 - classical) * region->incident(group.place).density(group.lobe.mean);
         return share * share * vmf_peak(group.lobe.kappa) > 2 * most_missed * density;
     });
 }
@@ -43,13 +43,13 @@ FieldLearner::FieldLearner(const LearningContext& context)
       fields_(context.settings.fields ? *context.settings.fields
                                       : guide::Fields{guide::Field::empty(context.scene.bounds()),
                                                       guide::Field::empty(context.scene.bounds())}),
-      budget_(context.settings.most_records) {
+      budget_(context.settings.most_records),
+      guides_flights_(context.settings.preset.guides_distance() && has_fog(context.scene)) {
 }
 
 void FieldLearner::begin(const PassPlan& plan) {
-    const Preset& preset = context_.settings.preset;
-    records_ = plan.learns && !preset.is_classical();
-    if (!records_ || !preset.direction) {
+    records_ = plan.learns && !context_.settings.preset.is_classical();
+    if (!records_ || !plan.guides_directions) {
         return;
     }
     if (fields_.surface.is_trained() || fields_.volume.is_trained()) {
@@ -72,7 +72,7 @@ void FieldLearner::send_photons(int samples) {
 
 void FieldLearner::keep(Records& records, bool is_recorded) const {
     if (records_ && is_recorded) {
-        records.records.add(records.log.vertices(), most_records_of_walk);
+        records.records.add(records.log.vertices(), most_records_of_walk, guides_flights_);
     }
 }
 

@@ -48,6 +48,7 @@ private:
     int photons_sent_ = 0;
     CausticMap surface_caustics_, volume_caustics_;
     RecordBudget budget_;
+    bool guides_flights_;
     bool records_ = false;
 };
 

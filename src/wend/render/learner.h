@@ -4,22 +4,33 @@
 #include <wend/render/render.h>
 #include <wend/scene/scene.h>
 
+#include <algorithm>
 #include <concepts>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace wend {
 
-/// Before, neither the fields nor the pixels are known well enough to end or split walks by them, or to judge guides.
+/// So many tell enough of any picture (LearningContext::is_warm).
 inline constexpr int warm_up_samples = 7;
+
+/// Whether there is a medium where flights may be guided.
+inline bool has_fog(const Scene& scene) {
+    const std::vector<Medium>& media = scene.description().media;
+    return std::any_of(media.begin(), media.end(), [](const Medium& medium) {
+        return std::holds_alternative<HomogeneousMedium>(medium) && scatters(medium);
+    });
+}
 
 /// What one pass does.
 struct PassPlan {
     int first = 0;  ///< sample of each pixel
     int count = 0;
-    bool learns = false;        ///< whether walks are there to learn from
-    bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
-    double recorded_share = 1;  ///< of the walks, those that are recorded
+    bool learns = false;             ///< whether walks are there to learn from
+    bool guides_directions = false;  ///< whether any walk draws directions by the fields
+    bool steers = false;             ///< whether where walks go is guided: by the fields, or inside dense media
+    double recorded_share = 1;       ///< of the walks, those that are recorded
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
 
@@ -34,6 +45,13 @@ struct LearningContext {
     double pixels;
 
     double walks(const PassPlan& plan) const { return pixels * plan.count; }
+    /// Whether so many samples of each pixel, and the walks of a large picture that much sooner, tell fields and pixels
+    /// well enough to end or split walks by them, or to judge guides.
+    bool is_warm(int samples) const {
+        constexpr int fewest = 3;
+        constexpr double enough_walks = 1e5;
+        return samples >= warm_up_samples || (samples >= fewest && pixels * samples >= enough_walks);
+    }
 };
 
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts

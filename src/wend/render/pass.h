@@ -2,11 +2,14 @@
 #pragma once
 
 #include <wend/film/film.h>
+#include <wend/render/guiding_choice.h>
 #include <wend/render/learners.h>
 #include <wend/render/render.h>
 #include <wend/transport/path_tracer.h>
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,9 @@ namespace wend {
 struct Tile {
     PixelRect pixels;
     WalkCounts counts;
+    WalkShares shares{1};                                ///< in the pass at hand
+    WalkTallies tallies{};                               ///< of it
+    std::array<std::uint64_t, most_walk_kinds> walks{};  ///< of each kind, in all passes
 };
 
 inline std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -23,20 +29,24 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     std::vector<Tile> tiles;
     for (int y = crop.min.y; y < crop.max.y; y += side) {
         for (int x = crop.min.x; x < crop.max.x; x += side) {
-            tiles.push_back({{{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}}, {}});
+            tiles.emplace_back().pixels = {{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}};
         }
     }
     return tiles;
 }
 
-/// One pass, with the same decisions for all walks.
+/// One pass, as far as it has walks of one kind: the same decisions for all of them.
 template <class Decisions>
 class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
-         const Learners& learners, const PassPlan& plan, const std::atomic<bool>& stop)
+         const GuidingChoice& choice, std::size_t kind, const Learners& learners, const PassPlan& plan,
+         const std::atomic<bool>& stop)
         : tracer_(scene, decisions, learners.get<InteriorLearner>().guides(), learners.get<LightLearner>().selection(),
                   learners.get<ReflectionLearner>().probability(), settings.max_depth, &stop),
+          kind_(kind),
+          cost_of_segment_(GuidingChoice::cost_of_segment(choice.kinds()[kind])),
+          is_guided_(!choice.kinds()[kind].is_classical()),
           learners_(learners),
           camera_(scene.camera()),
           film_(film),
@@ -45,6 +55,9 @@ public:
           stop_(stop) {}
 
     void run(Tile& tile, Learners::Records& records) const {
+        if (tile.shares[kind_] == 0) {
+            return;
+        }
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
                 for (int i = 0; i < plan_.count && !stop_; ++i) {
@@ -58,25 +71,34 @@ private:
     void sample(const Vec2i& pixel, int index, Tile& tile, Learners::Records& records) const {
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
+        if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, index - plan_.first, plan_.count) != kind_) {
+            return;
+        }
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
         const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
         const bool is_recorded = records_walk(number, index);
-        WalkResult result = tracer_.trace(ray, estimate(pixel), sampler, learners_.recorders(records, is_recorded));
+        const float expected = estimate(pixel);
+        WalkResult result =
+            tracer_.trace(ray, is_guided_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
         if (stop_) {
             return;  // the walk may be a part of one
         }
         const bool counts = is_finite(result.sample.radiance);
         learners_.keep(records, is_recorded && counts);
         ++tile.counts.paths;
+        ++tile.walks[kind_];
         tile.counts.segments += result.sample.segments;
         if (!counts) {
             ++tile.counts.rejected;
             film_.reject(pixel);
             return;
         }
+        tile.tallies[kind_].add(place.weight * mean_value(result.sample.radiance), expected,
+                                cost_of_segment_ * result.sample.segments);
+        result.sample.guided = is_guided_;
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
     }
@@ -96,6 +118,9 @@ private:
     }
 
     PathTracer<Decisions, Learners::Recorders> tracer_;
+    std::size_t kind_;
+    double cost_of_segment_;
+    bool is_guided_;
     const Learners& learners_;
     const Camera& camera_;
     Film& film_;

@@ -13,7 +13,14 @@ using Entry = std::pair<std::string_view, bool Preset::*>;
 constexpr std::array entries = {Entry{"scatter", &Preset::scatter}, Entry{"distance", &Preset::distance},
                                 Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
                                 Entry{"splitting", &Preset::splitting}};
-constexpr Preset full = {.scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true};
+constexpr Preset everywhere = {
+    .scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true};
+
+Preset full() {
+    Preset preset = everywhere;
+    preset.where_it_pays = true;
+    return preset;
+}
 
 Preset only(const Entry& entry) {
     Preset preset;
@@ -23,7 +30,7 @@ Preset only(const Entry& entry) {
 }
 
 Preset all_but(const Entry& entry) {
-    Preset preset = full;
+    Preset preset = everywhere;
     preset.*entry.second = false;
     preset.distance = preset.distance && preset.scatter;
     return preset;
@@ -46,7 +53,7 @@ Preset parse_preset(std::string_view text) {
         return preset;
     }
     if (text == "full") {
-        return full;
+        return full();
     }
     std::string_view rest = text;
     for (;;) {
@@ -72,7 +79,7 @@ Preset parse_preset(std::string_view text) {
 }
 
 std::string to_string(const Preset& preset) {
-    if (preset == full) {
+    if (preset == full()) {
         return "full";
     }
     std::string text;
@@ -87,7 +94,7 @@ std::string to_string(const Preset& preset) {
 std::vector<Preset> ablation_presets() {
     std::vector<Preset> presets = {Preset()};
     std::transform(entries.begin(), entries.end(), std::back_inserter(presets), only);
-    presets.push_back(full);
+    presets.push_back(full());
     std::transform(entries.begin(), entries.end(), std::back_inserter(presets), all_but);
     return presets;
 }

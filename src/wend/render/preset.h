@@ -1,4 +1,4 @@
-// Names of what may be guided: "classical", decisions joined by '+', or "full" for all of them.
+// Names of what may be guided: "classical", decisions joined by '+', or "full" for all of them where each pays.
 #pragma once
 
 #include <string>
@@ -14,6 +14,8 @@ struct Preset {
     bool direction = false;
     bool roulette = false;
     bool splitting = false;
+    /// Whether these are guided only in those parts of the picture where that is found to pay (GuidingChoice).
+    bool where_it_pays = false;
 
     bool is_classical() const { return *this == Preset(); }
     bool guides_distance() const { return scatter || distance; }

@@ -1,6 +1,7 @@
 #include <wend/core/parallel.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/film/pixel_estimate.h>
+#include <wend/render/guiding_choice.h>
 #include <wend/render/pass.h>
 #include <wend/render/render.h>
 #include <wend/render/schedule.h>
@@ -91,13 +92,23 @@ public:
           context_{scene, settings, static_cast<double>(film.crop().width()) * film.crop().height()},
           tiles_(tiles_of(film.crop())),
           records_(tiles_.size()),
+          choice_(settings.preset, has_fog(scene), settings.fields != nullptr, tiles_.size()),
           learners_(context_) {}
 
-    /// Adds `count` samples to each pixel, and learns from them.
-    void pass(int count, RenderStatistics& statistics) {
-        const PassPlan plan = plan_for(count, statistics.samples);
+    /// Adds `count` samples to each pixel, and learns from them unless this pass `is_last`.
+    void pass(int count, bool is_last, RenderStatistics& statistics) {
+        const PassPlan plan = plan_for(count, is_last, statistics.samples);
         learners_.begin(plan);
-        walk(plan);
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            tiles_[i].shares = choice_.shares(i, count);
+            tiles_[i].tallies = {};
+        }
+        for (std::size_t kind = 0; kind < choice_.kinds().size() && !stop_; ++kind) {
+            if (kind > 0 && choice_.is_trial()) {
+                film_.begin_stage();
+            }
+            walk(plan, kind);
+        }
         if (stop_) {
             return;
         }
@@ -107,8 +118,9 @@ public:
         learners_.learn(records_, plan);
         statistics.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
-        const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
-        if (statistics.samples >= warm_up_samples && (learners_.changes_walks() || warms_up)) {
+        const bool warms_up = !settings_.preset.is_classical() && !context_.is_warm(plan.first);
+        const bool chooses_anew = choose(statistics.samples);
+        if (context_.is_warm(statistics.samples) && (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
         }
     }
@@ -117,6 +129,17 @@ public:
         for (const Tile& tile : tiles_) {
             statistics.counts += tile.counts;
         }
+        const WalkTallies shown = choice_.totals();
+        for (std::size_t kind = 0; kind < choice_.kinds().size(); ++kind) {
+            double walks = 0;
+            for (const Tile& tile : tiles_) {
+                walks += static_cast<double>(tile.walks[kind]);
+            }
+            const double all = static_cast<double>(std::max<std::uint64_t>(statistics.counts.paths, 1));
+            const WalkTally& tally = shown[kind];
+            statistics.kinds.push_back({choice_.kinds()[kind], walks / all, tally.variance(),
+                                        tally.walks > 0 ? tally.work / tally.walks : 0.0});
+        }
         if (!settings_.preset.is_classical()) {
             statistics.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
             statistics.field_bytes = statistics.fields->bytes();
@@ -124,15 +147,18 @@ public:
     }
 
 private:
-    PassPlan plan_for(int count, int samples) const {
+    PassPlan plan_for(int count, bool is_last, int samples) const {
         const Preset& preset = settings_.preset;
         PassPlan plan;
         plan.first = samples;
         plan.count = count;
-        plan.learns = samples < settings_.training_samples;
+        plan.learns = samples < settings_.training_samples &&
+                      !(is_last && settings_.preset.where_it_pays && !settings_.keeps_fields);
+        plan.guides_directions = preset.direction && !choice_.is_classical();
         plan.steers = preset.direction || !learners_.get<InteriorLearner>().guides().is_empty();
         plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
-        if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
+        plan.recorded_share = std::min(plan.recorded_share, choice_.recorded_share(samples));
+        if (preset.guides_survival() && context_.is_warm(samples) && settings_.exposure > 0) {
             plan.estimates = pixel_estimates(film_.beauty(), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
@@ -141,25 +167,36 @@ private:
         return plan;
     }
 
-    /// All walks of a pass, by the decisions of the preset.
-    void walk(const PassPlan& plan) {
-        const Preset& preset = settings_.preset;
+    bool choose(int samples) {
+        std::vector<WalkTallies> tallies;
+        tallies.reserve(tiles_.size());
+        for (const Tile& tile : tiles_) {
+            tallies.push_back(tile.tallies);
+        }
+        return choice_.learn(tallies, context_.is_warm(samples), learners_.get<FieldLearner>().records());
+    }
+
+    /// All walks of one kind in a pass.
+    void walk(const PassPlan& plan, std::size_t kind) {
+        const Preset& preset = choice_.kinds()[kind];
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene_, film_, settings_, decisions, learners_, plan, stop_);
+            const Pass one(scene_, film_, settings_, decisions, choice_, kind, learners_, plan, stop_);
             parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i], records_[i]); });
         };
         if (preset.is_classical()) {
-            run_with(ClassicalDecisions{});
+            const bool ends_early = settings_.preset.is_classical();
+            run_with(ClassicalDecisions{{}, {}, ends_early ? ClassicalRoulette() : unguided_walks_end});
             return;
         }
-        const guide::Fields& fields = learners_.get<FieldLearner>().fields();
         const auto& learned = learners_.get<FieldLearner>();
+        const guide::Fields& fields = learned.fields();
         const GuidedDistance distance(
             &fields.surface, &fields.volume, classical_flights,
             preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
         const GuidedDirection direction(&fields.surface, &fields.volume,
-                                        preset.direction ? std::nullopt : std::optional(1.0f), &learned.surface_caustics(),
-                                        &learned.volume_caustics());
+                                        preset.direction ? std::nullopt : std::optional(1.0f),
+                                        preset.direction ? &learned.surface_caustics() : nullptr,
+                                        preset.direction ? &learned.volume_caustics() : nullptr);
         const auto run_guided = [&](const auto& survival) {
             if (preset.guides_distance()) {
                 run_with(GuidedDecisions{distance, direction, survival});
@@ -182,6 +219,7 @@ private:
     LearningContext context_;
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
+    GuidingChoice choice_;
     Learners learners_;
 };
 
@@ -206,7 +244,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                 std::min(longest, (settings.seconds + excess) * (statistics.samples == 0 ? first_pass : 1));
             watch.stop_at(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most)));
         }
-        rendering.pass(count, statistics);
+        rendering.pass(count, schedule.is_last(pass, statistics.samples + count), statistics);
         if (watch.stop()) {
             statistics.interrupted = true;
             break;

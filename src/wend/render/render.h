@@ -32,6 +32,8 @@ struct RenderSettings {
     std::shared_ptr<const guide::Fields> fields;
     /// Samples per pixel that the fields learn from: from then on they would change little. 0: they stay as given.
     int training_samples = 63;
+    /// Whether what is learned is wanted afterwards: then the last pass teaches it too.
+    bool keeps_fields = false;
     /// About so many vertices of each pass teach the fields; positive. Of more walks, some are not recorded.
     double most_records = 2e6;
     /// Is shown what the walks of each pass told the field, in the order of the picture's tiles; may be empty.
@@ -54,6 +56,15 @@ struct RenderProgress {
     double relative_noise = 0;  ///< Film::relative_noise(), by the samples so far
 };
 
+/// Of the walks of a render, those that were guided in the same way.
+struct WalkKind {
+    Preset preset;
+    double share = 0;  ///< of all walks
+    /// Squared error of a walk, relative to its pixel, and counted work (GuidingChoice): estimates, of the last passes.
+    /// 0 where they were not asked for.
+    double squared_error = 0, work = 0;
+};
+
 struct RenderStatistics {
     int samples = 0;     ///< per pixel
     double seconds = 0;  ///< wall time, training included
@@ -61,6 +72,7 @@ struct RenderStatistics {
     WalkCounts counts;
     std::size_t field_bytes = 0;
     std::vector<int> passes;  ///< samples per pixel of each pass
+    std::vector<WalkKind> kinds;
     bool interrupted = false;
     std::shared_ptr<const guide::Fields> fields;  ///< what was learned; null if nothing was guided
 };

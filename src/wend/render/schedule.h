@@ -32,6 +32,12 @@ public:
         return left < 0.67 ? 0 : static_cast<int>(std::clamp(left, 1.0, static_cast<double>(wanted)));
     }
 
+    /// Whether it is known that no pass follows that one, which ends with `done` samples of each pixel.
+    bool is_last(int pass, int done) const {
+        return settings_.passes.empty() ? settings_.seconds <= 0 && done >= settings_.samples
+                                        : pass + 1 >= static_cast<int>(settings_.passes.size());
+    }
+
     double fraction(int done, double elapsed) const {
         if (!settings_.passes.empty()) {
             int total = 0;

@@ -1,0 +1,83 @@
+// Whether guiding pays: which kind of walk each tile of the picture gets, by what walks of each kind have shown there.
+#pragma once
+
+#include <wend/render/preset.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace wend {
+
+/// What walks of one kind have shown.
+struct WalkTally {
+    double walks = 0;
+    double value = 0;   ///< sum of what each one brought, over the estimate of its pixel
+    double square = 0;  ///< sum of the squared errors of that
+    double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
+
+    /// A walk that brought `brought` to a pixel of which `estimate` is expected; where that is 0 it shows nothing.
+    void add(float brought, float estimate, double counted_work);
+    WalkTally& operator+=(const WalkTally& o);
+    /// As if there had been fewer walks.
+    WalkTally scaled(double factor) const;
+    /// Of one walk; 0 where there are none.
+    double variance() const { return walks > 0 ? square / walks : 0.0; }
+};
+
+/// Kinds of walks: presets, of which the first is classical where there are several.
+inline constexpr std::size_t most_walk_kinds = 4;
+using WalkTallies = std::array<WalkTally, most_walk_kinds>;
+/// Of the walks of a tile, those of each kind; they add up to 1.
+using WalkShares = std::array<float, most_walk_kinds>;
+
+/// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
+/// no walk has a say in its own weight. All begin with classical walks. Then every kind is tried; the best of a tile
+/// goes on, and others as long as they are close.
+class GuidingChoice {
+public:
+    /// Of the kinds that a preset allows: one, unless it guides where that pays. `has_fog`: whether flights can be
+    /// guided. `is_taught`: whether there is a field from the start.
+    GuidingChoice(const Preset& preset, bool has_fog, bool is_taught, std::size_t tiles);
+
+    std::span<const Preset> kinds() const { return kinds_; }
+    /// In a pass of so many samples of each pixel.
+    WalkShares shares(std::size_t tile, int samples) const;
+    /// The kind of one of the samples that a pixel has in a pass, by the shares of its tile: those of a kind follow
+    /// each other, as low-discrepancy sequences want it.
+    static std::size_t kind_of(const WalkShares& shares, std::uint64_t seed, std::uint64_t pixel, int sample,
+                               int samples);
+
+    /// Of a segment, in those of classical walks.
+    static double cost_of_segment(const Preset& kind);
+
+    /// Chooses anew, by what the walks of a pass have shown in each tile; whether that changes anything. `is_warm`:
+    /// whether enough is known to begin; `learns`: whether the pass has taught the fields, so that guided walks will be
+    /// others.
+    bool learn(std::span<const WalkTallies> pass, bool is_warm, bool learns);
+
+    /// Whether all walks are classical as yet.
+    bool is_classical() const { return kinds_.size() > 1 && state_ == State::classical && shares_.front()[0] == 1; }
+    /// Whether every kind is being tried.
+    bool is_trial() const { return state_ == State::trial; }
+    /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.
+    double recorded_share(int samples) const;
+
+    /// Of the whole picture, as far as still counted.
+    WalkTallies totals() const;
+    /// Of the picture's walks to come, those of each kind.
+    WalkShares mean_shares() const;
+
+private:
+    WalkShares chosen_for(const WalkTallies& tile, const WalkTallies& picture) const;
+
+    std::vector<Preset> kinds_;
+    std::vector<WalkShares> shares_;
+    std::vector<WalkTallies> tallies_;
+    enum class State { classical, trial, chosen } state_ = State::classical;
+    double gain_ = 0;  ///< of guiding, as the whole picture shows
+};
+
+}  // namespace wend

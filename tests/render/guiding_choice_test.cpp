@@ -1,0 +1,154 @@
+// Which walks are guided: by what walks of each kind have shown.
+#include <wend/render/guiding_choice.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numeric>
+#include <vector>
+
+namespace wend {
+namespace {
+
+constexpr std::size_t classical = 0, survival = 1, directions = 2;
+
+/// Walks that each brought the pixel's value but for an error of this variance.
+WalkTally walks(double count, double variance, double work) {
+    return {count, count, count * variance, count * work};
+}
+
+/// Of a scene without fog, taught by classical walks, with every kind tried.
+GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
+    GuidingChoice choice(parse_preset("full"), false, false, tiles);
+    const std::vector<WalkTallies> nothing(tiles);
+    choice.learn(nothing, true, true);
+    choice.learn(shown, true, true);
+    return choice;
+}
+
+TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
+    for (const char* name : {"classical", "direction", "distance+direction+roulette+splitting"}) {
+        GuidingChoice choice(parse_preset(name), true, false, 3);
+        ASSERT_EQ(choice.kinds().size(), 1u) << name;
+        EXPECT_EQ(choice.kinds()[0], parse_preset(name));
+        const std::vector<WalkTallies> shown(3, {walks(1000, 1, 1)});
+        EXPECT_FALSE(choice.learn(shown, true, true)) << name;
+        EXPECT_EQ(choice.shares(2, 1), WalkShares{1});
+        EXPECT_EQ(choice.recorded_share(0), 1);
+    }
+}
+
+TEST(GuidingChoice, FlightsAreGuidedInFogAlone) {
+    EXPECT_EQ(GuidingChoice(parse_preset("full"), false, false, 1).kinds().size(), 3u);
+    const GuidingChoice in_fog(parse_preset("full"), true, false, 1);
+    ASSERT_EQ(in_fog.kinds().size(), 4u);
+    EXPECT_TRUE(in_fog.kinds()[classical].is_classical());
+    EXPECT_EQ(in_fog.kinds()[3], parse_preset("distance+direction+roulette+splitting"));
+}
+
+TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
+    GuidingChoice choice(parse_preset("full"), false, false, 2);
+    const std::vector<WalkTallies> nothing(2);
+    EXPECT_TRUE(choice.is_classical());
+    EXPECT_FALSE(choice.learn(nothing, false, true));
+    EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
+    EXPECT_TRUE(choice.learn(nothing, true, true));
+    EXPECT_TRUE(choice.is_trial());
+    for (const std::size_t kind : {classical, survival, directions}) {
+        EXPECT_FLOAT_EQ(choice.shares(1, 8)[kind], 1.0f / 3);
+    }
+    // Too short to try all: that pass shows nothing of the others, and the trial is still to come.
+    EXPECT_EQ(choice.shares(1, 2), WalkShares{1});
+    const std::vector<WalkTallies> short_pass(2, {walks(100, 1, 1)});
+    EXPECT_FALSE(choice.learn(short_pass, true, true));
+    EXPECT_TRUE(choice.is_trial());
+}
+
+TEST(GuidingChoice, StartsGuidedWhereThereIsAFieldFromTheStart) {
+    const GuidingChoice choice(parse_preset("full"), false, true, 1);
+    EXPECT_FALSE(choice.is_classical());
+    EXPECT_EQ(choice.shares(0, 1)[directions], 1);
+}
+
+TEST(GuidingChoice, TakesTheLeastSquaredErrorTimesWork) {
+    // Errors ten times lower at twice the work.
+    GuidingChoice guided = tried(1, {{walks(1000, 10, 3), walks(1000, 8, 4), walks(1000, 1, 6)}});
+    EXPECT_EQ(guided.shares(0, 8), (WalkShares{0, 0, 1}));
+    // A little lower at twice the work.
+    GuidingChoice unguided = tried(1, {{walks(1000, 1, 3), walks(1000, 0.99, 8), walks(1000, 0.9, 9)}});
+    EXPECT_EQ(unguided.shares(0, 8), WalkShares{1});
+}
+
+TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {
+    const GuidingChoice choice = tried(1, {{walks(1000, 3, 2), walks(1000, 1, 5), walks(1000, 1, 6)}});
+    const WalkShares shares = choice.shares(0, 32);
+    EXPECT_FLOAT_EQ(shares[directions], 1.0f / 16);
+    // 3 times the squared error: a share s adds 2 s to that of the pixel.
+    EXPECT_NEAR(shares[classical], 0.02 / 2, 1e-6);
+    EXPECT_FLOAT_EQ(std::accumulate(shares.begin(), shares.end(), 0.0f), 1);
+}
+
+TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
+    const WalkTallies guided = {walks(1e5, 10, 3), walks(1e5, 9, 3), walks(1e5, 1, 3)};
+    const WalkTallies unguided = {walks(1e5, 1, 3), walks(1e5, 9, 3), walks(1e5, 10, 3)};
+    const GuidingChoice choice = tried(3, {guided, unguided, {}});
+    EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
+    EXPECT_GT(choice.shares(1, 8)[classical], 0.9f);
+    // Where nothing has been shown the picture counts: there both are alike.
+    EXPECT_LT(choice.shares(2, 8)[survival], 0.07f);
+}
+
+TEST(GuidingChoice, RecordsTheMoreTheMoreGuidingBrings) {
+    const auto share = [](double variance) {
+        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).recorded_share(15);
+    };
+    EXPECT_GT(share(0.1), 0);
+    EXPECT_EQ(share(0.1), share(0.5));
+    EXPECT_GT(share(2.5), share(0.5));
+    EXPECT_LE(share(1e6), 1);
+}
+
+TEST(GuidingChoice, SamplesOfAPixelAreSpreadOverTheKindsInARow) {
+    const WalkShares shares = {0.25f, 0.5f, 0.25f};
+    for (std::uint64_t pixel = 0; pixel < 100; ++pixel) {
+        std::array<int, most_walk_kinds> count{};
+        std::size_t before = 0;
+        for (int i = 0; i < 8; ++i) {
+            const std::size_t kind = GuidingChoice::kind_of(shares, 1, pixel, i, 8);
+            EXPECT_GE(kind, before);
+            ++count[before = kind];
+        }
+        EXPECT_EQ(count, (std::array<int, most_walk_kinds>{2, 4, 2, 0}));
+    }
+}
+
+TEST(GuidingChoice, SmallSharesHoldInTheMean) {
+    const WalkShares shares = {0.97f, 0, 0.03f};
+    constexpr int pixels = 20000, samples = 4;
+    double rare = 0;
+    for (std::uint64_t pixel = 0; pixel < pixels; ++pixel) {
+        for (int i = 0; i < samples; ++i) {
+            const std::size_t kind = GuidingChoice::kind_of(shares, 7, pixel, i, samples);
+            ASSERT_NE(kind, survival);
+            rare += kind == directions ? 1 : 0;
+        }
+    }
+    EXPECT_NEAR(rare / (pixels * samples), 0.03, 0.002);
+}
+
+TEST(WalkTally, MeasuresAgainstThePixel) {
+    WalkTally tally;
+    tally.add(3, 2, 5);
+    tally.add(1, 0, 5);  // of a pixel of which nothing is expected
+    EXPECT_EQ(tally.walks, 1);
+    EXPECT_EQ(tally.value, 1.5);
+    EXPECT_EQ(tally.square, 0.25);
+    EXPECT_EQ(tally.work, 5);
+    tally += tally;
+    EXPECT_EQ(tally.scaled(0.5).walks, 1);
+    EXPECT_EQ(tally.variance(), 0.25);
+    EXPECT_EQ(WalkTally().variance(), 0);
+}
+
+}  // namespace
+}  // namespace wend
