@@ -23,6 +23,14 @@ TEST(ClassicalRoulette, EnteringADenserMediumDoesNotEndWalks) {
     EXPECT_FLOAT_EQ(ClassicalRoulette().after_direction({Rgb(1 / 2.25f), 1, 2.25f, 2}), 1);
 }
 
+TEST(ClassicalRoulette, MayTellMediaFromSurfaces) {
+    const ClassicalRoulette survival(0.5f, 0.8f);
+    WalkState state{Rgb(0.4f), 1, 1, 3};
+    EXPECT_FLOAT_EQ(survival.after_direction(state), 0.8f);
+    state.in_volume = true;
+    EXPECT_FLOAT_EQ(survival.after_direction(state), 0.5f);
+}
+
 TEST(ClassicalRoulette, SparesGuidedWalksUntilLittleIsLeft) {
     EXPECT_EQ(guided_walks_end.after_direction({Rgb(0.13f), 1, 1, 5}), 1);
     EXPECT_FLOAT_EQ(guided_walks_end.after_direction({Rgb(0.05f), 1, 1, 5}), 0.4f);

@@ -14,12 +14,12 @@ constexpr std::size_t classical = 0, survival = 1, directions = 2;
 
 /// Walks that each brought the pixel's value but for an error of this variance.
 WalkTally walks(double count, double variance, double work) {
-    return {count, count, count * variance, count * work};
+    return {count, count * variance, count * work};
 }
 
 /// Of a scene without fog, taught by classical walks, with every kind tried.
 GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
-    GuidingChoice choice(parse_preset("full"), false, false, tiles);
+    GuidingChoice choice(parse_preset("full"), {}, false, tiles);
     const std::vector<WalkTallies> nothing(tiles);
     choice.learn(nothing, true, true);
     choice.learn(shown, true, true);
@@ -28,9 +28,9 @@ GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
 
 TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
     for (const char* name : {"classical", "direction", "distance+direction+roulette+splitting"}) {
-        GuidingChoice choice(parse_preset(name), true, false, 3);
+        GuidingChoice choice(parse_preset(name), {.flights = true, .dense_media = true}, false, 3);
         ASSERT_EQ(choice.kinds().size(), 1u) << name;
-        EXPECT_EQ(choice.kinds()[0], parse_preset(name));
+        EXPECT_EQ(choice.kinds()[0], (WalkKind{parse_preset(name), true}));
         const std::vector<WalkTallies> shown(3, {walks(1000, 1, 1)});
         EXPECT_FALSE(choice.learn(shown, true, true)) << name;
         EXPECT_EQ(choice.shares(2, 1), WalkShares{1});
@@ -39,15 +39,23 @@ TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
 }
 
 TEST(GuidingChoice, FlightsAreGuidedInFogAlone) {
-    EXPECT_EQ(GuidingChoice(parse_preset("full"), false, false, 1).kinds().size(), 3u);
-    const GuidingChoice in_fog(parse_preset("full"), true, false, 1);
+    EXPECT_EQ(GuidingChoice(parse_preset("full"), {}, false, 1).kinds().size(), 3u);
+    const GuidingChoice in_fog(parse_preset("full"), {.flights = true}, false, 1);
     ASSERT_EQ(in_fog.kinds().size(), 4u);
     EXPECT_TRUE(in_fog.kinds()[classical].is_classical());
-    EXPECT_EQ(in_fog.kinds()[3], parse_preset("distance+direction+roulette+splitting"));
+    EXPECT_EQ(in_fog.kinds()[3], (WalkKind{parse_preset("distance+direction+roulette+splitting"), false}));
+}
+
+TEST(GuidingChoice, GuidesOfDenseMediaAreAskedForThemselves) {
+    const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1);
+    ASSERT_EQ(choice.kinds().size(), 4u);
+    EXPECT_TRUE(choice.kinds()[0].is_classical());
+    EXPECT_EQ(choice.kinds()[1], (WalkKind{Preset(), true}));
+    EXPECT_EQ(choice.kinds()[3], (WalkKind{parse_preset("direction+roulette+splitting"), true}));
 }
 
 TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
-    GuidingChoice choice(parse_preset("full"), false, false, 2);
+    GuidingChoice choice(parse_preset("full"), {}, false, 2);
     const std::vector<WalkTallies> nothing(2);
     EXPECT_TRUE(choice.is_classical());
     EXPECT_FALSE(choice.learn(nothing, false, true));
@@ -65,7 +73,7 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
 }
 
 TEST(GuidingChoice, StartsGuidedWhereThereIsAFieldFromTheStart) {
-    const GuidingChoice choice(parse_preset("full"), false, true, 1);
+    const GuidingChoice choice(parse_preset("full"), {}, true, 1);
     EXPECT_FALSE(choice.is_classical());
     EXPECT_EQ(choice.shares(0, 1)[directions], 1);
 }
@@ -136,18 +144,22 @@ TEST(GuidingChoice, SmallSharesHoldInTheMean) {
     EXPECT_NEAR(rare / (pixels * samples), 0.03, 0.002);
 }
 
-TEST(WalkTally, MeasuresAgainstThePixel) {
-    WalkTally tally;
-    tally.add(3, 2, 5);
-    tally.add(1, 0, 5);  // of a pixel of which nothing is expected
-    EXPECT_EQ(tally.walks, 1);
-    EXPECT_EQ(tally.value, 1.5);
-    EXPECT_EQ(tally.square, 0.25);
-    EXPECT_EQ(tally.work, 5);
-    tally += tally;
+TEST(PixelWalks, ShowTheVarianceRelativeToThePixel) {
+    PixelWalks walks(2);
+    walks.add(3, 5);
+    EXPECT_EQ(walks.tally().walks, 0) << "one alone has none";
+    walks.add(1, 6);
+    const WalkTally tally = walks.tally();
+    EXPECT_EQ(tally.walks, 2);
+    EXPECT_EQ(tally.variance(), 0.5);
+    EXPECT_EQ(tally.work, 11);
     EXPECT_EQ(tally.scaled(0.5).walks, 1);
-    EXPECT_EQ(tally.variance(), 0.25);
+    EXPECT_EQ(tally.scaled(0.5).variance(), 0.5);
     EXPECT_EQ(WalkTally().variance(), 0);
+    PixelWalks unknown(0);
+    unknown.add(3, 5);
+    unknown.add(1, 5);
+    EXPECT_EQ(unknown.tally().walks, 0);
 }
 
 }  // namespace

@@ -120,11 +120,12 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
     return rows;
 }
 
-nlohmann::json kinds_json(const std::vector<WalkKind>& kinds) {
+nlohmann::json kinds_json(const std::vector<WalkKindStatistics>& kinds) {
     nlohmann::json list = nlohmann::json::array();
-    for (const WalkKind& kind : kinds) {
+    for (const WalkKindStatistics& kind : kinds) {
         const double price = kind.squared_error * kind.work, first = kinds[0].squared_error * kinds[0].work;
-        list.push_back({{"sampling", to_string(kind.preset)},
+        list.push_back({{"sampling", to_string(kind.kind.preset)},
+                        {"subsurface", kind.kind.guides_dense_media},
                         {"share", kind.share},
                         {"squared_error", json_number(kind.squared_error)},
                         {"work", json_number(kind.work)},
@@ -136,10 +137,10 @@ nlohmann::json kinds_json(const std::vector<WalkKind>& kinds) {
 namespace {
 
 /// Of walks, those that were guided.
-double guided_share(const std::vector<WalkKind>& kinds) {
+double guided_share(const std::vector<WalkKindStatistics>& kinds) {
     double share = 0;
-    for (const WalkKind& kind : kinds) {
-        share += kind.preset.is_classical() ? 0.0 : kind.share;
+    for (const WalkKindStatistics& kind : kinds) {
+        share += kind.kind.is_classical() ? 0.0 : kind.share;
     }
     return share;
 }

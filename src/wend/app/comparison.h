@@ -32,7 +32,7 @@ struct ComparisonRow {
     std::optional<double> ratio;  ///< relMSE times seconds of classical sampling, over the same of this row
     Image image;
     std::vector<Layer> walks;  ///< Film::walk_layers()
-    std::vector<WalkKind> kinds;
+    std::vector<WalkKindStatistics> kinds;
     ConvergenceSeries convergence;
 };
 
@@ -43,7 +43,7 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
                                            const CommonOptions& common, const Streams& streams);
 
 /// How walks were guided: as JSON, the gain of each kind over the first one among it.
-nlohmann::json kinds_json(const std::vector<WalkKind>& kinds);
+nlohmann::json kinds_json(const std::vector<WalkKindStatistics>& kinds);
 
 /// The rows as text.
 std::string comparison_table(const std::vector<ComparisonRow>& rows);

@@ -49,7 +49,7 @@ FieldLearner::FieldLearner(const LearningContext& context)
 
 void FieldLearner::begin(const PassPlan& plan) {
     records_ = plan.learns && !context_.settings.preset.is_classical();
-    if (!records_ || !plan.guides_directions) {
+    if (!records_ || !plan.guides || !context_.settings.preset.direction) {
         return;
     }
     if (fields_.surface.is_trained() || fields_.volume.is_trained()) {

@@ -31,41 +31,43 @@ WalkShares all_of(std::size_t kind) {
 
 }  // namespace
 
-void WalkTally::add(float brought, float estimate, double counted_work) {
-    if (!(estimate > 0)) {
-        return;
+WalkTally PixelWalks::tally() const {
+    if (!(expected_ > 0) || count_ < 2) {
+        return {};
     }
-    const auto relative = static_cast<double>(brought / estimate);
-    ++walks;
-    value += relative;
-    square += (relative - 1) * (relative - 1);
-    work += counted_work;
+    const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
+    const auto expected = static_cast<double>(expected_);
+    return {count_, count_ * variance / (expected * expected), work_};
 }
 
 WalkTally& WalkTally::operator+=(const WalkTally& o) {
     walks += o.walks;
-    value += o.value;
     square += o.square;
     work += o.work;
     return *this;
 }
 
 WalkTally WalkTally::scaled(double factor) const {
-    return {factor * walks, factor * value, factor * square, factor * work};
+    return {factor * walks, factor * square, factor * work};
 }
 
-GuidingChoice::GuidingChoice(const Preset& preset, bool has_fog, bool is_taught, std::size_t tiles) {
+GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles) {
+    const bool dense = guidable.dense_media;
     if (!preset.where_it_pays) {
-        kinds_ = {preset};
+        kinds_ = {{preset, dense}};
     } else {
-        Preset survival{.roulette = preset.roulette, .splitting = preset.splitting};
-        Preset directions = survival;
+        const Preset survival{.roulette = preset.roulette, .splitting = preset.splitting};
+        Preset directions = survival, flights = preset;
         directions.direction = preset.direction;
-        kinds_ = {Preset(), survival, directions};
-        if (has_fog) {
-            Preset flights = preset;
-            flights.where_it_pays = false;
-            kinds_.push_back(flights);
+        flights.where_it_pays = false;
+        kinds_ = {{}};
+        if (dense) {
+            kinds_.push_back({Preset(), true});
+        }
+        kinds_.push_back({survival, dense});
+        kinds_.push_back({directions, dense});
+        if (guidable.flights) {
+            kinds_.push_back({flights, dense});
         }
     }
     shares_.assign(tiles, all_of(is_taught ? kinds_.size() - 1 : 0));
@@ -87,9 +89,10 @@ std::size_t GuidingChoice::kind_of(const WalkShares& shares, std::uint64_t seed,
     return kind;
 }
 
-double GuidingChoice::cost_of_segment(const Preset& kind) {
-    return 1 + (kind.guides_survival() ? 0.15 : 0.0) + (kind.direction ? 0.15 : 0.0) +
-           (kind.guides_distance() ? 0.2 : 0.0);
+double GuidingChoice::cost_of_segment(const WalkKind& kind) {
+    const Preset& guided = kind.preset;
+    return 1 + (guided.guides_survival() ? 0.15 : 0.0) + (guided.direction ? 0.15 : 0.0) +
+           (guided.guides_distance() ? 0.2 : 0.0);
 }
 
 WalkTallies GuidingChoice::totals() const {

@@ -14,12 +14,9 @@ namespace wend {
 /// What walks of one kind have shown.
 struct WalkTally {
     double walks = 0;
-    double value = 0;   ///< sum of what each one brought, over the estimate of its pixel
-    double square = 0;  ///< sum of the squared errors of that
+    double square = 0;  ///< sum over the walks of the variance of what one brings, relative to its pixel
     double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
 
-    /// A walk that brought `brought` to a pixel of which `estimate` is expected; where that is 0 it shows nothing.
-    void add(float brought, float estimate, double counted_work);
     WalkTally& operator+=(const WalkTally& o);
     /// As if there had been fewer walks.
     WalkTally scaled(double factor) const;
@@ -27,22 +24,59 @@ struct WalkTally {
     double variance() const { return walks > 0 ? square / walks : 0.0; }
 };
 
-/// Kinds of walks: presets, of which the first is classical where there are several.
-inline constexpr std::size_t most_walk_kinds = 4;
+/// The walks of one kind that a pixel has in a pass.
+class PixelWalks {
+public:
+    /// Of the pixel this value is expected.
+    explicit PixelWalks(float expected) : expected_(expected) {}
+
+    /// A walk that brought so much, by so much counted work.
+    void add(float brought, double work) {
+        const auto x = static_cast<double>(brought);
+        ++count_;
+        sum_ += x;
+        squares_ += x * x;
+        work_ += work;
+    }
+    /// Empty where one walk alone shows no variance, and where nothing is expected.
+    WalkTally tally() const;
+
+private:
+    float expected_;
+    double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0;
+};
+
+/// Walks that are guided in the same way.
+struct WalkKind {
+    Preset preset;
+    bool guides_dense_media = false;  ///< by the guides of the render's SubsurfacePreset
+
+    bool is_classical() const { return preset.is_classical() && !guides_dense_media; }
+    friend bool operator==(const WalkKind&, const WalkKind&) = default;
+};
+inline constexpr std::size_t most_walk_kinds = 5;
+/// What a segment of a guided interior walk costs beyond others.
+inline constexpr double cost_of_interior_segment = 0.7;
 using WalkTallies = std::array<WalkTally, most_walk_kinds>;
 /// Of the walks of a tile, those of each kind; they add up to 1.
 using WalkShares = std::array<float, most_walk_kinds>;
+
+/// What of a scene can be guided besides directions and survival.
+struct Guidable {
+    bool flights = false;      ///< there is a medium where free flights can be
+    bool dense_media = false;  ///< and one where interior walks can be
+};
 
 /// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
 /// no walk has a say in its own weight. All begin with classical walks. Then every kind is tried; the best of a tile
 /// goes on, and others as long as they are close.
 class GuidingChoice {
 public:
-    /// Of the kinds that a preset allows: one, unless it guides where that pays. `has_fog`: whether flights can be
-    /// guided. `is_taught`: whether there is a field from the start.
-    GuidingChoice(const Preset& preset, bool has_fog, bool is_taught, std::size_t tiles);
+    /// Of the kinds that a preset allows: one, unless it guides where that pays; then the first is classical.
+    /// `is_taught`: whether there is a field from the start.
+    GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles);
 
-    std::span<const Preset> kinds() const { return kinds_; }
+    std::span<const WalkKind> kinds() const { return kinds_; }
     /// In a pass of so many samples of each pixel.
     WalkShares shares(std::size_t tile, int samples) const;
     /// The kind of one of the samples that a pixel has in a pass, by the shares of its tile: those of a kind follow
@@ -50,8 +84,8 @@ public:
     static std::size_t kind_of(const WalkShares& shares, std::uint64_t seed, std::uint64_t pixel, int sample,
                                int samples);
 
-    /// Of a segment, in those of classical walks.
-    static double cost_of_segment(const Preset& kind);
+    /// Of a segment, in those of classical walks; those of guided interior walks cost more.
+    static double cost_of_segment(const WalkKind& kind);
 
     /// Chooses anew, by what the walks of a pass have shown in each tile; whether that changes anything. `is_warm`:
     /// whether enough is known to begin; `learns`: whether the pass has taught the fields, so that guided walks will be
@@ -73,7 +107,7 @@ public:
 private:
     WalkShares chosen_for(const WalkTallies& tile, const WalkTallies& picture) const;
 
-    std::vector<Preset> kinds_;
+    std::vector<WalkKind> kinds_;
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;
     enum class State { classical, trial, chosen } state_ = State::classical;

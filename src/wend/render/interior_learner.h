@@ -12,7 +12,9 @@ namespace wend {
 class InteriorLearner {
 public:
     InteriorLearner(const LearningContext& context)
-        : settings_(context.settings), guides_(context.scene, context.settings.subsurface, context.settings.threads) {}
+        : context_(context),
+          can_guide_(!context.settings.subsurface.is_classical() && SubsurfaceGuides::has_dense_medium(context.scene)) {
+    }
 
     static constexpr bool steers = true;
     using Recorder = InteriorRecorder;
@@ -21,7 +23,13 @@ public:
         std::vector<InteriorWalkRecord> walks;  ///< of the walk at hand
     };
 
-    void begin(const PassPlan& plan) { records_ = plan.learns && !guides_.is_empty(); }
+    /// Explores the media once they are to be guided.
+    void begin(const PassPlan& plan) {
+        if (can_guide_ && plan.guides && guides_.is_empty()) {
+            guides_ = SubsurfaceGuides(context_.scene, context_.settings.subsurface, context_.settings.threads);
+        }
+        records_ = plan.learns && !guides_.is_empty();
+    }
     bool records() const { return records_; }
     Recorder recorder(Records& records, bool /*is_recorded*/) const {
         return Recorder(records_ ? &records.walks : nullptr);
@@ -36,17 +44,20 @@ public:
         for (Records& tile : all) {
             moments += std::exchange(tile.moments, {});
         }
-        const bool knows_field = settings_.preset.direction && plan.samples_after() >= warm_up_samples;
-        const NextWalks next = plan.samples_after() >= settings_.training_samples ? NextWalks::rendering
-                               : knows_field                                      ? NextWalks::beside_field
-                                                                                  : NextWalks::beside_classical;
+        const bool knows_field = context_.settings.preset.direction && plan.samples_after() >= warm_up_samples;
+        const NextWalks next = plan.samples_after() >= context_.settings.training_samples ? NextWalks::rendering
+                               : knows_field                                              ? NextWalks::beside_field
+                                                                                          : NextWalks::beside_classical;
         guides_.learn(moments, next);
     }
 
+    /// Whether there is a dense medium to be guided.
+    bool can_guide() const { return can_guide_; }
     const SubsurfaceGuides& guides() const { return guides_; }
 
 private:
-    const RenderSettings& settings_;
+    LearningContext context_;
+    bool can_guide_;
     SubsurfaceGuides guides_;
     bool records_ = false;
 };

@@ -15,7 +15,7 @@ namespace wend {
 /// So many tell enough of any picture (LearningContext::is_warm).
 inline constexpr int warm_up_samples = 7;
 
-/// Whether there is a medium where flights may be guided.
+/// Whether there is a medium where free flights can be guided.
 inline bool has_fog(const Scene& scene) {
     const std::vector<Medium>& media = scene.description().media;
     return std::any_of(media.begin(), media.end(), [](const Medium& medium) {
@@ -27,10 +27,10 @@ inline bool has_fog(const Scene& scene) {
 struct PassPlan {
     int first = 0;  ///< sample of each pixel
     int count = 0;
-    bool learns = false;             ///< whether walks are there to learn from
-    bool guides_directions = false;  ///< whether any walk draws directions by the fields
-    bool steers = false;             ///< whether where walks go is guided: by the fields, or inside dense media
-    double recorded_share = 1;       ///< of the walks, those that are recorded
+    bool learns = false;        ///< whether walks are there to learn from
+    bool guides = false;        ///< whether any walk may be guided
+    bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
+    double recorded_share = 1;  ///< of the walks, those that are recorded
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
 

@@ -42,11 +42,14 @@ public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
          const GuidingChoice& choice, std::size_t kind, const Learners& learners, const PassPlan& plan,
          const std::atomic<bool>& stop)
-        : tracer_(scene, decisions, learners.get<InteriorLearner>().guides(), learners.get<LightLearner>().selection(),
-                  learners.get<ReflectionLearner>().probability(), settings.max_depth, &stop),
+        : tracer_(scene, decisions,
+                  choice.kinds()[kind].guides_dense_media ? learners.get<InteriorLearner>().guides() : no_guides_,
+                  learners.get<LightLearner>().selection(), learners.get<ReflectionLearner>().probability(),
+                  settings.max_depth, &stop),
           kind_(kind),
           cost_of_segment_(GuidingChoice::cost_of_segment(choice.kinds()[kind])),
           is_guided_(!choice.kinds()[kind].is_classical()),
+          expects_(choice.kinds()[kind].preset.guides_survival()),
           learners_(learners),
           camera_(scene.camera()),
           film_(film),
@@ -60,15 +63,19 @@ public:
         }
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
+                const float expected = estimate({x, y});
+                PixelWalks walks(expected);
                 for (int i = 0; i < plan_.count && !stop_; ++i) {
-                    sample({x, y}, plan_.first + i, tile, records);
+                    sample({x, y}, plan_.first + i, expected, tile, walks, records);
                 }
+                tile.tallies[kind_] += walks.tally();
             }
         }
     }
 
 private:
-    void sample(const Vec2i& pixel, int index, Tile& tile, Learners::Records& records) const {
+    void sample(const Vec2i& pixel, int index, float expected, Tile& tile, PixelWalks& walks,
+                Learners::Records& records) const {
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
         if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, index - plan_.first, plan_.count) != kind_) {
@@ -80,9 +87,8 @@ private:
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Ray ray = camera_.ray(film_point, sampler.uniform2());
         const bool is_recorded = records_walk(number, index);
-        const float expected = estimate(pixel);
         WalkResult result =
-            tracer_.trace(ray, is_guided_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
+            tracer_.trace(ray, expects_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
         if (stop_) {
             return;  // the walk may be a part of one
         }
@@ -96,8 +102,8 @@ private:
             film_.reject(pixel);
             return;
         }
-        tile.tallies[kind_].add(place.weight * mean_value(result.sample.radiance), expected,
-                                cost_of_segment_ * result.sample.segments);
+        walks.add(place.weight * mean_value(result.sample.radiance),
+                  cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
         result.sample.guided = is_guided_;
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
@@ -117,10 +123,12 @@ private:
                                                          static_cast<std::size_t>(pixel.x - crop.min.x)];
     }
 
+    SubsurfaceGuides no_guides_;
     PathTracer<Decisions, Learners::Recorders> tracer_;
     std::size_t kind_;
     double cost_of_segment_;
     bool is_guided_;
+    bool expects_;  ///< whether its survival follows the estimate of the pixel
     const Learners& learners_;
     const Camera& camera_;
     Film& film_;

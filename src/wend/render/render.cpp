@@ -92,8 +92,9 @@ public:
           context_{scene, settings, static_cast<double>(film.crop().width()) * film.crop().height()},
           tiles_(tiles_of(film.crop())),
           records_(tiles_.size()),
-          choice_(settings.preset, has_fog(scene), settings.fields != nullptr, tiles_.size()),
-          learners_(context_) {}
+          learners_(context_),
+          choice_(settings.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
+                  settings.fields != nullptr, tiles_.size()) {}
 
     /// Adds `count` samples to each pixel, and learns from them unless this pass `is_last`.
     void pass(int count, bool is_last, RenderStatistics& statistics) {
@@ -154,8 +155,8 @@ private:
         plan.count = count;
         plan.learns = samples < settings_.training_samples &&
                       !(is_last && settings_.preset.where_it_pays && !settings_.keeps_fields);
-        plan.guides_directions = preset.direction && !choice_.is_classical();
-        plan.steers = preset.direction || !learners_.get<InteriorLearner>().guides().is_empty();
+        plan.guides = !choice_.is_classical();
+        plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
         plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
         plan.recorded_share = std::min(plan.recorded_share, choice_.recorded_share(samples));
         if (preset.guides_survival() && context_.is_warm(samples) && settings_.exposure > 0) {
@@ -178,7 +179,7 @@ private:
 
     /// All walks of one kind in a pass.
     void walk(const PassPlan& plan, std::size_t kind) {
-        const Preset& preset = choice_.kinds()[kind];
+        const Preset& preset = choice_.kinds()[kind].preset;
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene_, film_, settings_, decisions, choice_, kind, learners_, plan, stop_);
             parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i], records_[i]); });
@@ -219,8 +220,8 @@ private:
     LearningContext context_;
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
-    GuidingChoice choice_;
     Learners learners_;
+    GuidingChoice choice_;
 };
 
 }  // namespace

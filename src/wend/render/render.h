@@ -4,6 +4,7 @@
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/guide/fit.h>
+#include <wend/render/guiding_choice.h>
 #include <wend/render/preset.h>
 #include <wend/sampling/sampler.h>
 #include <wend/transport/path_tracer.h>
@@ -56,9 +57,9 @@ struct RenderProgress {
     double relative_noise = 0;  ///< Film::relative_noise(), by the samples so far
 };
 
-/// Of the walks of a render, those that were guided in the same way.
-struct WalkKind {
-    Preset preset;
+/// What a render did with one kind of walks.
+struct WalkKindStatistics {
+    WalkKind kind;
     double share = 0;  ///< of all walks
     /// Squared error of a walk, relative to its pixel, and counted work (GuidingChoice): estimates, of the last passes.
     /// 0 where they were not asked for.
@@ -72,7 +73,7 @@ struct RenderStatistics {
     WalkCounts counts;
     std::size_t field_bytes = 0;
     std::vector<int> passes;  ///< samples per pixel of each pass
-    std::vector<WalkKind> kinds;
+    std::vector<WalkKindStatistics> kinds;
     bool interrupted = false;
     std::shared_ptr<const guide::Fields> fields;  ///< what was learned; null if nothing was guided
 };

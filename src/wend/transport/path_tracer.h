@@ -46,6 +46,7 @@ struct WalkCounts {
 /// What a walk found. The radiance may be not finite: the caller counts and rejects.
 struct WalkResult {
     FilmSample sample;
+    std::uint32_t interior_segments = 0;  ///< of the segments, those of guided interior walks
 };
 
 /// Walks through a scene with given decisions, seen by given recorders: at least those of StandardRecorders. A vertex
@@ -117,6 +118,7 @@ private:
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
+        result_.interior_segments += interior_of(path_.now.technique) ? 1 : 0;
         const float drawn = path_.ask_technique([&](auto& technique) -> float {
             if constexpr (requires { technique.draw_distance(sampler_); }) {
                 return technique.draw_distance(sampler_);
@@ -339,7 +341,7 @@ private:
                 technique.turn(directions, s->direction);
             }
         });
-        if (!judged && !survives(expected_ > 0 && !f.is_guidable())) {
+        if (!judged && !survives(v, expected_ > 0 && !f.is_guidable())) {
             return false;
         }
         const MediumState before = path_.now.medium;
@@ -416,8 +418,8 @@ private:
     }
 
     /// Roulette after the direction is drawn.
-    bool survives(bool is_judged_elsewhere) {
-        const float survival = survival_probability(is_judged_elsewhere);
+    bool survives(const Vertex& v, bool is_judged_elsewhere) {
+        const float survival = survival_probability(v, is_judged_elsewhere);
         if (survival < 1) {
             if (!(sampler_.uniform() < survival)) {
                 return false;
@@ -427,7 +429,7 @@ private:
         return true;
     }
 
-    float survival_probability(bool is_judged_elsewhere) {
+    float survival_probability(const Vertex& v, bool is_judged_elsewhere) {
         const PathWeight& weight = path_.now.weight;
         return path_.ask_technique([&](auto& technique) {
             if constexpr (requires { technique.survival(0.0f); }) {
@@ -436,7 +438,7 @@ private:
                 }
             }
             return d_.survival.after_direction({weight.throughput, weight.density_ratio, weight.index_scale,
-                                                path_.now.counts.vertices, is_judged_elsewhere});
+                                                path_.now.counts.vertices, is_judged_elsewhere, v.in_volume()});
         });
     }
 

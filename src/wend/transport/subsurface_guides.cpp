@@ -76,7 +76,28 @@ Rgb returned_by(const HomogeneousMedium& medium, const BoundarySurface& boundary
     return result;
 }
 
+/// Of its boundary; none where it is not dense.
+std::vector<BoundaryPoint> points_of_dense_medium(const Scene& scene, MediumId id, Pcg32& random) {
+    const auto* medium = std::get_if<HomogeneousMedium>(&scene.media()[static_cast<std::size_t>(id)]);
+    if (!medium || !may_be_dense(*medium)) {
+        return {};
+    }
+    auto points = boundary_points(scene.description(), id, points_of_boundary, static_cast<std::size_t>(id));
+    const float depth = mean_chord(scene, id, points, random) * mean_value(medium->extinction());
+    return depth >= least_depth ? points : std::vector<BoundaryPoint>();
+}
+
 }  // namespace
+
+bool SubsurfaceGuides::has_dense_medium(const Scene& scene) {
+    for (std::size_t id = 0; id < scene.media().size(); ++id) {
+        Pcg32 random(id);
+        if (!points_of_dense_medium(scene, static_cast<MediumId>(id), random).empty()) {
+            return true;
+        }
+    }
+    return false;
+}
 
 SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
     : strategy_(preset.strategy) {
@@ -85,16 +106,11 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
     }
     media_.resize(scene.media().size());
     for (std::size_t id = 0; id < media_.size(); ++id) {
-        const auto* medium = std::get_if<HomogeneousMedium>(&scene.media()[id]);
-        if (!medium || !may_be_dense(*medium)) {
-            continue;
-        }
         Pcg32 random(id);
-        const auto points = boundary_points(scene.description(), static_cast<MediumId>(id), points_of_boundary, id);
-        const float depth =
-            mean_chord(scene, static_cast<MediumId>(id), points, random) * mean_value(medium->extinction());
-        if (!points.empty() && depth >= least_depth) {
-            media_[id] = explore(scene, static_cast<MediumId>(id), *medium, points, random, threads);
+        const auto points = points_of_dense_medium(scene, static_cast<MediumId>(id), random);
+        if (!points.empty()) {
+            const auto& medium = std::get<HomogeneousMedium>(scene.media()[id]);
+            media_[id] = explore(scene, static_cast<MediumId>(id), medium, points, random, threads);
         }
     }
 }

@@ -22,6 +22,9 @@ public:
     /// The scene must outlive it.
     SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads);
 
+    /// Whether a scene has a medium to be guided: soon known, long before there are guides.
+    static bool has_dense_medium(const Scene& scene);
+
     bool is_empty() const { return media_.empty(); }
 
     /// How interior walks that begin here are sampled; null for a medium that is not dense.
