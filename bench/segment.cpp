@@ -65,11 +65,11 @@ void once(benchmark::internal::Benchmark* row) {
 BENCHMARK_CAPTURE(segments, fog_classical, "fog-door", "classical")->Apply(once);
 BENCHMARK_CAPTURE(segments, fog_direction, "fog-door", "direction")->Apply(once);
 BENCHMARK_CAPTURE(segments, fog_distance_direction, "fog-door", "distance+direction")->Apply(once);
-BENCHMARK_CAPTURE(segments, fog_full, "fog-door", "full")->Apply(once);
+BENCHMARK_CAPTURE(segments, fog_full, "fog-door", "distance+direction+roulette+splitting")->Apply(once);
 BENCHMARK_CAPTURE(segments, shield_classical, "shield-duct", "classical")->Apply(once);
 BENCHMARK_CAPTURE(segments, shield_direction, "shield-duct", "direction")->Apply(once);
 BENCHMARK_CAPTURE(segments, shield_distance_direction, "shield-duct", "distance+direction")->Apply(once);
-BENCHMARK_CAPTURE(segments, shield_full, "shield-duct", "full")->Apply(once);
+BENCHMARK_CAPTURE(segments, shield_full, "shield-duct", "distance+direction+roulette+splitting")->Apply(once);
 
 }  // namespace
 }  // namespace wend

@@ -23,12 +23,13 @@ TEST(ClassicalRoulette, EnteringADenserMediumDoesNotEndWalks) {
     EXPECT_FLOAT_EQ(ClassicalRoulette().after_direction({Rgb(1 / 2.25f), 1, 2.25f, 2}), 1);
 }
 
-TEST(ClassicalRoulette, MayTellMediaFromSurfaces) {
-    const ClassicalRoulette survival(0.5f, 0.8f);
+TEST(ClassicalRoulette, MayEndWalksInMediaAsAbsorptionWould) {
     WalkState state{Rgb(0.4f), 1, 1, 3};
-    EXPECT_FLOAT_EQ(survival.after_direction(state), 0.8f);
+    EXPECT_FLOAT_EQ(unguided_walks_end.after_direction(state), 0.8f);
+    EXPECT_FLOAT_EQ(guided_walks_end.after_direction(state), 1);
     state.in_volume = true;
-    EXPECT_FLOAT_EQ(survival.after_direction(state), 0.5f);
+    EXPECT_FLOAT_EQ(unguided_walks_end.after_direction(state), 0.4f);
+    EXPECT_FLOAT_EQ(guided_walks_end.after_direction(state), 1);
 }
 
 TEST(ClassicalRoulette, SparesGuidedWalksUntilLittleIsLeft) {

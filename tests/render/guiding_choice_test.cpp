@@ -57,7 +57,7 @@ TEST(GuidingChoice, GuidesOfDenseMediaAreAskedForThemselves) {
 TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     GuidingChoice choice(parse_preset("full"), {}, false, 2);
     const std::vector<WalkTallies> nothing(2);
-    EXPECT_TRUE(choice.is_classical());
+    EXPECT_FALSE(choice.guides(8));
     EXPECT_FALSE(choice.learn(nothing, false, true));
     EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
     EXPECT_TRUE(choice.learn(nothing, true, true));
@@ -67,6 +67,8 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     }
     // Too short to try all: that pass shows nothing of the others, and the trial is still to come.
     EXPECT_EQ(choice.shares(1, 2), WalkShares{1});
+    EXPECT_FALSE(choice.guides(2));
+    EXPECT_TRUE(choice.guides(3));
     const std::vector<WalkTallies> short_pass(2, {walks(100, 1, 1)});
     EXPECT_FALSE(choice.learn(short_pass, true, true));
     EXPECT_TRUE(choice.is_trial());
@@ -74,7 +76,7 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
 
 TEST(GuidingChoice, StartsGuidedWhereThereIsAFieldFromTheStart) {
     const GuidingChoice choice(parse_preset("full"), {}, true, 1);
-    EXPECT_FALSE(choice.is_classical());
+    EXPECT_TRUE(choice.guides(1));
     EXPECT_EQ(choice.shares(0, 1)[directions], 1);
 }
 

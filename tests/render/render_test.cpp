@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace wend {
 namespace {
@@ -77,16 +78,18 @@ INSTANTIATE_TEST_SUITE_P(Presets, Reproducible,
                          testing::Values("classical", "scatter", "distance", "direction", "full", "roulette",
                                          "splitting"));
 
-TEST(Reproducible, TheListOfPassesRepeatsARunThatWasStopped) {
+class Repeated : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(Repeated, TheListOfPassesRepeatsARunThatWasStopped) {
     const Scene scene(foggy_room());
     RenderSettings settings;
-    settings.preset = parse_preset("direction");
+    settings.preset = parse_preset(std::get<0>(GetParam()));
     settings.seconds = 1e9;
     Film stopped({resolution, resolution}, {{0, 0}, {resolution, resolution}});
     int samples = 0;
     const RenderStatistics first = render(scene, stopped, settings, [&](const RenderProgress& progress) {
         samples = progress.samples;
-        return samples < 40;
+        return samples < std::get<1>(GetParam());
     });
     EXPECT_TRUE(first.interrupted);
     EXPECT_EQ(first.samples, samples) << "no pass begins after the stop";
@@ -96,6 +99,9 @@ TEST(Reproducible, TheListOfPassesRepeatsARunThatWasStopped) {
     render(scene, repeated, settings);
     EXPECT_EQ(stopped.beauty().pixels, repeated.beauty().pixels);
 }
+
+INSTANTIATE_TEST_SUITE_P(Presets, Repeated,
+                         testing::Combine(testing::Values("direction", "full"), testing::Values(3, 10, 40)));
 
 /// The foggy room as classical sampling has it: 192 renders of 128 samples per pixel with the seeds from 100000 on
 /// (14 million samples), and the standard errors from their scatter.

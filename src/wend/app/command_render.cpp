@@ -193,7 +193,8 @@ Action add_render_command(CLI::App& program) {
     seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options->sampling,
-        "classical, full, or the decisions to guide joined by '+': " + guidable_decisions_text() + " (default: full)");
+        "classical; full: whatever pays, where it pays; or the decisions to guide everywhere, joined by '+': " +
+            guidable_decisions_text() + " (default: full)");
     command
         .add_option("--subsurface", options->subsurface,
                     "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")

@@ -53,10 +53,9 @@ class ClassicalRoulette {
 public:
     /// Ends walks as absorption would, from their first loss on.
     constexpr ClassicalRoulette() = default;
-    /// Both in (0,1].
-    constexpr explicit ClassicalRoulette(float ends_below, float ends_below_in_media)
-        : ends_below_(ends_below), ends_below_in_media_(ends_below_in_media) {}
-    constexpr explicit ClassicalRoulette(float ends_below) : ClassicalRoulette(ends_below, ends_below) {}
+    /// `ends_below` in (0,1]. `media_absorb`: whether after collisions walks end as absorption would nonetheless.
+    constexpr explicit ClassicalRoulette(float ends_below, bool media_absorb = false)
+        : ends_below_(ends_below), media_absorb_(media_absorb) {}
 
     /// Beyond this a guide has been wrong too often to be trusted with a walk of no weight.
     static constexpr float max_density_ratio = 1e4f;
@@ -71,18 +70,20 @@ public:
         if (state.depth <= 1) {
             return 1;
         }
+        const float ends_below = media_absorb_ && state.in_volume ? 1.0f : ends_below_;
         return std::min(1.0f, max_value(state.throughput) * std::min(state.density_ratio, max_density_ratio) *
-                                  state.index_scale / (state.in_volume ? ends_below_in_media_ : ends_below_));
+                                  state.index_scale / ends_below);
     }
 
 private:
-    float ends_below_ = 1, ends_below_in_media_ = 1;
+    float ends_below_ = 1;
+    bool media_absorb_ = false;
 };
 
-/// Classical roulette of a walk that is not guided yet. To survive in proportion to the throughput is cheap but noisy.
-/// In rooms a half is up to 1.6 times more efficient; in fog, where each collision loses little, walks get much longer
-/// (docs/experiments/survival.md).
-inline constexpr ClassicalRoulette unguided_walks_end{0.5f, 0.75f};
+/// Classical roulette of a walk that is not guided yet. To survive in proportion to the throughput is cheap but noisy:
+/// in rooms a half is up to 1.6 times more efficient. In media of high albedo each collision loses little, and walks
+/// would get much longer (docs/experiments/survival.md).
+inline constexpr ClassicalRoulette unguided_walks_end{0.5f, true};
 
 /// Classical roulette of a guided walk. It is on its way to light, and to end it at its first losses would be a noise
 /// that its directions had just avoided. An eighth is a compromise over several scenes (docs/experiments/survival.md).

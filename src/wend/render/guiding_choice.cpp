@@ -153,9 +153,16 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool 
     return shares_ != before;
 }
 
-WalkShares GuidingChoice::shares(std::size_t tile, int samples) const {
+bool GuidingChoice::guides(int samples) const {
+    if (kinds_.size() == 1) {
+        return !kinds_[0].is_classical();
+    }
     const bool is_too_short = is_trial() && samples < static_cast<int>(kinds_.size());
-    return is_too_short ? all_of(0) : shares_[tile];
+    return !is_too_short && !(state_ == State::classical && shares_.front()[0] == 1);
+}
+
+WalkShares GuidingChoice::shares(std::size_t tile, int samples) const {
+    return kinds_.size() > 1 && !guides(samples) ? all_of(0) : shares_[tile];
 }
 
 double GuidingChoice::recorded_share(int samples) const {

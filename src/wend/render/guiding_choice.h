@@ -92,8 +92,8 @@ public:
     /// others.
     bool learn(std::span<const WalkTallies> pass, bool is_warm, bool learns);
 
-    /// Whether all walks are classical as yet.
-    bool is_classical() const { return kinds_.size() > 1 && state_ == State::classical && shares_.front()[0] == 1; }
+    /// Whether any walk may be guided in a pass of so many samples of each pixel.
+    bool guides(int samples) const;
     /// Whether every kind is being tried.
     bool is_trial() const { return state_ == State::trial; }
     /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.

@@ -155,7 +155,7 @@ private:
         plan.count = count;
         plan.learns = samples < settings_.training_samples &&
                       !(is_last && settings_.preset.where_it_pays && !settings_.keeps_fields);
-        plan.guides = !choice_.is_classical();
+        plan.guides = choice_.guides(count);
         plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
         plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
         plan.recorded_share = std::min(plan.recorded_share, choice_.recorded_share(samples));

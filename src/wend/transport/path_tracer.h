@@ -341,7 +341,7 @@ private:
                 technique.turn(directions, s->direction);
             }
         });
-        if (!judged && !survives(v, expected_ > 0 && !f.is_guidable())) {
+        if (!judged && !survives(v.in_volume(), expected_ > 0 && !f.is_guidable())) {
             return false;
         }
         const MediumState before = path_.now.medium;
@@ -418,8 +418,8 @@ private:
     }
 
     /// Roulette after the direction is drawn.
-    bool survives(const Vertex& v, bool is_judged_elsewhere) {
-        const float survival = survival_probability(v, is_judged_elsewhere);
+    bool survives(bool in_volume, bool is_judged_elsewhere) {
+        const float survival = survival_probability(in_volume, is_judged_elsewhere);
         if (survival < 1) {
             if (!(sampler_.uniform() < survival)) {
                 return false;
@@ -429,7 +429,7 @@ private:
         return true;
     }
 
-    float survival_probability(const Vertex& v, bool is_judged_elsewhere) {
+    float survival_probability(bool in_volume, bool is_judged_elsewhere) {
         const PathWeight& weight = path_.now.weight;
         return path_.ask_technique([&](auto& technique) {
             if constexpr (requires { technique.survival(0.0f); }) {
@@ -438,7 +438,7 @@ private:
                 }
             }
             return d_.survival.after_direction({weight.throughput, weight.density_ratio, weight.index_scale,
-                                                path_.now.counts.vertices, is_judged_elsewhere, v.in_volume()});
+                                                path_.now.counts.vertices, is_judged_elsewhere, in_volume});
         });
     }
 
