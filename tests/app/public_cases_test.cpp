@@ -49,9 +49,9 @@ Expected read_expected(const std::string& scene) {
     return expected;
 }
 
-/// Renders with what the scene and the defaults of `wend render` say, eight times; the samples are those of the scene.
+/// Renders with what the scene and the defaults of `wend render` say, twelve times; the samples are those of the scene.
 void expect_right_mean(const std::filesystem::path& file) {
-    constexpr std::uint64_t renders = 8;
+    constexpr std::uint64_t renders = 12;
     const Expected expected = read_expected(test::read_text(file));
     LoadedScene loaded = load_scene(file);
     RenderSettings settings;

@@ -4,24 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace wend {
 namespace {
 
 /// What a tile's own walks are weighed against: so many walks of the picture's.
 constexpr double walks_of_picture = 4000;
-/// Kinds whose squared error times work is more than this times that of the best are not tried again.
-constexpr double close = 2;
-/// Of walks, the share of each kind that is close; less where its noise would be seen beside that of the best.
-constexpr double trial_share = 1.0 / 16, noise_of_trials = 0.02;
+/// Kinds that are close to the best go on being tried.
+struct Trials {
+    double close;  ///< whose price is less than this times that of the best
+    double share;  ///< of walks, for each
+    double noise;  ///< and no more than add this share to the squared error of the best
+};
+constexpr Trials of_learners{4, 1.0 / 8, 0.1}, of_others{2, 1.0 / 16, 0.02};
 /// What an older field has shown counts so much less with each pass.
 constexpr double age = 0.25;
-
-/// Squared error times work, of one walk.
-double price_of(const WalkTally& tally) {
-    return tally.walks > 0 ? tally.variance() * tally.work / tally.walks : std::numeric_limits<double>::infinity();
-}
 
 WalkShares all_of(std::size_t kind) {
     WalkShares shares{};
@@ -77,7 +75,8 @@ GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, boo
 std::size_t GuidingChoice::kind_of(const WalkShares& shares, std::uint64_t seed, std::uint64_t pixel, int sample,
                                    int samples) {
     constexpr std::uint64_t purpose = 0x6b696e64;
-    double u = (sample + Pcg32(hash_of(seed, pixel, purpose)).uniform_double()) / samples;
+    const int pairs = (samples + 1) / 2;
+    double u = (sample / 2 + Pcg32(hash_of(seed, pixel, purpose)).uniform_double()) / pairs;
     std::size_t kind = 0;
     while (kind + 1 < most_walk_kinds && u >= static_cast<double>(shares[kind])) {
         u -= static_cast<double>(shares[kind++]);
@@ -95,24 +94,52 @@ double GuidingChoice::cost_of_segment(const WalkKind& kind) {
            (guided.guides_distance() ? 0.2 : 0.0);
 }
 
-WalkTallies GuidingChoice::totals() const {
-    WalkTallies sum;
-    for (const WalkTallies& tile : tallies_) {
+GuidingChoice::Products GuidingChoice::products(double WalkTally::*what) const {
+    // Each factor in turn from the other ones. That would not settle if the few walks of a trial were nothing beside
+    // the many of the tile's best kind.
+    constexpr int rounds = 50;
+    constexpr double most_walks = 256;
+    const auto weight = [&](std::size_t tile, std::size_t kind) {
+        return std::min(tallies_[tile][kind].walks, most_walks);
+    };
+    const auto shown = [&](std::size_t tile, std::size_t kind) {
+        const WalkTally& tally = tallies_[tile][kind];
+        return tally.walks > 0 ? tally.*what * (weight(tile, kind) / tally.walks) : 0.0;
+    };
+    Products p;
+    p.tile.assign(tallies_.size(), 1);
+    for (int round = 0; round < rounds; ++round) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            sum[kind] += tile[kind];
+            double all = 0, expected = 0;
+            for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
+                all += shown(tile, kind);
+                expected += weight(tile, kind) * p.tile[tile];
+            }
+            p.kind[kind] = expected > 0 ? all / expected : 0.0;
+        }
+        for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
+            double all = 0, expected = 0;
+            for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+                all += shown(tile, kind);
+                expected += weight(tile, kind) * p.kind[kind];
+            }
+            p.tile[tile] = expected > 0 ? all / expected : 1.0;
         }
     }
-    return sum;
+    return p;
 }
 
-WalkShares GuidingChoice::mean_shares() const {
-    WalkShares mean{};
-    for (const WalkShares& shares : shares_) {
-        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            mean[kind] += shares[kind] / static_cast<float>(shares_.size());
-        }
+WalkTallies GuidingChoice::means() const {
+    const Products squares = products(&WalkTally::square), work = products(&WalkTally::work);
+    const auto mean = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    };
+    const double square_of_tile = mean(squares.tile), work_of_tile = mean(work.tile);
+    WalkTallies means;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        means[kind] = {1, square_of_tile * squares.kind[kind], work_of_tile * work.kind[kind]};
     }
-    return mean;
+    return means;
 }
 
 bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool learns) {
@@ -137,18 +164,21 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool 
         std::fill(shares_.begin(), shares_.end(), even);
         return true;
     }
-    const WalkTallies picture = totals();
-    if (std::any_of(picture.begin(), picture.begin() + static_cast<std::ptrdiff_t>(kinds_.size()),
-                    [](const WalkTally& tally) { return tally.walks == 0; })) {
-        return false;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        if (std::all_of(tallies_.begin(), tallies_.end(),
+                        [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
+            return false;
+        }
     }
     state_ = State::chosen;
+    const Products squares = products(&WalkTally::square), work = products(&WalkTally::work);
+    const auto price = [&](std::size_t kind) { return squares.kind[kind] * work.kind[kind]; };
     gain_ = 0;
     for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
-        gain_ = std::max(gain_, price_of(picture[0]) / price_of(picture[kind]));
+        gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
     }
     for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
-        shares_[tile] = chosen_for(tallies_[tile], picture);
+        shares_[tile] = chosen_for(tile, squares, work, learns);
     }
     return shares_ != before;
 }
@@ -169,7 +199,7 @@ double GuidingChoice::recorded_share(int samples) const {
     if (kinds_.size() == 1) {
         return 1;
     }
-    constexpr double first = 1.0 / 16, before_trial = 0.2, at_trial = 0.4, least = 0.15, most = 0.5, enough = 6;
+    constexpr double first = 1.0 / 16, before_trial = 0.3, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
     switch (state_) {
         case State::classical:
             return samples < warm_up_samples / 2 ? first : before_trial;
@@ -181,39 +211,25 @@ double GuidingChoice::recorded_share(int samples) const {
     return 1;
 }
 
-WalkShares GuidingChoice::chosen_for(const WalkTallies& tile, const WalkTallies& picture) const {
-    // Tiles differ in what is hard there for walks of all kinds.
-    double squares = 0, expected_squares = 0, work = 0, expected_work = 0;
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        const WalkTally &here = tile[kind], &all = picture[kind];
-        if (all.walks > 0) {
-            squares += here.square;
-            expected_squares += here.walks * all.variance();
-            work += here.work;
-            expected_work += here.walks * all.work / all.walks;
-        }
-    }
-    const double hard = expected_squares > 0 ? squares / expected_squares : 1.0;
-    const double long_walks = expected_work > 0 ? work / expected_work : 1.0;
+WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, const Products& work,
+                                     bool learns) const {
     std::array<double, most_walk_kinds> variance{}, price{};
     std::size_t best = 0;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        const WalkTally &here = tile[kind], &all = picture[kind];
-        if (!(all.walks > 0)) {
-            price[kind] = std::numeric_limits<double>::infinity();
-            continue;
-        }
+        const WalkTally& here = tallies_[tile][kind];
         const double n = here.walks + walks_of_picture;
-        variance[kind] = (here.square + walks_of_picture * hard * all.variance()) / n;
-        price[kind] = variance[kind] * (here.work + walks_of_picture * long_walks * all.work / all.walks) / n;
+        variance[kind] = (here.square + walks_of_picture * squares.at(tile, kind)) / n;
+        price[kind] = variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n;
         best = price[kind] < price[best] ? kind : best;
     }
     WalkShares shares{};
     float rest = 1;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        if (kind != best && price[kind] < close * price[best]) {
+        // As long as the fields learn, kinds that follow them get better.
+        const Trials& trials = learns && kind > 0 ? of_learners : of_others;
+        if (kind != best && price[kind] < trials.close * price[best]) {
             const double excess = std::max(0.0, variance[kind] / variance[best] - 1);
-            shares[kind] = static_cast<float>(std::min(trial_share, noise_of_trials / excess));
+            shares[kind] = static_cast<float>(std::min(trials.share, trials.noise / excess));
             rest -= shares[kind];
         }
     }

@@ -99,19 +99,27 @@ public:
     /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.
     double recorded_share(int samples) const;
 
-    /// Of the whole picture, as far as still counted.
-    WalkTallies totals() const;
-    /// Of the picture's walks to come, those of each kind.
-    WalkShares mean_shares() const;
+    /// What a walk of each kind is estimated to show in the whole picture, were all of that kind; 0 where none was
+    /// tried.
+    WalkTallies means() const;
 
 private:
-    WalkShares chosen_for(const WalkTallies& tile, const WalkTallies& picture) const;
+    /// What a kind shows in a tile, as a product of what is hard in the tile for all kinds and hard for the kind in all
+    /// tiles: kinds have walks in different tiles.
+    struct Products {
+        std::vector<double> tile;
+        std::array<double, most_walk_kinds> kind{};
+
+        double at(std::size_t t, std::size_t k) const { return tile[t] * kind[k]; }
+    };
+    Products products(double WalkTally::*what) const;
+    WalkShares chosen_for(std::size_t tile, const Products& squares, const Products& work, bool learns) const;
 
     std::vector<WalkKind> kinds_;
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;
     enum class State { classical, trial, chosen } state_ = State::classical;
-    double gain_ = 0;  ///< of guiding, as the whole picture shows
+    double gain_ = 0;  ///< of guiding, in the whole picture
 };
 
 }  // namespace wend

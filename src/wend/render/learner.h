@@ -12,7 +12,7 @@
 
 namespace wend {
 
-/// So many tell enough of any picture (LearningContext::is_warm).
+/// Before, neither the fields nor the pixels are known well enough to end or split walks by them, or to judge guides.
 inline constexpr int warm_up_samples = 7;
 
 /// Whether there is a medium where free flights can be guided.
@@ -45,13 +45,6 @@ struct LearningContext {
     double pixels;
 
     double walks(const PassPlan& plan) const { return pixels * plan.count; }
-    /// Whether so many samples of each pixel, and the walks of a large picture that much sooner, tell fields and pixels
-    /// well enough to end or split walks by them, or to judge guides.
-    bool is_warm(int samples) const {
-        constexpr int fewest = 3;
-        constexpr double enough_walks = 1e5;
-        return samples >= warm_up_samples || (samples >= fewest && pixels * samples >= enough_walks);
-    }
 };
 
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts

@@ -105,7 +105,8 @@ public:
             tiles_[i].tallies = {};
         }
         for (std::size_t kind = 0; kind < choice_.kinds().size() && !stop_; ++kind) {
-            if (kind > 0 && choice_.is_trial()) {
+            // By one sample a stage would not know its variance.
+            if (kind > 0 && choice_.is_trial() && count >= 2 * static_cast<int>(choice_.kinds().size())) {
                 film_.begin_stage();
             }
             walk(plan, kind);
@@ -119,9 +120,9 @@ public:
         learners_.learn(records_, plan);
         statistics.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
-        const bool warms_up = !settings_.preset.is_classical() && !context_.is_warm(plan.first);
+        const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
         const bool chooses_anew = choose(statistics.samples);
-        if (context_.is_warm(statistics.samples) && (learners_.changes_walks() || warms_up || chooses_anew)) {
+        if (statistics.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
         }
     }
@@ -130,16 +131,14 @@ public:
         for (const Tile& tile : tiles_) {
             statistics.counts += tile.counts;
         }
-        const WalkTallies shown = choice_.totals();
+        const WalkTallies means = choice_.means();
         for (std::size_t kind = 0; kind < choice_.kinds().size(); ++kind) {
             double walks = 0;
             for (const Tile& tile : tiles_) {
                 walks += static_cast<double>(tile.walks[kind]);
             }
             const double all = static_cast<double>(std::max<std::uint64_t>(statistics.counts.paths, 1));
-            const WalkTally& tally = shown[kind];
-            statistics.kinds.push_back({choice_.kinds()[kind], walks / all, tally.variance(),
-                                        tally.walks > 0 ? tally.work / tally.walks : 0.0});
+            statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
         }
         if (!settings_.preset.is_classical()) {
             statistics.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
@@ -159,7 +158,7 @@ private:
         plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
         plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
         plan.recorded_share = std::min(plan.recorded_share, choice_.recorded_share(samples));
-        if (preset.guides_survival() && context_.is_warm(samples) && settings_.exposure > 0) {
+        if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
             plan.estimates = pixel_estimates(film_.beauty(), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
@@ -174,7 +173,7 @@ private:
         for (const Tile& tile : tiles_) {
             tallies.push_back(tile.tallies);
         }
-        return choice_.learn(tallies, context_.is_warm(samples), learners_.get<FieldLearner>().records());
+        return choice_.learn(tallies, samples >= warm_up_samples, learners_.get<FieldLearner>().records());
     }
 
     /// All walks of one kind in a pass.
