@@ -21,7 +21,7 @@ constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
 constexpr float sizes[] = {1, 10, 30};  // in mean free paths
 enum class Inside { nothing, lamp, other_medium, glass, other_medium_in_glass };
 constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "auto"};
-constexpr const char* samplings[] = {"classical", "direction", "splitting", "full"};
+constexpr const char* samplings[] = {"classical", "direction", "distance+direction+roulette+splitting", "full"};
 constexpr int passes[] = {4, 16, 64};  // samples per pixel
 
 constexpr float ior = 1.4f;

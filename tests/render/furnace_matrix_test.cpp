@@ -34,7 +34,8 @@ enum class Boundary { matched, smooth, rough };
 enum class Body { ball, thin_slab, cube, two_boxes };
 // Two of them twice: the references are those of the pairs of seven.
 constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "closest", "auto", "auto"};
-constexpr const char* samplings[] = {"classical", "scatter", "distance", "direction", "roulette", "splitting", "full"};
+constexpr const char* samplings[] = {
+    "classical", "scatter", "distance", "direction", "roulette", "distance+direction+roulette+splitting", "full"};
 constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
 
 struct Furnace {

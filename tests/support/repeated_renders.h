@@ -51,7 +51,7 @@ inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRen
 inline void expect_right_and_quieter(const Scene& scene, RenderSettings settings, int resolution, double expected,
                                      double largest_noise) {
     const RepeatedRenders classical(scene, settings, resolution);
-    for (const char* sampling : {"direction", "full"}) {
+    for (const char* sampling : {"distance+direction+roulette+splitting", "full"}) {
         SCOPED_TRACE(sampling);
         settings.preset = parse_preset(sampling);
         const RepeatedRenders guided(scene, settings, resolution);
