@@ -14,7 +14,7 @@ constexpr std::size_t classical = 0, survival = 1, directions = 2;
 
 /// Walks that each brought the pixel's value but for an error of this variance.
 WalkTally walks(double count, double variance, double work) {
-    return {count, count * variance, count * work};
+    return {count, count, count * variance, count * work};
 }
 
 /// Of a scene without fog, taught by classical walks, with every kind tried.
@@ -124,6 +124,17 @@ TEST(GuidingChoice, KindsAreComparedInTheSameTiles) {
     EXPECT_NEAR(means[survival].work / means[directions].work, 2, 1e-3);
 }
 
+TEST(GuidingChoice, WhatHasFoundNothingIsNotTakenToBeExact) {
+    WalkTally blind = walks(1000, 0, 1);
+    blind.value = 0;
+    const GuidingChoice choice = tried(1, {{blind, blind, walks(1000, 5, 8)}});
+    EXPECT_EQ(choice.shares(0, 8)[directions], 1);
+    // What lacks no more than chance would have it keeps its variance.
+    WalkTally dim = walks(1000, 1, 1);
+    dim.value = 950;
+    EXPECT_GT(tried(1, {{dim, walks(1000, 5, 8), walks(1000, 5, 8)}}).shares(0, 8)[classical], 0.8f);
+}
+
 TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
     const WalkTallies guided = {walks(1e5, 10, 3), walks(1e5, 9, 3), walks(1e5, 1, 3)};
     const WalkTallies unguided = {walks(1e5, 1, 3), walks(1e5, 9, 3), walks(1e5, 10, 3)};
@@ -179,6 +190,7 @@ TEST(PixelWalks, ShowTheVarianceRelativeToThePixel) {
     walks.add(1, 6);
     const WalkTally tally = walks.tally();
     EXPECT_EQ(tally.walks, 2);
+    EXPECT_EQ(tally.value, 2);
     EXPECT_EQ(tally.variance(), 0.5);
     EXPECT_EQ(tally.work, 11);
     EXPECT_EQ(tally.scaled(0.5).walks, 1);

@@ -35,18 +35,19 @@ WalkTally PixelWalks::tally() const {
     }
     const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
     const auto expected = static_cast<double>(expected_);
-    return {count_, count_ * variance / (expected * expected), work_};
+    return {count_, sum_ / expected, count_ * variance / (expected * expected), work_};
 }
 
 WalkTally& WalkTally::operator+=(const WalkTally& o) {
     walks += o.walks;
+    value += o.value;
     square += o.square;
     work += o.work;
     return *this;
 }
 
 WalkTally WalkTally::scaled(double factor) const {
-    return {factor * walks, factor * square, factor * work};
+    return {factor * walks, factor * value, factor * square, factor * work};
 }
 
 GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles) {
@@ -129,15 +130,50 @@ GuidingChoice::Products GuidingChoice::products(double WalkTally::*what) const {
     return p;
 }
 
+GuidingChoice::Products GuidingChoice::squared_errors() const {
+    Products squares = products(&WalkTally::square);
+    const Products values = products(&WalkTally::value);
+    const auto mean = [](const std::vector<double>& of_tiles) {
+        return std::accumulate(of_tiles.begin(), of_tiles.end(), 0.0) / static_cast<double>(of_tiles.size());
+    };
+    const double hard = mean(squares.tile), bright = mean(values.tile);
+    std::array<double, most_walk_kinds> walks{};
+    for (const WalkTallies& tile : tallies_) {
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+            walks[kind] += tile[kind].walks;
+        }
+    }
+    if (!(hard > 0)) {
+        return squares;
+    }
+    // All kinds bring the same in the mean. What one lacks of another, beyond chance, it finds in less than one of its
+    // walks, and then all of it at once.
+    const Products shown = squares;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        for (std::size_t other = 0; other < kinds_.size(); ++other) {
+            if (walks[kind] == 0 || walks[other] == 0) {
+                continue;
+            }
+            constexpr double beyond_chance = 3;
+            const double lack = bright * (values.kind[other] - values.kind[kind]);
+            const double chance = std::sqrt(hard * (shown.kind[other] / walks[other] + shown.kind[kind] / walks[kind]));
+            if (lack > beyond_chance * chance) {
+                squares.kind[kind] = std::max(squares.kind[kind], shown.kind[kind] + walks[kind] * lack * lack / hard);
+            }
+        }
+    }
+    return squares;
+}
+
 WalkTallies GuidingChoice::means() const {
-    const Products squares = products(&WalkTally::square), work = products(&WalkTally::work);
+    const Products squares = squared_errors(), work = products(&WalkTally::work);
     const auto mean = [](const std::vector<double>& values) {
         return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     };
     const double square_of_tile = mean(squares.tile), work_of_tile = mean(work.tile);
     WalkTallies means;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        means[kind] = {1, square_of_tile * squares.kind[kind], work_of_tile * work.kind[kind]};
+        means[kind] = {1, 1, square_of_tile * squares.kind[kind], work_of_tile * work.kind[kind]};
     }
     return means;
 }
@@ -171,7 +207,7 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool 
         }
     }
     state_ = State::chosen;
-    const Products squares = products(&WalkTally::square), work = products(&WalkTally::work);
+    const Products squares = squared_errors(), work = products(&WalkTally::work);
     const auto price = [&](std::size_t kind) { return squares.kind[kind] * work.kind[kind]; };
     gain_ = 0;
     for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {

@@ -14,6 +14,7 @@ namespace wend {
 /// What walks of one kind have shown.
 struct WalkTally {
     double walks = 0;
+    double value = 0;   ///< sum of what they brought, relative to the pixel
     double square = 0;  ///< sum over the walks of the variance of what one brings, relative to its pixel
     double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
 
@@ -113,6 +114,8 @@ private:
         double at(std::size_t t, std::size_t k) const { return tile[t] * kind[k]; }
     };
     Products products(double WalkTally::*what) const;
+    /// Of squared errors, with those of light that a kind has not found yet.
+    Products squared_errors() const;
     WalkShares chosen_for(std::size_t tile, const Products& squares, const Products& work, bool learns) const;
 
     std::vector<WalkKind> kinds_;
