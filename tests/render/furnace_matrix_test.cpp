@@ -34,8 +34,7 @@ enum class Boundary { matched, smooth, rough };
 enum class Body { ball, thin_slab, cube, two_boxes };
 // Two of them twice: the references are those of the pairs of seven.
 constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "closest", "auto", "auto"};
-constexpr const char* samplings[] = {
-    "classical", "scatter", "distance", "direction", "roulette", "distance+direction+roulette+splitting", "full"};
+constexpr const char* samplings[] = {"classical", "scatter", "distance", "direction", "roulette", "splitting", "full"};
 constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
 
 struct Furnace {
@@ -46,6 +45,7 @@ struct Furnace {
     const char* subsurface;
     const char* sampling;
     int samples;
+    int least_resolution = 1;
 
     static std::vector<int> levels() { return {4, 4, 4, 3, 4, 2, 2, 7, 7, 4}; }
     explicit Furnace(const std::vector<int>& row)
@@ -76,15 +76,23 @@ struct Furnace {
 
     friend void PrintTo(const Furnace& f, std::ostream* out) {
         *out << f.object() << ", --subsurface " << f.subsurface << " --sampling " << f.sampling << " --spp "
-             << f.samples;
+             << f.samples << (f.least_resolution > 1 ? ", in a picture that is large enough to choose" : "");
     }
 };
 
+/// Small pictures leave nothing to choose (GuidingChoice): `full` guides everywhere there. So media that do not take
+/// long are there once more, in pictures that are tried and chosen in.
 std::vector<Furnace> furnaces() {
-    std::vector<Furnace> all;
+    std::vector<Furnace> all, chosen;
     for (const auto& row : test::covering_array(Furnace::levels())) {
         all.emplace_back(row);
+        if (const Furnace& f = all.back(); f.sampling == std::string("full") && f.size <= 10) {
+            chosen.push_back(f);
+            chosen.back().samples = 64;
+            chosen.back().least_resolution = 32;
+        }
     }
+    all.insert(all.end(), chosen.begin(), chosen.end());
     return all;
 }
 
@@ -148,7 +156,8 @@ struct Effort {
 constexpr int samples_of_render = 1 << 12;
 
 test::ChannelMeans measure(const Furnace& f, const Effort& effort) {
-    const int resolution = static_cast<int>(std::lround(std::sqrt(samples_of_render / effort.samples)));
+    const int resolution =
+        std::max(f.least_resolution, static_cast<int>(std::lround(std::sqrt(samples_of_render / effort.samples))));
     RenderSettings settings;
     settings.preset = parse_preset(effort.sampling);
     settings.subsurface = parse_subsurface(effort.subsurface);

@@ -203,7 +203,7 @@ TEST(Render, TellsNoMoreThanItsBudget) {
     const auto told_by = [&](int threads, double budget) {
         Told told;
         RenderSettings settings;
-        settings.preset = parse_preset("distance+direction+roulette+splitting");
+        settings.preset = parse_preset("full");
         settings.samples = 31;
         settings.seed = 1;
         settings.threads = threads;

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -52,18 +51,15 @@ inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRen
 inline void expect_right_and_quieter(const Scene& scene, RenderSettings settings, int resolution, double expected,
                                      double largest_noise) {
     const RepeatedRenders classical(scene, settings, resolution);
-    settings.preset = parse_preset("distance+direction+roulette+splitting");
-    const RepeatedRenders guided(scene, settings, resolution);
-    EXPECT_TRUE(agrees(guided.mean.mean(), guided.mean.standard_error(), expected, 4))
-        << guided.mean.mean() << " +- " << guided.mean.standard_error() << " expected " << expected;
-    EXPECT_LT(4 * guided.mean.standard_error(), 0.01 * expected) << "too few samples to see a bias of 1 %";
-    EXPECT_LT(guided.noise, largest_noise * classical.noise);
-    // In a picture of few pixels there is little to choose by, and what was tried stays in the picture.
-    settings.preset = parse_preset("full");
-    const RepeatedRenders chosen(scene, settings, resolution);
-    EXPECT_TRUE(agrees(chosen.mean.mean(), chosen.mean.standard_error(), expected, 4))
-        << chosen.mean.mean() << " +- " << chosen.mean.standard_error() << " expected " << expected;
-    EXPECT_LT(chosen.noise, std::max(0.5, largest_noise) * classical.noise);
+    for (const char* sampling : {"direction", "full"}) {
+        SCOPED_TRACE(sampling);
+        settings.preset = parse_preset(sampling);
+        const RepeatedRenders guided(scene, settings, resolution);
+        EXPECT_TRUE(agrees(guided.mean.mean(), guided.mean.standard_error(), expected, 4))
+            << guided.mean.mean() << " +- " << guided.mean.standard_error() << " expected " << expected;
+        EXPECT_LT(4 * guided.mean.standard_error(), 0.01 * expected) << "too few samples to see a bias of 1 %";
+        EXPECT_LT(guided.noise, largest_noise * classical.noise);
+    }
 }
 
 }  // namespace wend::test

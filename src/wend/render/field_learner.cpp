@@ -7,7 +7,7 @@ namespace wend {
 namespace {
 
 // Photons from lights to smooth surfaces: one to so many walks, between these.
-constexpr int fewest_photons = 1 << 12, most_photons = 1 << 20;
+constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
 constexpr double walks_to_a_photon = 16, walks_to_an_idle_photon = 64;
 
 // More vertices of one walk say little that is new: they are correlated.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -12,14 +13,28 @@ namespace {
 /// What a tile's own walks are weighed against: so many walks of the picture's.
 constexpr double walks_of_picture = 4000;
 /// Kinds that are close to the best go on being tried.
-struct Trials {
-    double close;  ///< whose price is less than this times that of the best
-    double share;  ///< of walks, for each
-    double noise;  ///< and no more than add this share to the squared error of the best
-};
-constexpr Trials of_learners{4, 1.0 / 8, 0.1}, of_others{2, 1.0 / 16, 0.02};
+constexpr double close = 2;
+/// Of walks, the share of each; less where its noise would be seen beside that of the best.
+constexpr double trial_share = 1.0 / 16, noise_of_trials = 0.02;
+/// While the fields learn, every kind that follows them has that share, whatever it has shown: it gets better, and a
+/// few bright walks by a field that knows little would speak against it for long.
+constexpr double learning_share = 1.0 / 16;
+/// Later the best of them keeps this much: one that was misjudged is found out.
+constexpr double watched_share = 1.0 / 64;
 /// What an older field has shown counts so much less with each pass.
-constexpr double age = 0.25;
+constexpr double age = 1.0 / 16;
+
+/// What all of so many cells have shown over what was expected of them; `cell` gives both for each.
+template <class Cell>
+double factor_of(std::size_t cells, const Cell& cell, double where_nothing_is_expected) {
+    double shown = 0, expected = 0;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const auto [more_shown, more_expected] = cell(i);
+        shown += more_shown;
+        expected += more_expected;
+    }
+    return expected > 0 ? shown / expected : where_nothing_is_expected;
+}
 
 WalkShares all_of(std::size_t kind) {
     WalkShares shares{};
@@ -30,12 +45,11 @@ WalkShares all_of(std::size_t kind) {
 }  // namespace
 
 WalkTally PixelWalks::tally() const {
-    if (!(expected_ > 0) || count_ < 2) {
+    if (count_ < 2) {
         return {};
     }
     const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
-    const auto expected = static_cast<double>(expected_);
-    return {count_, sum_ / expected, count_ * variance / (expected * expected), work_};
+    return {count_, sum_, count_ * variance, work_};
 }
 
 WalkTally& WalkTally::operator+=(const WalkTally& o) {
@@ -50,15 +64,17 @@ WalkTally WalkTally::scaled(double factor) const {
     return {factor * walks, factor * value, factor * square, factor * work};
 }
 
-GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles) {
+GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles,
+                             double pixels) {
     const bool dense = guidable.dense_media;
-    if (!preset.where_it_pays) {
-        kinds_ = {{preset, dense}};
+    Preset everywhere = preset;
+    everywhere.where_it_pays = false;
+    if (!preset.where_it_pays || pixels < fewest_pixels) {
+        kinds_ = {{everywhere, dense}};
     } else {
         const Preset survival{.roulette = preset.roulette, .splitting = preset.splitting};
-        Preset directions = survival, flights = preset;
+        Preset directions = survival;
         directions.direction = preset.direction;
-        flights.where_it_pays = false;
         kinds_ = {{}};
         if (dense) {
             kinds_.push_back({Preset(), true});
@@ -66,7 +82,7 @@ GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, boo
         kinds_.push_back({survival, dense});
         kinds_.push_back({directions, dense});
         if (guidable.flights) {
-            kinds_.push_back({flights, dense});
+            kinds_.push_back({everywhere, dense});
         }
     }
     shares_.assign(tiles, all_of(is_taught ? kinds_.size() - 1 : 0));
@@ -100,43 +116,35 @@ GuidingChoice::Products GuidingChoice::products(double WalkTally::*what) const {
     // the many of the tile's best kind.
     constexpr int rounds = 50;
     constexpr double most_walks = 256;
-    const auto weight = [&](std::size_t tile, std::size_t kind) {
-        return std::min(tallies_[tile][kind].walks, most_walks);
-    };
-    const auto shown = [&](std::size_t tile, std::size_t kind) {
-        const WalkTally& tally = tallies_[tile][kind];
-        return tally.walks > 0 ? tally.*what * (weight(tile, kind) / tally.walks) : 0.0;
-    };
     Products p;
     p.tile.assign(tallies_.size(), 1);
+    // Shown, and expected by the other factor.
+    const auto cell = [&](std::size_t tile, std::size_t kind, double other) {
+        const WalkTally& tally = tallies_[tile][kind];
+        const double weight = std::min(tally.walks, most_walks);
+        return std::pair(tally.walks > 0 ? tally.*what * (weight / tally.walks) : 0.0, weight * other);
+    };
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            double all = 0, expected = 0;
-            for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
-                all += shown(tile, kind);
-                expected += weight(tile, kind) * p.tile[tile];
-            }
-            p.kind[kind] = expected > 0 ? all / expected : 0.0;
+            p.kind[kind] = factor_of(
+                p.tile.size(), [&](std::size_t tile) { return cell(tile, kind, p.tile[tile]); }, 0);
         }
-        for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
-            double all = 0, expected = 0;
-            for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-                all += shown(tile, kind);
-                expected += weight(tile, kind) * p.kind[kind];
-            }
-            p.tile[tile] = expected > 0 ? all / expected : 1.0;
+        for (std::size_t tile = 0; tile < p.tile.size(); ++tile) {
+            p.tile[tile] = factor_of(
+                kinds_.size(), [&](std::size_t kind) { return cell(tile, kind, p.kind[kind]); }, 1);
         }
     }
     return p;
 }
 
+double GuidingChoice::Products::mean_of_tiles() const {
+    return std::accumulate(tile.begin(), tile.end(), 0.0) / static_cast<double>(tile.size());
+}
+
 GuidingChoice::Products GuidingChoice::squared_errors() const {
     Products squares = products(&WalkTally::square);
     const Products values = products(&WalkTally::value);
-    const auto mean = [](const std::vector<double>& of_tiles) {
-        return std::accumulate(of_tiles.begin(), of_tiles.end(), 0.0) / static_cast<double>(of_tiles.size());
-    };
-    const double hard = mean(squares.tile), bright = mean(values.tile);
+    const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles();
     std::array<double, most_walk_kinds> walks{};
     for (const WalkTallies& tile : tallies_) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
@@ -165,15 +173,19 @@ GuidingChoice::Products GuidingChoice::squared_errors() const {
     return squares;
 }
 
-WalkTallies GuidingChoice::means() const {
+std::array<GuidingChoice::Means, most_walk_kinds> GuidingChoice::means() const {
     const Products squares = squared_errors(), work = products(&WalkTally::work);
-    const auto mean = [](const std::vector<double>& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    };
-    const double square_of_tile = mean(squares.tile), work_of_tile = mean(work.tile);
-    WalkTallies means;
+    double value = 0, walks = 0;
+    for (const WalkTallies& tile : tallies_) {
+        for (const WalkTally& tally : tile) {
+            value += tally.value;
+            walks += tally.walks;
+        }
+    }
+    const double scale = value > 0 ? squares.mean_of_tiles() * std::pow(walks / value, 2) : 0.0;
+    std::array<Means, most_walk_kinds> means;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        means[kind] = {1, 1, square_of_tile * squares.kind[kind], work_of_tile * work.kind[kind]};
+        means[kind] = {scale * squares.kind[kind], work.mean_of_tiles() * work.kind[kind]};
     }
     return means;
 }
@@ -258,16 +270,22 @@ WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, 
         price[kind] = variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n;
         best = price[kind] < price[best] ? kind : best;
     }
+    const auto watched =
+        static_cast<std::size_t>(std::min_element(price.begin() + 1, price.begin() + kinds_.size()) - price.begin());
     WalkShares shares{};
     float rest = 1;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        // As long as the fields learn, kinds that follow them get better.
-        const Trials& trials = learns && kind > 0 ? of_learners : of_others;
-        if (kind != best && price[kind] < trials.close * price[best]) {
-            const double excess = std::max(0.0, variance[kind] / variance[best] - 1);
-            shares[kind] = static_cast<float>(std::min(trials.share, trials.noise / excess));
-            rest -= shares[kind];
+        if (kind == best) {
+            continue;
         }
+        const double excess = std::max(0.0, variance[kind] / variance[best] - 1);
+        const double unseen = noise_of_trials / excess;
+        const double tried = price[kind] < close * price[best] ? std::min(trial_share, unseen)
+                             : kind == watched                 ? std::min(watched_share, unseen)
+                                                               : 0.0;
+        const double taught = learns && kinds_[kind].preset.guides_survival() ? learning_share : 0.0;
+        shares[kind] = static_cast<float>(std::max(tried, taught));
+        rest -= shares[kind];
     }
     shares[best] = rest;
     return shares;

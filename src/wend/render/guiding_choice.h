@@ -11,39 +11,38 @@
 
 namespace wend {
 
-/// What walks of one kind have shown.
+/// What walks of one kind have shown in a tile.
 struct WalkTally {
     double walks = 0;
-    double value = 0;   ///< sum of what they brought, relative to the pixel
-    double square = 0;  ///< sum over the walks of the variance of what one brings, relative to its pixel
+    double value = 0;   ///< sum of what they brought, as PixelWalks weighs it
+    double square = 0;  ///< sum over the walks of the variance of what one brings, likewise
     double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
 
     WalkTally& operator+=(const WalkTally& o);
     /// As if there had been fewer walks.
     WalkTally scaled(double factor) const;
-    /// Of one walk; 0 where there are none.
-    double variance() const { return walks > 0 ? square / walks : 0.0; }
 };
 
 /// The walks of one kind that a pixel has in a pass.
 class PixelWalks {
 public:
-    /// Of the pixel this value is expected.
-    explicit PixelWalks(float expected) : expected_(expected) {}
+    /// What they bring is multiplied by `scale`: the tile's mean over what is expected of the pixel, since errors count
+    /// relative to their pixel. Ratios within a tile are known long before brightness is.
+    explicit PixelWalks(double scale) : scale_(scale) {}
 
     /// A walk that brought so much, by so much counted work.
     void add(float brought, double work) {
-        const auto x = static_cast<double>(brought);
+        const double x = scale_ * static_cast<double>(brought);
         ++count_;
         sum_ += x;
         squares_ += x * x;
         work_ += work;
     }
-    /// Empty where one walk alone shows no variance, and where nothing is expected.
+    /// Empty where one walk alone shows no variance.
     WalkTally tally() const;
 
 private:
-    float expected_;
+    double scale_;
     double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0;
 };
 
@@ -70,12 +69,16 @@ struct Guidable {
 
 /// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
 /// no walk has a say in its own weight. All begin with classical walks. Then every kind is tried; the best of a tile
-/// goes on, and others as long as they are close.
+/// goes on, and others as long as they are close. A picture that is too small for a trial has one kind, guided in all
+/// ways.
 class GuidingChoice {
 public:
-    /// Of the kinds that a preset allows: one, unless it guides where that pays; then the first is classical.
-    /// `is_taught`: whether there is a field from the start.
-    GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles);
+    /// By fewer pixels a trial of a few samples tells nothing.
+    static constexpr double fewest_pixels = 1000;
+
+    /// Of the kinds that a preset allows: several where it guides where that pays, of which the first is classical.
+    /// `is_taught`: whether there is a field from the start. `pixels`: of the picture.
+    GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles, double pixels);
 
     std::span<const WalkKind> kinds() const { return kinds_; }
     /// In a pass of so many samples of each pixel.
@@ -100,9 +103,12 @@ public:
     /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.
     double recorded_share(int samples) const;
 
-    /// What a walk of each kind is estimated to show in the whole picture, were all of that kind; 0 where none was
-    /// tried.
-    WalkTallies means() const;
+    /// Of a walk of each kind in the whole picture, were all walks of that kind: its variance relative to the picture's
+    /// mean, and its work; estimates, 0 where none was tried.
+    struct Means {
+        double square = 0, work = 0;
+    };
+    std::array<Means, most_walk_kinds> means() const;
 
 private:
     /// What a kind shows in a tile, as a product of what is hard in the tile for all kinds and hard for the kind in all
@@ -112,6 +118,7 @@ private:
         std::array<double, most_walk_kinds> kind{};
 
         double at(std::size_t t, std::size_t k) const { return tile[t] * kind[k]; }
+        double mean_of_tiles() const;
     };
     Products products(double WalkTally::*what) const;
     /// Of squared errors, with those of light that a kind has not found yet.

@@ -61,10 +61,11 @@ public:
         if (tile.shares[kind_] == 0) {
             return;
         }
+        const double mean = mean_estimate(tile.pixels);
         for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
             for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
                 const float expected = estimate({x, y});
-                PixelWalks walks(expected);
+                PixelWalks walks(expected > 0 ? mean / static_cast<double>(expected) : 1.0);
                 for (int i = 0; i < plan_.count && !stop_; ++i) {
                     sample({x, y}, plan_.first + i, expected, tile, walks, records);
                 }
@@ -121,6 +122,16 @@ private:
                                        : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
                                                              static_cast<std::size_t>(crop.width()) +
                                                          static_cast<std::size_t>(pixel.x - crop.min.x)];
+    }
+
+    double mean_estimate(const PixelRect& pixels) const {
+        double sum = 0;
+        for (int y = pixels.min.y; y < pixels.max.y; ++y) {
+            for (int x = pixels.min.x; x < pixels.max.x; ++x) {
+                sum += static_cast<double>(estimate({x, y}));
+            }
+        }
+        return sum / (static_cast<double>(pixels.width()) * pixels.height());
     }
 
     SubsurfaceGuides no_guides_;

@@ -94,7 +94,7 @@ public:
           records_(tiles_.size()),
           learners_(context_),
           choice_(settings.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
-                  settings.fields != nullptr, tiles_.size()) {}
+                  settings.fields != nullptr, tiles_.size(), context_.pixels) {}
 
     /// Adds `count` samples to each pixel, and learns from them unless this pass `is_last`.
     void pass(int count, bool is_last, RenderStatistics& statistics) {
@@ -131,7 +131,7 @@ public:
         for (const Tile& tile : tiles_) {
             statistics.counts += tile.counts;
         }
-        const WalkTallies means = choice_.means();
+        const auto means = choice_.means();
         for (std::size_t kind = 0; kind < choice_.kinds().size(); ++kind) {
             double walks = 0;
             for (const Tile& tile : tiles_) {
@@ -152,12 +152,15 @@ private:
         PassPlan plan;
         plan.first = samples;
         plan.count = count;
-        plan.learns = samples < settings_.training_samples &&
-                      !(is_last && settings_.preset.where_it_pays && !settings_.keeps_fields);
+        plan.learns =
+            samples < settings_.training_samples && !(is_last && choice_.kinds().size() > 1 && !settings_.keeps_fields);
         plan.guides = choice_.guides(count);
         plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
-        plan.recorded_share = learners_.get<FieldLearner>().recorded_share(context_.walks(plan));
-        plan.recorded_share = std::min(plan.recorded_share, choice_.recorded_share(samples));
+        // In a small picture the fields would learn from too few.
+        constexpr double fewest_recorded = 1024;
+        const double walks = context_.walks(plan);
+        plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
+                                       std::max(choice_.recorded_share(samples), fewest_recorded / walks));
         if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
             plan.estimates = pixel_estimates(film_.beauty(), samples);
             for (float& estimate : plan.estimates) {
@@ -167,6 +170,7 @@ private:
         return plan;
     }
 
+    /// By what the pass has shown, the kinds of walks to come; whether that changes anything.
     bool choose(int samples) {
         std::vector<WalkTallies> tallies;
         tallies.reserve(tiles_.size());

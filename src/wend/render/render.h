@@ -61,8 +61,7 @@ struct RenderProgress {
 struct WalkKindStatistics {
     WalkKind kind;
     double share = 0;  ///< of all walks
-    /// Squared error of a walk, relative to its pixel, and counted work (GuidingChoice): estimates, of the last passes.
-    /// 0 where they were not asked for.
+    /// GuidingChoice::means(); 0 where they were not asked for.
     double squared_error = 0, work = 0;
 };
 
