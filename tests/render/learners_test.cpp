@@ -59,6 +59,15 @@ public:
         }
     }
 
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& learner) {
+        bytes(learner.vertices_);
+    }
+    template <class Archive, class OfTile>
+    void archive_records(Archive& bytes, OfTile& records) const {
+        bytes(records);
+    }
+
     std::uint64_t vertices() const { return vertices_; }
 
 private:

@@ -40,10 +40,10 @@ TEST(Schedule, PassesOfAnEarlierRunAreRepeated) {
 TEST(Schedule, ATimedRunKeepsToItsTime) {
     RenderSettings settings;
     settings.seconds = 10;
-    EXPECT_EQ(passes(settings, 0.25), (std::vector<int>{1, 2, 4, 8, 16, 9})) << "40 samples take 10 seconds";
+    EXPECT_EQ(passes(settings, 0.25), (std::vector<int>{1, 2, 4, 8, 13, 6, 3, 3})) << "40 samples take 10 seconds";
     EXPECT_EQ(passes(settings, 20), (std::vector<int>{1})) << "one sample at least";
-    EXPECT_EQ(passes(settings, 3.7), (std::vector<int>{1, 1, 1})) << "a fourth would not have .67 of its time";
-    EXPECT_EQ(passes(settings, 3.5), (std::vector<int>{1, 1, 1})) << "2.86 fit, and a last one may be a third short";
+    EXPECT_EQ(passes(settings, 3.7), (std::vector<int>{1, 1, 1})) << "the third will be cut";
+    EXPECT_EQ(passes(settings, 4.9), (std::vector<int>{1, 1})) << "0.2 seconds are not worth a third";
 }
 
 TEST(Schedule, LongTimesStillMakeLongPasses) {

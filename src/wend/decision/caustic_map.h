@@ -69,6 +69,20 @@ public:
     /// How many caustic lobes there are.
     std::size_t size() const { return size_; }
 
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& map) {
+        bytes(map.nodes_, map.cells_, map.size_);
+        for (std::size_t i = 0; i < map.nodes_.size(); ++i) {
+            const Node& node = map.nodes_[i];
+            bytes.require(node.axis < 3 && (node.axis < 0 ? node.next < map.cells_.size()
+                                                          : node.next > i && node.next + 1u < map.nodes_.size()));
+        }
+        for (const Cell& cell : map.cells_) {
+            bytes.require(cell.bright <= cell.count && cell.count <= most_groups);
+        }
+    }
+
 private:
     /// A plane that divides space, or where `axis` is negative a cell.
     struct Node {

@@ -68,6 +68,15 @@ public:
     /// the mean.
     double relative_noise() const;
 
+    /// All that it holds, for a film of the same size; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& film) {
+        bytes.same(film.full_size_);
+        bytes.same(film.crop_);
+        bytes(film.earlier_weights_, film.first_variances_);
+        bytes.raw(film.pixels_.data(), film.pixels_.size());
+    }
+
     static constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
 
 private:

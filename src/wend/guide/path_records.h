@@ -132,6 +132,12 @@ public:
     /// Of every vertex in a volume, likewise.
     const ScatterRecords& volume_scattered() const { return volume_scattered_; }
 
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& records) {
+        bytes(records.surface_, records.volume_, records.surface_scattered_, records.volume_scattered_, records.size_);
+    }
+
 private:
     Records surface_, volume_;
     ScatterRecords surface_scattered_, volume_scattered_;

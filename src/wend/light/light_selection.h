@@ -42,6 +42,26 @@ public:
     /// Makes choices to come follow all that was added.
     void learn(int threads);
 
+    /// What is known, for a selection of the same scene; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& selection) {
+        bytes(selection.cells_);
+        bytes.require(selection.cells_.empty() || selection.cells_.size() == VertexCells::count);
+        const std::size_t lights = selection.lights();
+        for (const Cell& cell : selection.cells_) {
+            bytes.require((cell.tallies.empty() || cell.tallies.size() == lights) &&
+                          (cell.cumulative.empty() || cell.cumulative.size() == lights) &&
+                          (cell.prior.empty() || cell.prior.size() == lights));
+        }
+    }
+    /// Throws unless records can be those of this selection.
+    template <class Archive>
+    void check(Archive& bytes, std::span<const LightRecord> records) const {
+        for (const LightRecord& record : records) {
+            bytes.require(record.cell < VertexCells::count && record.light < lights());
+        }
+    }
+
 private:
     struct Tally {
         double count = 0;
@@ -51,8 +71,14 @@ private:
         std::vector<Tally> tallies;     ///< by light; empty without records
         std::vector<float> prior;       ///< probabilities of the scene's sampler in the middle of the cell
         std::vector<float> cumulative;  ///< of what was learned; empty where that is too little
+
+        template <class Archive, class Self>
+        static void archive(Archive& bytes, Self& cell) {
+            bytes(cell.tallies, cell.prior, cell.cumulative);
+        }
     };
 
+    std::size_t lights() const { return scene_.lights().size(); }
     float by_scene(const LightReceiver& receiver, int light) const;
     void learn(std::size_t index);
     /// Of the lights up to each; null where too little is known.

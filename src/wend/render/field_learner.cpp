@@ -6,8 +6,8 @@
 namespace wend {
 namespace {
 
-// Photons from lights to smooth surfaces: one to so many walks, between these.
-constexpr int fewest_photons = 1 << 14, most_photons = 1 << 20;
+// Photons from lights to smooth surfaces: one to so many walks, at least as many as this.
+constexpr int fewest_photons = 1 << 14;
 constexpr double walks_to_a_photon = 16, walks_to_an_idle_photon = 64;
 
 // More vertices of one walk say little that is new: they are correlated.
@@ -63,11 +63,17 @@ void FieldLearner::send_photons(int samples) {
     const int due = static_cast<int>(std::clamp(wanted, double{fewest_photons}, double{most_photons}));
     // Anew, once there may be twice as many.
     if (due >= 2 * photons_sent_ || (due == most_photons && photons_sent_ < due)) {
-        photons_ = CausticPhotons(context_.scene, due, context_.settings.seed, context_.settings.threads);
         photons_sent_ = due;
+        send_again();
     }
     surface_caustics_ = beyond(fields_.surface, photons_.on_surfaces(), false);
     volume_caustics_ = beyond(fields_.volume, photons_.in_media(), true);
+}
+
+void FieldLearner::send_again() {
+    if (photons_sent_ > 0) {
+        photons_ = CausticPhotons(context_.scene, photons_sent_, context_.settings.seed, context_.settings.threads);
+    }
 }
 
 void FieldLearner::keep(Records& records, bool is_recorded) const {

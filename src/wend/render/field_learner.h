@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/guide/fit.h>
+#include <wend/guide/serialization.h>
 #include <wend/light/caustic_photons.h>
 #include <wend/render/learner.h>
 #include <wend/render/record_budget.h>
@@ -39,8 +40,34 @@ public:
     const CausticMap& surface_caustics() const { return surface_caustics_; }
     const CausticMap& volume_caustics() const { return volume_caustics_; }
 
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& learner) {
+        if constexpr (std::is_const_v<Self>) {
+            bytes(guide::to_bytes(learner.fields_.surface), guide::to_bytes(learner.fields_.volume));
+        } else {
+            std::string surface, volume;
+            bytes(surface, volume);
+            learner.fields_ = {guide::field_from_bytes(surface), guide::field_from_bytes(volume)};
+        }
+        bytes(learner.photons_sent_, learner.surface_caustics_, learner.volume_caustics_, learner.budget_,
+              learner.records_);
+        bytes.require(learner.photons_sent_ >= 0 && learner.photons_sent_ <= most_photons);
+        if constexpr (!std::is_const_v<Self>) {
+            learner.send_again();
+        }
+    }
+    template <class Archive, class OfTile>
+    void archive_records(Archive& bytes, OfTile& records) const {
+        bytes(records.records);
+    }
+
 private:
+    static constexpr int most_photons = 1 << 20;
+
     void send_photons(int samples);
+    /// As many photons as were sent before.
+    void send_again();
 
     LearningContext context_;
     guide::Fields fields_;

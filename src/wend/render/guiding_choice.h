@@ -28,7 +28,7 @@ class PixelWalks {
 public:
     /// What they bring is multiplied by `scale`: the tile's mean over what is expected of the pixel, since errors count
     /// relative to their pixel. Ratios within a tile are known long before brightness is.
-    explicit PixelWalks(double scale) : scale_(scale) {}
+    explicit PixelWalks(double scale = 1) : scale_(scale) {}
 
     /// A walk that brought so much, by so much counted work.
     void add(float brought, double work) {
@@ -109,6 +109,15 @@ public:
         double square = 0, work = 0;
     };
     std::array<Means, most_walk_kinds> means() const;
+
+    /// What has been shown and chosen, for the same kinds and tiles; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& choice) {
+        const std::size_t tiles = choice.tallies_.size();
+        bytes(choice.shares_, choice.tallies_, choice.state_, choice.gain_);
+        bytes.require(choice.shares_.size() == tiles && choice.tallies_.size() == tiles &&
+                      choice.state_ >= State::classical && choice.state_ <= State::chosen);
+    }
 
 private:
     /// What a kind shows in a tile, as a product of what is hard in the tile for all kinds and hard for the kind in all

@@ -25,13 +25,14 @@ public:
 
     /// Explores the media once they are to be guided.
     void begin(const PassPlan& plan) {
-        if (can_guide_ && plan.guides && guides_.is_empty()) {
-            guides_ = SubsurfaceGuides(context_.scene, context_.settings.subsurface, context_.settings.threads);
+        if (plan.guides) {
+            explore();
         }
         records_ = plan.learns && !guides_.is_empty();
     }
     bool records() const { return records_; }
     Recorder recorder(Records& records, bool /*is_recorded*/) const {
+        records.walks.clear();
         return Recorder(records_ ? &records.walks : nullptr);
     }
     void keep(Records& records, bool /*is_recorded*/) const {
@@ -55,7 +56,30 @@ public:
     bool can_guide() const { return can_guide_; }
     const SubsurfaceGuides& guides() const { return guides_; }
 
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& learner) {
+        bool has_explored = !learner.guides_.is_empty();
+        bytes(has_explored);
+        if constexpr (!std::is_const_v<Self>) {
+            if (has_explored) {
+                learner.explore();
+            }
+        }
+        bytes(learner.guides_, learner.records_);
+    }
+    template <class Archive, class OfTile>
+    void archive_records(Archive& bytes, OfTile& records) const {
+        bytes(records.moments);
+    }
+
 private:
+    void explore() {
+        if (can_guide_ && guides_.is_empty()) {
+            guides_ = SubsurfaceGuides(context_.scene, context_.settings.subsurface, context_.settings.threads);
+        }
+    }
+
     LearningContext context_;
     bool can_guide_;
     SubsurfaceGuides guides_;

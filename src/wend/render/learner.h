@@ -1,6 +1,7 @@
 // Learning between passes: what all learners have in common.
 #pragma once
 
+#include <wend/core/archive.h>
 #include <wend/render/render.h>
 #include <wend/scene/scene.h>
 
@@ -33,6 +34,14 @@ struct PassPlan {
     double recorded_share = 1;  ///< of the walks, those that are recorded
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
+    double sample_variance = 0;  ///< of one sample, relative to its pixel; 0 where estimates are not known
+
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& plan) {
+        bytes(plan.first, plan.count, plan.learns, plan.guides, plan.steers, plan.recorded_share, plan.estimates,
+              plan.sample_variance);
+    }
 
     /// Samples of each pixel once the pass has ended.
     int samples_after() const { return first + count; }
@@ -47,10 +56,35 @@ struct LearningContext {
     double walks(const PassPlan& plan) const { return pixels * plan.count; }
 };
 
+/// What walks in a tile have left. A walk may be dropped on its way: what it left is forgotten when the next begins.
+template <class T>
+struct TileRecords {
+    std::vector<T> all;
+    std::size_t kept = 0;  ///< the first ones, of walks that have ended
+
+    std::vector<T>& begin_walk() {
+        all.erase(all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
+        return all;
+    }
+    void end_walk() { kept = all.size(); }
+
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& records) {
+        if constexpr (std::is_const_v<Self>) {
+            bytes(std::vector<T>(records.all.begin(), records.all.begin() + static_cast<std::ptrdiff_t>(records.kept)));
+        } else {
+            bytes(records.all);
+            records.end_walk();
+        }
+    }
+};
+
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts
-/// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. What
-/// it knows changes in learn() alone, after a pass, with the records of all tiles in their order. Records are told
-/// apart by their type, which is each learner's own.
+/// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. A
+/// walk that is dropped has no keep(). What it knows changes in learn() alone, after a pass, with the records of all
+/// tiles in their order. Records are told apart by their type, which is each learner's own. What it knows and records
+/// can be archived, so that a render can be resumed.
 template <class L>
 concept Learner = requires(L& learner, const L& known, typename L::Records& records,
                            std::vector<typename L::Records>& all, const PassPlan& plan) {
@@ -63,6 +97,9 @@ concept Learner = requires(L& learner, const L& known, typename L::Records& reco
     { known.recorder(records, true) } -> std::same_as<typename L::Recorder>;
     known.keep(records, true);
     learner.learn(all, plan);
+    requires ListsMembers<const L, ArchiveWriter> && ListsMembers<L, ArchiveReader>;
+    known.archive_records(std::declval<ArchiveReader&>(), records);
+    known.archive_records(std::declval<ArchiveWriter&>(), std::as_const(records));
 };
 
 }  // namespace wend

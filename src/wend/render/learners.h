@@ -8,6 +8,7 @@
 #include <wend/transport/walk_recorder.h>
 
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -34,6 +35,16 @@ public:
     }
     /// From the records of all tiles, which are given up.
     void learn(std::vector<Records>& tiles, const PassPlan& plan) { (learn<Each>(tiles, plan), ...); }
+
+    /// What each knows; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& list) {
+        std::apply([&](auto&... each) { bytes(each...); }, list.learners_);
+    }
+    template <class Archive, class OfTile>
+    void archive_records(Archive& bytes, OfTile& records) const {
+        (get<Each>().archive_records(bytes, std::get<typename Each::Records>(records)), ...);
+    }
 
     template <class L>
     const L& get() const {

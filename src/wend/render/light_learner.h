@@ -14,19 +14,30 @@ public:
 
     static constexpr bool steers = true;
     using Recorder = LightRecorder;
-    using Records = std::vector<LightRecord>;
+    using Records = TileRecords<LightRecord>;
 
     void begin(const PassPlan& plan) { records_ = plan.learns && settings_.preset.direction && selection_.learns(); }
     bool records() const { return records_; }
     Recorder recorder(Records& records, bool is_recorded) const {
-        return Recorder(records_ && is_recorded ? &records : nullptr, selection_);
+        return Recorder(records_ && is_recorded ? &records.begin_walk() : nullptr, selection_);
     }
-    void keep(Records&, bool /*is_recorded*/) const {}
+    void keep(Records& records, bool /*is_recorded*/) const { records.end_walk(); }
     void learn(std::vector<Records>& all, const PassPlan& /*plan*/) {
         for (Records& tile : all) {
-            selection_.add(std::exchange(tile, {}));
+            selection_.add(std::exchange(tile, {}).all);
         }
         selection_.learn(settings_.threads);
+    }
+
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& learner) {
+        bytes(learner.selection_, learner.records_);
+    }
+    template <class Archive, class OfTile>
+    void archive_records(Archive& bytes, OfTile& records) const {
+        bytes(records);
+        selection_.check(bytes, records.all);
     }
 
     const LightSelection& selection() const { return selection_; }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -22,6 +23,22 @@ struct Tile {
     WalkShares shares{1};                                ///< in the pass at hand
     WalkTallies tallies{};                               ///< of it
     std::array<std::uint64_t, most_walk_kinds> walks{};  ///< of each kind, in all passes
+    // How far walks of the kind at hand are in this pass: pixels that have all of theirs, samples of the next pixel
+    // that are done or of another kind, and what they have brought.
+    int pixels_done = 0, samples_done = 0;
+    PixelWalks of_pixel;
+
+    int pixel_count() const { return pixels.width() * pixels.height(); }
+    Vec2i pixel(int index) const {
+        return {pixels.min.x + index % pixels.width(), pixels.min.y + index / pixels.width()};
+    }
+
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& tile) {
+        bytes(tile.counts, tile.shares, tile.tallies, tile.walks, tile.pixels_done, tile.samples_done, tile.of_pixel);
+        bytes.require(tile.pixels_done >= 0 && tile.pixels_done <= tile.pixel_count() && tile.samples_done >= 0);
+    }
 };
 
 inline std::vector<Tile> tiles_of(const PixelRect& crop) {
@@ -35,17 +52,40 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     return tiles;
 }
 
+/// When walks are to rest: at a time, or once they are told to stop, which drops those on their way.
+class Rest {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// `stop` may be null.
+    Rest(Clock::time_point time, const std::atomic<bool>* stop) : time_(time), stop_(stop) {}
+
+    bool drops_walks() const { return stop_ && stop_->load(std::memory_order_relaxed); }
+    bool is_due() const { return drops_walks() || is_late_.load(std::memory_order_relaxed); }
+    /// Looks at the clock, which costs as much as a tenth of a short walk.
+    void look() const {
+        if (Clock::now() >= time_) {
+            is_late_.store(true, std::memory_order_relaxed);
+        }
+    }
+
+private:
+    Clock::time_point time_;
+    const std::atomic<bool>* stop_;
+    mutable std::atomic<bool> is_late_ = false;
+};
+
 /// One pass, as far as it has walks of one kind: the same decisions for all of them.
 template <class Decisions>
 class Pass {
 public:
     Pass(const Scene& scene, Film& film, const RenderSettings& settings, const Decisions& decisions,
          const GuidingChoice& choice, std::size_t kind, const Learners& learners, const PassPlan& plan,
-         const std::atomic<bool>& stop)
+         const Rest& rest)
         : tracer_(scene, decisions,
                   choice.kinds()[kind].guides_dense_media ? learners.get<InteriorLearner>().guides() : no_guides_,
                   learners.get<LightLearner>().selection(), learners.get<ReflectionLearner>().probability(),
-                  settings.max_depth, &stop),
+                  settings.max_depth, settings.stop),
           kind_(kind),
           cost_of_segment_(GuidingChoice::cost_of_segment(choice.kinds()[kind])),
           is_guided_(!choice.kinds()[kind].is_classical()),
@@ -55,32 +95,46 @@ public:
           film_(film),
           settings_(settings),
           plan_(plan),
-          stop_(stop) {}
+          rest_(rest) {}
 
+    /// Goes on in a tile until all its pixels are done or it is time to rest.
     void run(Tile& tile, Learners::Records& records) const {
         if (tile.shares[kind_] == 0) {
+            tile.pixels_done = tile.pixel_count();
             return;
         }
+        // Segments between two looks at the clock.
+        constexpr std::uint64_t few = 256;
         const double mean = mean_estimate(tile.pixels);
-        for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
-            for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
-                const float expected = estimate({x, y});
-                PixelWalks walks(expected > 0 ? mean / static_cast<double>(expected) : 1.0);
-                for (int i = 0; i < plan_.count && !stop_; ++i) {
-                    sample({x, y}, plan_.first + i, expected, tile, walks, records);
-                }
-                tile.tallies[kind_] += walks.tally();
+        std::uint64_t looked = tile.counts.segments;
+        for (; tile.pixels_done < tile.pixel_count(); ++tile.pixels_done) {
+            const Vec2i pixel = tile.pixel(tile.pixels_done);
+            const float expected = estimate(pixel);
+            if (tile.samples_done == 0) {
+                tile.of_pixel = PixelWalks(expected > 0 ? mean / static_cast<double>(expected) : 1.0);
             }
+            for (; tile.samples_done < plan_.count; ++tile.samples_done) {
+                if (tile.counts.segments - looked > few) {
+                    rest_.look();
+                    looked = tile.counts.segments;
+                }
+                if (rest_.is_due() || !sample(pixel, expected, tile, records)) {
+                    return;
+                }
+            }
+            tile.tallies[kind_] += tile.of_pixel.tally();
+            tile.samples_done = 0;
         }
     }
 
 private:
-    void sample(const Vec2i& pixel, int index, float expected, Tile& tile, PixelWalks& walks,
-                Learners::Records& records) const {
+    /// The next sample of a pixel, if it is one of this kind; false if it was dropped.
+    bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records) const {
+        const int index = plan_.first + tile.samples_done;
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
-        if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, index - plan_.first, plan_.count) != kind_) {
-            return;
+        if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, tile.samples_done, plan_.count) != kind_) {
+            return true;
         }
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
         const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
@@ -90,8 +144,8 @@ private:
         const bool is_recorded = records_walk(number, index);
         WalkResult result =
             tracer_.trace(ray, expects_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
-        if (stop_) {
-            return;  // the walk may be a part of one
+        if (rest_.drops_walks()) {
+            return false;  // the walk may be a part of one
         }
         const bool counts = is_finite(result.sample.radiance);
         learners_.keep(records, is_recorded && counts);
@@ -101,13 +155,15 @@ private:
         if (!counts) {
             ++tile.counts.rejected;
             film_.reject(pixel);
-            return;
+            return true;
         }
-        walks.add(place.weight * mean_value(result.sample.radiance),
-                  cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
+        tile.of_pixel.add(
+            place.weight * mean_value(result.sample.radiance),
+            cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
         result.sample.guided = is_guided_;
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
+        return true;
     }
 
     /// By a number of its own: what a walk does must not depend on whether it is recorded.
@@ -145,7 +201,7 @@ private:
     Film& film_;
     const RenderSettings& settings_;
     const PassPlan& plan_;
-    const std::atomic<bool>& stop_;
+    const Rest& rest_;
 };
 
 }  // namespace wend

@@ -8,17 +8,12 @@
 #include <wend/transport/path_tracer.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <utility>
 
 namespace wend {
@@ -34,7 +29,7 @@ template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Fi
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Rest::Clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -50,84 +45,66 @@ void check_rejected(const WalkCounts& counts) {
     }
 }
 
-/// Looks, beside the walks, at what may stop them, so that they look at one flag and no clock.
-class Watch {
+}  // namespace
+
+/// What a render is made of.
+class Render::Work {
 public:
-    /// `asked` may be null.
-    explicit Watch(const std::atomic<bool>* asked)
-        : asked_(asked), thread_([this](const std::stop_token& ends) { run(ends); }) {}
-
-    const std::atomic<bool>& stop() const { return stop_; }
-    void stop_at(Clock::time_point time) {
-        const std::scoped_lock lock(mutex_);
-        end_ = time;
-    }
-
-private:
-    void run(const std::stop_token& ends) {
-        constexpr std::chrono::milliseconds rest(50);
-        std::unique_lock lock(mutex_);
-        while (!ends.stop_requested() && !stop_) {
-            stop_ = (asked_ && *asked_) || (end_ && Clock::now() > *end_);
-            wake_.wait_for(lock, ends, rest, [] { return false; });
-        }
-    }
-
-    const std::atomic<bool>* asked_;
-    std::atomic<bool> stop_ = false;
-    std::mutex mutex_;
-    std::condition_variable_any wake_;
-    std::optional<Clock::time_point> end_;
-    std::jthread thread_;  ///< last: it uses all the others
-};
-
-/// A render between its passes.
-class Rendering {
-public:
-    Rendering(const Scene& scene, Film& film, const RenderSettings& settings, const std::atomic<bool>& stop)
+    Work(const Scene& scene, Film& film, RenderSettings settings)
         : scene_(scene),
           film_(film),
-          settings_(settings),
-          stop_(stop),
-          context_{scene, settings, static_cast<double>(film.crop().width()) * film.crop().height()},
+          settings_(std::move(settings)),
+          schedule_(settings_),
+          context_{scene, settings_, static_cast<double>(film.crop().width()) * film.crop().height()},
           tiles_(tiles_of(film.crop())),
           records_(tiles_.size()),
           learners_(context_),
-          choice_(settings.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
-                  settings.fields != nullptr, tiles_.size(), context_.pixels) {}
+          choice_(settings_.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
+                  settings_.fields != nullptr, tiles_.size(), context_.pixels) {}
 
-    /// Adds `count` samples to each pixel, and learns from them unless this pass `is_last`.
-    void pass(int count, bool is_last, RenderStatistics& statistics) {
-        const PassPlan plan = plan_for(count, is_last, statistics.samples);
-        learners_.begin(plan);
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            tiles_[i].shares = choice_.shares(i, count);
-            tiles_[i].tallies = {};
-        }
-        for (std::size_t kind = 0; kind < choice_.kinds().size() && !stop_; ++kind) {
-            // By one sample a stage would not know its variance.
-            if (kind > 0 && choice_.is_trial() && count >= 2 * static_cast<int>(choice_.kinds().size())) {
-                film_.begin_stage();
+    bool step(double seconds) {
+        if (!is_within_pass_) {
+            const int count = next_count();
+            if (count <= 0) {
+                return false;
             }
-            walk(plan, kind);
+            begin_pass(count);
         }
-        if (stop_) {
-            return;
+        const Rest rest(std::min(time_after(Clock::now(), seconds), end_of_time()), settings_.stop);
+        while (walk(rest)) {
+            for (Tile& tile : tiles_) {
+                tile.pixels_done = 0;
+            }
+            if (++kind_ == choice_.kinds().size()) {
+                end_pass();
+                return next_count() > 0;
+            }
+            begin_kind();
         }
-        statistics.samples += count;
-        statistics.passes.push_back(count);
-        const Clock::time_point start = Clock::now();
-        learners_.learn(records_, plan);
-        statistics.training_seconds += seconds_since(start);
-        // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
-        const bool warms_up = !settings_.preset.is_classical() && plan.first < warm_up_samples;
-        const bool chooses_anew = choose(statistics.samples);
-        if (statistics.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
-            film_.begin_stage();
-        }
+        return Clock::now() < end_of_time();
     }
 
-    void finish(RenderStatistics& statistics) {
+    bool is_within_pass() const { return is_within_pass_; }
+
+    RenderProgress progress() const {
+        RenderProgress progress;
+        progress.seconds = seconds();
+        progress.samples = statistics_.samples;
+        progress.relative_noise = noise_;
+        progress.learns = is_within_pass_ && plan_.learns;
+        progress.fraction = fraction();
+        const double pace = (progress.fraction - mark_.fraction) / (progress.seconds - mark_.seconds);
+        progress.seconds_left = pace > 0 ? (1 - progress.fraction) / pace : 0.0;
+        if (settings_.seconds > 0) {
+            progress.seconds_left =
+                std::min(progress.seconds_left, std::max(0.0, settings_.seconds - progress.seconds));
+        }
+        return progress;
+    }
+
+    RenderStatistics statistics() const {
+        RenderStatistics statistics = statistics_;
+        statistics.seconds = seconds();
         for (const Tile& tile : tiles_) {
             statistics.counts += tile.counts;
         }
@@ -140,13 +117,123 @@ public:
             const double all = static_cast<double>(std::max<std::uint64_t>(statistics.counts.paths, 1));
             statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
         }
+        statistics.interrupted = is_within_pass_ || next_count() > 0;
+        return statistics;
+    }
+
+    RenderStatistics finish() {
+        RenderStatistics result = statistics();
         if (!settings_.preset.is_classical()) {
-            statistics.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
-            statistics.field_bytes = statistics.fields->bytes();
+            result.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
+            result.field_bytes = result.fields->bytes();
         }
+        check_rejected(result.counts);
+        return result;
+    }
+
+    void save(ArchiveWriter& bytes) const {
+        archive(bytes, *this);
+        bytes(seconds());
+    }
+    void restore(ArchiveReader& bytes) {
+        archive(bytes, *this);
+        bytes(seconds_before_);
+        bytes.require(bytes.empty() && seconds_before_ >= 0);
+        start_ = Clock::now();
     }
 
 private:
+    /// How far it was, and when.
+    struct Mark {
+        double fraction = 0, seconds = 0;
+    };
+
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& work) {
+        bytes.same(work.tiles_.size());
+        bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
+              work.mark_, work.last_mark_);
+        bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
+        for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
+            bytes(work.tiles_[i]);
+            work.learners_.archive_records(bytes, work.records_[i]);
+        }
+        const std::size_t estimates = work.plan_.estimates.size();
+        bytes.require(work.kind_ <= work.choice_.kinds().size() && work.plan_.count >= 0 &&
+                      (estimates == 0 || estimates == static_cast<std::size_t>(work.context_.pixels)));
+    }
+
+    double seconds() const { return seconds_before_ + seconds_since(start_); }
+
+    /// Samples of each pixel in the next pass; 0 at the end.
+    int next_count() const {
+        // By fewer samples noise is not known.
+        constexpr int fewest = 15;
+        if (settings_.noise > 0 && statistics_.samples >= fewest && noise_ <= settings_.noise) {
+            return 0;
+        }
+        return schedule_.next(static_cast<int>(statistics_.passes.size()), statistics_.samples, seconds());
+    }
+
+    double fraction() const {
+        std::uint64_t paths = 0;
+        for (const Tile& tile : tiles_) {
+            paths += tile.counts.paths;
+        }
+        const double samples = static_cast<double>(paths) / context_.pixels;
+        const double by_noise = settings_.noise > 0 && noise_ > 0 ? std::pow(settings_.noise / noise_, 2) : 0.0;
+        return std::min(1.0, std::max(schedule_.fraction(samples, seconds()), by_noise));
+    }
+
+    static Clock::time_point time_after(Clock::time_point start, double seconds) {
+        // Longer than any render, and less than the clock can count.
+        constexpr double longest = 1e9;
+        return start + std::chrono::duration_cast<Clock::duration>(
+                           std::chrono::duration<double>(std::clamp(seconds, 0.0, longest)));
+    }
+    /// Of the time to spend.
+    Clock::time_point end_of_time() const {
+        return time_after(start_, schedule_.is_timed() ? settings_.seconds - seconds_before_ : endless);
+    }
+
+    void begin_pass(int count) {
+        const bool is_last =
+            schedule_.is_last(static_cast<int>(statistics_.passes.size()), statistics_.samples + count);
+        plan_ = plan_for(count, is_last, statistics_.samples);
+        learners_.begin(plan_);
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            tiles_[i].shares = choice_.shares(i, count);
+            tiles_[i].tallies = {};
+        }
+        kind_ = 0;
+        is_within_pass_ = true;
+        begin_kind();
+    }
+
+    void begin_kind() {
+        // By one sample a stage would not know its variance.
+        if (kind_ > 0 && choice_.is_trial() && plan_.count >= 2 * static_cast<int>(choice_.kinds().size())) {
+            film_.begin_stage();
+        }
+    }
+
+    void end_pass() {
+        is_within_pass_ = false;
+        statistics_.samples += plan_.count;
+        statistics_.passes.push_back(plan_.count);
+        const Clock::time_point start = Clock::now();
+        learners_.learn(records_, plan_);
+        statistics_.training_seconds += seconds_since(start);
+        // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
+        const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
+        const bool chooses_anew = choose(statistics_.samples);
+        if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
+            film_.begin_stage();
+        }
+        noise_ = film_.relative_noise();
+        mark_ = std::exchange(last_mark_, {fraction(), seconds()});
+    }
+
     PassPlan plan_for(int count, bool is_last, int samples) const {
         const Preset& preset = settings_.preset;
         PassPlan plan;
@@ -166,6 +253,7 @@ private:
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
             }
+            plan.sample_variance = std::pow(noise_, 2) * samples;
         }
         return plan;
     }
@@ -180,18 +268,25 @@ private:
         return choice_.learn(tallies, samples >= warm_up_samples, learners_.get<FieldLearner>().records());
     }
 
-    /// All walks of one kind in a pass.
-    void walk(const PassPlan& plan, std::size_t kind) {
-        const Preset& preset = choice_.kinds()[kind].preset;
+    /// Walks of the kind at hand; whether all have been walked.
+    bool walk(const Rest& rest) {
+        const Preset& preset = choice_.kinds()[kind_].preset;
         const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene_, film_, settings_, decisions, choice_, kind, learners_, plan, stop_);
+            const Pass one(scene_, film_, settings_, decisions, choice_, kind_, learners_, plan_, rest);
             parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i], records_[i]); });
         };
         if (preset.is_classical()) {
             const bool ends_early = settings_.preset.is_classical();
             run_with(ClassicalDecisions{{}, {}, ends_early ? ClassicalRoulette() : unguided_walks_end});
-            return;
+        } else {
+            walk_guided(preset, run_with);
         }
+        return std::all_of(tiles_.begin(), tiles_.end(),
+                           [](const Tile& tile) { return tile.pixels_done == tile.pixel_count(); });
+    }
+
+    template <class Run>
+    void walk_guided(const Preset& preset, const Run& run_with) {
         const auto& learned = learners_.get<FieldLearner>();
         const guide::Fields& fields = learned.fields();
         const GuidedDistance distance(
@@ -208,62 +303,77 @@ private:
                 run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
             }
         };
-        if (plan.estimates.empty()) {
+        if (plan_.estimates.empty()) {
             run_guided(guided_walks_end);
         } else {
-            const double sample_variance = std::pow(film_.relative_noise(), 2) * plan.first;
-            run_guided(AdjointRouletteSplitting(preset.roulette, preset.splitting, sample_variance));
+            run_guided(AdjointRouletteSplitting(preset.roulette, preset.splitting, plan_.sample_variance));
         }
     }
 
     const Scene& scene_;
     Film& film_;
-    const RenderSettings& settings_;
-    const std::atomic<bool>& stop_;
+    const RenderSettings settings_;
+    Schedule schedule_;
     LearningContext context_;
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
     Learners learners_;
     GuidingChoice choice_;
+
+    bool is_within_pass_ = false;
+    PassPlan plan_;                ///< of the pass at hand
+    std::size_t kind_ = 0;         ///< of the walks at hand
+    double noise_ = 0;             ///< after the last pass
+    Mark mark_, last_mark_;        ///< at the ends of the last two passes
+    RenderStatistics statistics_;  ///< samples, passes and time to train
+    double seconds_before_ = 0;    ///< it was restored
+    Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace
+Render::Render(const Scene& scene, Film& film, RenderSettings settings)
+    : work_(std::make_unique<Work>(scene, film, std::move(settings))) {
+}
+
+Render::~Render() = default;
+
+bool Render::step(double seconds) {
+    return work_->step(seconds);
+}
+
+bool Render::is_within_pass() const {
+    return work_->is_within_pass();
+}
+
+RenderProgress Render::progress() const {
+    return work_->progress();
+}
+
+RenderStatistics Render::statistics() const {
+    return work_->statistics();
+}
+
+RenderStatistics Render::finish() {
+    return work_->finish();
+}
+
+void Render::save(ArchiveWriter& bytes) const {
+    work_->save(bytes);
+}
+
+void Render::restore(ArchiveReader& bytes) {
+    work_->restore(bytes);
+}
 
 RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
                         const std::function<bool(const RenderProgress&)>& keep_going) {
-    const Clock::time_point start = Clock::now();
-    RenderStatistics statistics;
-    const Schedule schedule(settings);
-    Watch watch(settings.stop);
-    Rendering rendering(scene, film, settings, watch.stop());
-    for (int pass = 0;; ++pass) {
-        const int count = schedule.next(pass, statistics.samples, seconds_since(start));
-        if (count <= 0) {
-            break;
-        }
-        if (settings.seconds > 0 && settings.passes.empty()) {
-            // Longer than any render, and less than the clock can count.
-            constexpr double excess = 1, first_pass = 10, longest = 1e9;
-            const double most =
-                std::min(longest, (settings.seconds + excess) * (statistics.samples == 0 ? first_pass : 1));
-            watch.stop_at(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most)));
-        }
-        rendering.pass(count, schedule.is_last(pass, statistics.samples + count), statistics);
-        if (watch.stop()) {
-            statistics.interrupted = true;
-            break;
-        }
-        const double elapsed = seconds_since(start);
-        if (keep_going && !keep_going({schedule.fraction(statistics.samples, elapsed), elapsed, statistics.samples,
-                                       film.relative_noise()})) {
-            statistics.interrupted = true;
+    Render render(scene, film, settings);
+    for (bool goes_on = true; goes_on;) {
+        goes_on = render.step() && !(settings.stop && *settings.stop);
+        if (!render.is_within_pass() && keep_going && !keep_going(render.progress())) {
             break;
         }
     }
-    rendering.finish(statistics);
-    statistics.seconds = seconds_since(start);
-    check_rejected(statistics.counts);
-    return statistics;
+    return render.finish();
 }
 
 }  // namespace wend

@@ -1,6 +1,7 @@
-// Rendering: passes over the picture, and training between them.
+// Rendering: passes over the picture, and training between them. A render can be watched, stopped, saved and resumed.
 #pragma once
 
+#include <wend/core/archive.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/guide/fit.h>
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,6 +26,9 @@ struct RenderSettings {
     int samples = 16;
     /// Time to spend, training included.
     double seconds = 0;
+    /// Not 0: the picture is done once its relative_noise() is no more than this, as far as can be told from 15 samples
+    /// on.
+    double noise = 0;
     /// The passes of an earlier run, to repeat exactly; overrides both.
     std::vector<int> passes;
 
@@ -45,7 +50,7 @@ struct RenderSettings {
     int max_depth = 5;
     Filter filter = Filter::box();
     float exposure = 1;  ///< multiplies all radiances
-    /// Not null: once true, walks end where they are, are forgotten, and the render with them.
+    /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;
 };
 
@@ -53,8 +58,10 @@ struct RenderSettings {
 struct RenderProgress {
     double fraction = 0;
     double seconds = 0;
+    double seconds_left = 0;    ///< at the pace of the last pass
     int samples = 0;            ///< per pixel, so far
-    double relative_noise = 0;  ///< Film::relative_noise(), by the samples so far
+    double relative_noise = 0;  ///< Film::relative_noise() after the last pass
+    bool learns = false;        ///< whether walks are there to learn from
 };
 
 /// What a render did with one kind of walks.
@@ -77,11 +84,45 @@ struct RenderStatistics {
     std::shared_ptr<const guide::Fields> fields;  ///< what was learned; null if nothing was guided
 };
 
-/// Renders into the film. A pass that is stopped leaves its finished samples there, which do not count as a pass. A
-/// time to spend stops a pass that would exceed it by a second, but the first one only if it takes ten times as long.
-/// `keep_going` is called between passes, with the film complete up to there; false ends the render. Throws
-/// std::runtime_error if more than one sample in 10^4 (and more than ten) was not a finite number: that is a mistake,
-/// not chance.
+/// A render. The picture does not depend on how it is divided into steps, nor on whether it was saved and restored in
+/// between, as long as it is not time that ends it.
+class Render {
+public:
+    /// Samples are added to the film. Scene and film must outlive it.
+    Render(const Scene& scene, Film& film, RenderSettings settings);
+    Render(const Render&) = delete;
+    Render& operator=(const Render&) = delete;
+    ~Render();
+
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
+    /// Goes on for about so many seconds, or to the end of a pass if that comes first. Whether there is more to do: not
+    /// at the end, which may be in the middle of a pass where time is up. Once RenderSettings::stop is true it returns
+    /// at once, or after what is learned from a pass. In between the film holds all walks that have ended.
+    bool step(double seconds = endless);
+    /// Whether a pass has been begun and not ended.
+    bool is_within_pass() const;
+
+    RenderProgress progress() const;
+    /// So far; without fields.
+    RenderStatistics statistics() const;
+    /// At the end: the render gives up what it has learned. Throws std::runtime_error if more than one sample in 10^4
+    /// (and more than ten) was not a finite number: that is a mistake, not chance.
+    RenderStatistics finish();
+
+    /// All that is needed to go on, the film included.
+    void save(ArchiveWriter& bytes) const;
+    /// Goes on where another render of the same scene and settings was saved; samples and time to spend may differ.
+    /// Throws InputError for other bytes: then it is of no use any more.
+    void restore(ArchiveReader& bytes);
+
+private:
+    class Work;
+    std::unique_ptr<Work> work_;
+};
+
+/// Renders into the film, to the end. `keep_going` is called between passes; false ends the render. A pass that is
+/// stopped leaves its finished samples in the film, which do not count as a pass. Throws like Render.
 RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& settings,
                         const std::function<bool(const RenderProgress&)>& keep_going = {});
 

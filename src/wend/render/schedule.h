@@ -4,6 +4,7 @@
 #include <wend/render/render.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace wend {
 
@@ -26,11 +27,20 @@ public:
         if (done == 0) {
             return 1;
         }
-        // What fits into the time that is left, at the pace so far; a last pass may be up to a third short of one
-        // sample.
-        const double left = (settings_.seconds - elapsed) * done / elapsed;
-        return left < 0.67 ? 0 : static_cast<int>(std::clamp(left, 1.0, static_cast<double>(wanted)));
+        // What fits into the time that is left, at the pace so far. Where the next pass would be the last, half of it:
+        // the pace may change, and a pass that is cut leaves a part of the picture with fewer samples.
+        constexpr double short_time = 1;
+        const double left = settings_.seconds - elapsed;
+        if (left < tolerance()) {
+            return 0;
+        }
+        const double fitting = left * done / elapsed;
+        const double next = fitting < 2 * wanted && left > short_time ? std::ceil(fitting / 2) : fitting;
+        return static_cast<int>(std::clamp(next, 1.0, static_cast<double>(wanted)));
     }
+
+    /// Whether time ends the render.
+    bool is_timed() const { return settings_.seconds > 0 && settings_.passes.empty(); }
 
     /// Whether it is known that no pass follows that one, which ends with `done` samples of each pixel.
     bool is_last(int pass, int done) const {
@@ -38,19 +48,23 @@ public:
                                         : pass + 1 >= static_cast<int>(settings_.passes.size());
     }
 
-    double fraction(int done, double elapsed) const {
+    /// Of the whole, where each pixel has so many samples as a mean.
+    double fraction(double done, double elapsed) const {
         if (!settings_.passes.empty()) {
             int total = 0;
             for (const int pass : settings_.passes) {
                 total += pass;
             }
-            return static_cast<double>(done) / std::max(1, total);
+            return done / std::max(1, total);
         }
-        return std::min(1.0, settings_.seconds > 0 ? elapsed / settings_.seconds
-                                                   : static_cast<double>(done) / std::max(1, settings_.samples));
+        return std::min(1.0,
+                        settings_.seconds > 0 ? elapsed / settings_.seconds : done / std::max(1, settings_.samples));
     }
 
 private:
+    /// Less time is not worth another pass.
+    double tolerance() const { return std::min(0.25, 0.02 * settings_.seconds); }
+
     const RenderSettings& settings_;
 };
 

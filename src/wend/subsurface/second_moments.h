@@ -46,6 +46,12 @@ public:
     /// By cell, of one medium.
     const std::map<int, Sums>& of(int medium) const;
 
+    /// See ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& moments) {
+        bytes(moments.media_);
+    }
+
 private:
     std::map<int, std::map<int, Sums>> media_;
 };

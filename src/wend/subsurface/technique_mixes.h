@@ -34,6 +34,16 @@ public:
     /// is clearly more.
     void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
 
+    /// What is learned; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& mixes) {
+        const std::size_t cells = mixes.plans_.size();
+        bytes(mixes.plans_, mixes.seen_, mixes.is_given_up_, mixes.brought_, mixes.expected_, mixes.connects_,
+              mixes.connects_through_);
+        bytes.require(mixes.plans_.size() == cells && mixes.brought_.size() == cells &&
+                      (mixes.expected_.empty() || mixes.expected_.size() == cells));
+    }
+
 private:
     struct Brought {
         double interior_walks = 0, light = 0;

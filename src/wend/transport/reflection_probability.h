@@ -38,6 +38,22 @@ public:
     /// Makes choices to come follow all that was added.
     void learn();
 
+    /// What is known; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& probability) {
+        bytes(probability.tallies_, probability.odds_);
+        for (const std::size_t size : {probability.tallies_.size(), probability.odds_.size()}) {
+            bytes.require(size == 0 || size == VertexCells::count);
+        }
+    }
+    /// Throws unless records can be those of vertices.
+    template <class Archive>
+    static void check(Archive& bytes, std::span<const ReflectionRecord> records) {
+        for (const ReflectionRecord& record : records) {
+            bytes.require(record.cell < VertexCells::count);
+        }
+    }
+
 private:
     struct Tally {
         double count = 0;

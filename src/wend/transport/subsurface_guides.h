@@ -42,6 +42,16 @@ public:
     /// Learns plans for the interior walks to come.
     void learn(const SecondMoments& moments, NextWalks next);
 
+    /// What was learned of each medium, for guides of the same scene and preset; see ListsMembers.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& guides) {
+        for (auto& medium : guides.media_) {
+            if (medium) {
+                bytes(medium->plans);
+            }
+        }
+    }
+
 private:
     struct Dense {
         InteriorGuide guide;

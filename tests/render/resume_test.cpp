@@ -1,0 +1,189 @@
+// A render that is divided into steps, saved and resumed gives the picture of one that never stopped, bit for bit.
+#include <tests/support/scenes.h>
+
+#include <wend/core/archive.h>
+#include <wend/core/error.h>
+#include <wend/core/random.h>
+#include <wend/render/render.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wend {
+namespace {
+
+// Large enough for all kinds of walks to be tried.
+constexpr int resolution = 40;
+
+/// Fog around a ball of smooth glass, a dense block and two lamps: all that learns has something to learn.
+SceneDescription table_top() {
+    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 32, resolution);
+    const MediumId fog = test::add_homogeneous(s, Rgb(0.01f), Rgb(0.1f), 0.4f);
+    const MediumId wax = test::add_homogeneous(s, {0.2f, 0.5f, 1.5f}, {15, 14, 12}, 0.3f);
+    test::add_box(s, Box3(Vec3(-2, -1, -1.5f), Vec3(2, 1.5f, 1.5f)), test::add_interface(s), fog);
+    test::add_box(s, Box3(Vec3(-1.1f, -0.9f, -0.5f), Vec3(-0.1f, 0.6f, 0.5f)), test::add_interface(s), wax, fog);
+    test::add_sphere(s, {0.9f, -0.2f, 0}, 0.6f, test::add_dielectric(s, 1.5f), vacuum, fog);
+    const int grey = test::add_diffuse(s, Rgb(0.5f));
+    test::add_parallelogram(s, {-4, -1.001f, -4}, {0, 0, 8}, {8, 0, 0}, grey);
+    test::add_lamp(s, {-2, 2, -2}, 1, {9, 4, 2}, grey);
+    test::add_lamp(s, {1, 2.5f, 0}, 0.5f, {2, 8, 9}, grey);
+    return s;
+}
+
+Film new_film() {
+    return Film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+}
+
+RenderSettings settings_of(const char* preset, int threads) {
+    RenderSettings settings;
+    settings.preset = parse_preset(preset);
+    settings.samples = 31;
+    settings.training_samples = 15;
+    settings.seed = 5;
+    settings.threads = threads;
+    settings.max_depth = 30;
+    return settings;
+}
+
+/// The whole film, as it would be saved.
+std::string bytes_of(const Film& film) {
+    ArchiveWriter bytes;
+    bytes(film);
+    return bytes.take();
+}
+
+std::string saved(const Render& render) {
+    ArchiveWriter bytes;
+    render.save(bytes);
+    return bytes.take();
+}
+
+std::string uninterrupted(const Scene& scene, const RenderSettings& settings) {
+    Film film = new_film();
+    render(scene, film, settings);
+    return bytes_of(film);
+}
+
+class Resumed : public testing::TestWithParam<const char*> {};
+
+TEST_P(Resumed, IsTheRenderThatNeverStopped) {
+    const Scene scene(table_top());
+    const std::string expected = uninterrupted(scene, settings_of(GetParam(), 1));
+    Pcg32 random(7);
+    for (const int threads : {1, 2, 5}) {
+        auto film = std::make_unique<Film>(new_film());
+        auto render = std::make_unique<Render>(scene, *film, settings_of(GetParam(), threads));
+        int resumed = 0, within = 0;
+        // Steps of 1 to 60 ms.
+        while (render->step(0.001 * std::pow(60, random.uniform_double()))) {
+            if (random.uniform_double() < 0.3) {
+                within += render->is_within_pass() ? 1 : 0;
+                const std::string state = saved(*render);
+                film = std::make_unique<Film>(new_film());
+                render = std::make_unique<Render>(scene, *film, settings_of(GetParam(), 1 + resumed++ % 3));
+                ArchiveReader bytes(state);
+                render->restore(bytes);
+                EXPECT_EQ(saved(*render).size(), state.size());
+            }
+        }
+        EXPECT_EQ(render->finish().samples, 31);
+        EXPECT_GT(resumed, 1) << "the test is of no use";
+        EXPECT_GT(within, 0) << "nor where passes are never cut";
+        EXPECT_TRUE(bytes_of(*film) == expected) << threads << " threads, resumed " << resumed << " times";
+    }
+}
+
+TEST_P(Resumed, WalksThatWereDroppedAreWalkedAgain) {
+    const Scene scene(table_top());
+    const std::string expected = uninterrupted(scene, settings_of(GetParam(), 1));
+    std::atomic<bool> stop = false;
+    RenderSettings settings = settings_of(GetParam(), 2);
+    settings.stop = &stop;
+    Film film = new_film();
+    Render render(scene, film, settings);
+    int stops = 0;
+    for (bool goes_on = true; goes_on;) {
+        stop = false;
+        std::thread stopper([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            stop = true;
+        });
+        goes_on = render.step();
+        stopper.join();
+        ++stops;
+    }
+    EXPECT_GT(stops, 5);
+    EXPECT_TRUE(bytes_of(film) == expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, Resumed,
+                         testing::Values("classical", "direction", "full", "distance+direction+roulette+splitting"));
+
+TEST(Render, ForeignBytesAreRefused) {
+    const Scene scene(table_top());
+    Film film = new_film();
+    Render render(scene, film, settings_of("full", 1));
+    for (int pass = 0; pass < 4; ++pass) {
+        render.step();
+    }
+    const std::string state = saved(render);
+    const auto restored = [&](const std::string& bytes) {
+        Film other = new_film();
+        Render again(scene, other, settings_of("full", 1));
+        ArchiveReader reader(bytes);
+        again.restore(reader);
+    };
+    EXPECT_NO_THROW(restored(state));
+    EXPECT_THROW(restored(state + "x"), InputError);
+    for (std::size_t size = 0; size < state.size(); size += 1 + state.size() / 50) {
+        EXPECT_THROW(restored(state.substr(0, size)), InputError) << size;
+    }
+    Film larger({resolution + 1, resolution}, {{0, 0}, {resolution + 1, resolution}});
+    Render other(scene, larger, settings_of("full", 1));
+    ArchiveReader reader(state);
+    EXPECT_THROW(other.restore(reader), InputError);
+}
+
+TEST(Render, KeepsToItsTime) {
+    const Scene scene(table_top());
+    Film film = new_film();
+    RenderSettings settings = settings_of("full", 1);
+    settings.seconds = 0.3;
+    Render render(scene, film, settings);
+    int steps = 0;
+    while (render.step(0.02)) {
+        ++steps;
+    }
+    EXPECT_GT(steps, 0);
+    const RenderStatistics statistics = render.finish();
+    EXPECT_GT(statistics.samples, 0);
+    EXPECT_NEAR(render.progress().fraction, 1, 0.2);
+}
+
+TEST(Render, EndsOnceTheNoiseIsLowEnough) {
+    const Scene scene(table_top());
+    RenderSettings settings = settings_of("full", 2);
+    settings.samples = 1000;
+    settings.noise = 0.3;
+    Film film = new_film();
+    Render render(scene, film, settings);
+    double before = 1;
+    while (render.step()) {
+        before = render.progress().relative_noise;
+    }
+    EXPECT_LE(film.relative_noise(), settings.noise);
+    EXPECT_GE(render.finish().samples, 15);
+    EXPECT_LT(render.statistics().samples, 1000);
+    if (render.statistics().samples > 15) {
+        EXPECT_GT(before, settings.noise) << "no pass earlier";
+    }
+}
+
+}  // namespace
+}  // namespace wend
