@@ -70,7 +70,7 @@ TEST_F(ProgramOutput, LayersAndMetadataCanBeReadBack) {
     EXPECT_EQ(picture.metadata.at("wend:seed"), "5");
     EXPECT_EQ(picture.metadata.at("wend:spp"), "64");
     EXPECT_FALSE(picture.metadata.at("wend:version").empty());
-    EXPECT_GE(std::stod(picture.metadata.at("wend:seconds")), 0);
+    EXPECT_EQ(picture.metadata.at("wend:scene_digest").size(), 16u);
     const auto settings = nlohmann::json::parse(picture.metadata.at("wend:settings"));
     EXPECT_EQ(settings["sampling"], "direction");
     EXPECT_EQ(settings["max_depth"], 8);
@@ -180,13 +180,13 @@ TEST_F(ProgramOutput, AFailingWriteLeavesTheOldPictureAndNothingElse) {
 }
 
 TEST_F(ProgramOutput, AnInterruptEndsWithAPicture) {
-    for (const int number : {SIGINT, SIGTERM}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         test::WendProcess process(endless("room.exr"), folder_);
         ASSERT_TRUE(process.wait_for_progress());
         EXPECT_TRUE(process.wait_for_progress()) << "it renders on";
         process.signal(number);
         const auto result = process.wait();
-        ASSERT_EQ(result.status, 0) << result.err;
+        ASSERT_EQ(result.status, 128 + number) << result.err;
         const auto report = result.json();
         EXPECT_EQ(report["interrupted"], true);
         EXPECT_LT(report["spp"], 100000000);

@@ -92,7 +92,7 @@ TEST_P(Resumed, IsTheRenderThatNeverStopped) {
                 EXPECT_EQ(saved(*render).size(), state.size());
             }
         }
-        EXPECT_EQ(render->finish().samples, 31);
+        EXPECT_EQ(render->result().samples, 31);
         EXPECT_GT(resumed, 1) << "the test is of no use";
         EXPECT_GT(within, 0) << "nor where passes are never cut";
         EXPECT_TRUE(bytes_of(*film) == expected) << threads << " threads, resumed " << resumed << " times";
@@ -161,7 +161,7 @@ TEST(Render, KeepsToItsTime) {
         ++steps;
     }
     EXPECT_GT(steps, 0);
-    const RenderStatistics statistics = render.finish();
+    const RenderStatistics statistics = render.result();
     EXPECT_GT(statistics.samples, 0);
     EXPECT_NEAR(render.progress().fraction, 1, 0.2);
 }
@@ -178,7 +178,7 @@ TEST(Render, EndsOnceTheNoiseIsLowEnough) {
         before = render.progress().relative_noise;
     }
     EXPECT_LE(film.relative_noise(), settings.noise);
-    EXPECT_GE(render.finish().samples, 15);
+    EXPECT_GE(render.result().samples, 15);
     EXPECT_LT(render.statistics().samples, 1000);
     if (render.statistics().samples > 15) {
         EXPECT_GT(before, settings.noise) << "no pass earlier";

@@ -1,8 +1,8 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
 #include <wend/app/interrupt.h>
-#include <wend/app/progress.h>
 #include <wend/app/session.h>
+#include <wend/app/watched_render.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
@@ -24,9 +24,11 @@ constexpr int most_samples = 1 << 30;
 struct RenderOptions {
     CommonOptions common;
     SceneOptions scene;
+    WatchOptions watch;
     std::string output;
     int samples = 0;
     double seconds = 0;
+    double noise = 0;
     std::string sampling = "full";
     std::string subsurface = "auto";
     std::optional<std::string> passes;
@@ -84,12 +86,16 @@ void check(const RenderOptions& options, const Preset& preset) {
             require_writable(file);
         }
     }
+    options.watch.check();
 }
 
 /// The paths that are written differ, and are not read.
 void check_paths(const RenderOptions& options, const std::string& output) {
     require_distinct({options.scene.file, options.load_field},
-                     {output, options.common.json, options.save_field, options.save_records});
+                     {output, options.common.json, options.save_field, options.save_records, options.watch.checkpoint,
+                      options.watch.progress_file});
+    require_distinct({options.watch.resume}, {output, options.common.json, options.save_field, options.save_records,
+                                              options.watch.progress_file});
 }
 
 void warn_of_lacks(const RenderStatistics& statistics, std::ostream& err) {
@@ -137,7 +143,12 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     settings.preset = preset;
     settings.subsurface = subsurface;
     settings.fields = std::move(fields);
-    settings.samples = options.samples > 0 ? options.samples : settings.samples;
+    if (options.samples > 0) {
+        settings.samples = options.samples;
+    } else if (options.noise > 0) {
+        settings.samples = most_samples;
+    }
+    settings.noise = options.noise;
     settings.seconds = options.seconds;
     settings.passes = passes;
     RecordSamples records;
@@ -149,17 +160,11 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     Film film = session.new_film();
     const InterruptGuard interrupt;
     settings.stop = &interrupt.flag();
-    RenderStatistics statistics;
-    {
-        ProgressBar bar(streams.err, !options.common.quiet,
-                        std::filesystem::path(session.scene_file()).filename().string());
-        statistics = render(session.scene(), film, settings, [&](const RenderProgress& progress) {
-            bar.update(progress);
-            return !interrupt.requested();
-        });
-    }
-    const auto write = options.half ? write_colours : write_picture;
-    write(output, session.picture(film, settings, statistics));
+    const auto write = [&](const RenderStatistics& statistics) {
+        (options.half ? write_colours : write_picture)(output, session.picture(film, settings, statistics));
+    };
+    const RenderStatistics statistics =
+        watched_render(session, film, settings, options.watch, options.common, streams, write);
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
     }
@@ -170,6 +175,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
     warn_of_lacks(statistics, streams.err);
     options.common.write_json(streams, report(session, settings, statistics, output));
+    if (interrupt.signal() != 0) {
+        throw EndedBySignal{interrupt.signal()};
+    }
 }
 
 }  // namespace
@@ -187,6 +195,11 @@ Action add_render_command(CLI::App& program) {
         ->needs(output);
     CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
+    command
+        .add_option("--noise", options->noise,
+                    "render until the estimated relative noise of the picture is this, such as 0.02 for 2 %; --spp and "
+                    "--time end it earlier")
+        ->check(CLI::PositiveNumber);
     CLI::Option* passes = command.add_option("--passes", options->passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
     samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
@@ -200,9 +213,13 @@ Action add_render_command(CLI::App& program) {
                     "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")
         ->capture_default_str();
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
-    command.add_option("--save-records", options->save_records,
-                       "write a sample of what the field learned from to this file (for 'wend field --records')");
-    command.add_option("--load-field", options->load_field, "go on with what an earlier render of the scene learned");
+    CLI::Option* save_records =
+        command.add_option("--save-records", options->save_records,
+                           "write a sample of what the field learned from to this file (for 'wend field --records')");
+    CLI::Option* load_field = command.add_option("--load-field", options->load_field,
+                                                 "go on with what an earlier render of the scene learned");
+    options->watch.add_to(command);
+    command.get_option("--resume")->excludes(load_field)->excludes(save_records);
     options->common.add_to(command);
     return [options](const Streams& streams) { render_scene(*options, streams); };
 }

@@ -1,39 +1,58 @@
 #include <wend/app/interrupt.h>
+#include <wend/io/atomic_file.h>
 
-#include <atomic>
-#include <csignal>
+#include <unistd.h>
+
+#include <cstddef>
 
 namespace wend {
 namespace {
 
-// A signal handler can reach nothing but an object of static storage.
+constexpr int ended_by_signal = 128;
+
+// A signal handler can reach nothing but objects of static storage.
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> number = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember_interrupt(int signal) {
+    if (interrupted) {
+        remove_unfinished_files();
+        _exit(ended_by_signal + signal);
+    }
+    number = signal;
     interrupted = true;
-    std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
+    number = 0;
     interrupted = false;
-    std::signal(SIGINT, remember_interrupt);
-    std::signal(SIGTERM, remember_interrupt);
+    struct sigaction action {};
+    action.sa_handler = remember_interrupt;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        sigaction(signals[i], nullptr, &before_[i]);
+        if (before_[i].sa_handler != SIG_IGN) {
+            sigaction(signals[i], &action, nullptr);
+        }
+    }
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-}
-
-bool InterruptGuard::requested() const {
-    return interrupted;
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        sigaction(signals[i], &before_[i], nullptr);
+    }
 }
 
 const std::atomic<bool>& InterruptGuard::flag() const {
     return interrupted;
+}
+
+int InterruptGuard::signal() const {
+    return number;
 }
 
 }  // namespace wend

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <csignal>
+
+#include <array>
 #include <atomic>
 
 namespace wend {
 
-/// While it lives, SIGINT and SIGTERM no longer kill the program but ask it to come to an end: walks are dropped where
-/// they are, and the picture is written. A second signal kills.
+/// While it lives, SIGINT, SIGTERM and SIGHUP no longer kill the program but ask it to come to an end: walks are
+/// dropped where they are, and the picture is written. A second signal ends it at once, and leaves no half-written
+/// file. One that the program was started to ignore stays ignored.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -13,8 +17,20 @@ public:
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    bool requested() const;
+    bool is_requested() const { return flag(); }
     const std::atomic<bool>& flag() const;
+    /// Of the signal; 0 where there was none.
+    int signal() const;
+
+private:
+    static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+    std::array<struct sigaction, signals.size()> before_{};
+};
+
+/// Thrown by a subcommand that a signal has ended, once all is written: the program's exit status is 128 and its
+/// number.
+struct EndedBySignal {
+    int number;
 };
 
 }  // namespace wend

@@ -1,4 +1,5 @@
 #include <wend/app/commands.h>
+#include <wend/app/interrupt.h>
 #include <wend/app/program.h>
 #include <wend/core/error.h>
 #include <wend/render/preset.h>
@@ -76,6 +77,8 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
     } catch (const InputError& e) {
         err << e.what() << '\n';
         return 2;
+    } catch (const EndedBySignal& signal) {
+        return 128 + signal.number;
     } catch (const std::bad_alloc&) {
         err << "error: out of memory\n";
     } catch (const std::exception& e) {

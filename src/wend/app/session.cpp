@@ -69,6 +69,7 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, const
       film_file_(loaded.film_file),
       resolution_(loaded.resolution),
       crop_(options.crop.empty() ? loaded.crop : parse_crop(options.crop, loaded.resolution)),
+      files_(stamps_of(loaded.files, std::filesystem::path(options.file).parent_path())),
       scene_(std::move(loaded.scene)) {
     for (const std::string& warning : loaded.warnings) {
         common.note(streams, warning);
@@ -97,12 +98,15 @@ nlohmann::json Session::describe(const RenderSettings& settings) const {
 }
 
 Picture Session::picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const {
+    // Only what the picture follows from: the same picture is the same file.
+    nlohmann::json described = describe(settings);
+    described.erase("threads");
     Picture picture = film.picture();
     picture.metadata = {{"wend:scene", scene_file_},
-                        {"wend:settings", json_text(describe(settings))},
+                        {"wend:scene_digest", digest_of(files_)},
+                        {"wend:settings", json_text(described)},
                         {"wend:seed", std::to_string(settings.seed)},
                         {"wend:version", WEND_VERSION},
-                        {"wend:seconds", fmt::format("{:.3f}", statistics.seconds)},
                         {"wend:spp", std::to_string(statistics.samples)}};
     return picture;
 }

@@ -3,6 +3,7 @@
 
 #include <wend/app/options.h>
 #include <wend/film/film.h>
+#include <wend/io/file_stamp.h>
 #include <wend/io/load/load_scene.h>
 #include <wend/render/render.h>
 #include <wend/scene/scene.h>
@@ -36,10 +37,12 @@ public:
     const std::string& film_file() const { return film_file_; }
     const std::string& scene_file() const { return scene_file_; }
     const Vec2i& resolution() const { return resolution_; }
+    /// Of all the files that the scene consists of.
+    const std::vector<FileStamp>& files() const { return files_; }
 
     /// The settings as JSON, as the "settings" key of results has them.
     nlohmann::json describe(const RenderSettings& settings) const;
-    /// The film's picture with metadata: scene, settings, seed, version, time, samples.
+    /// The film's picture with metadata: scene and its digest, settings, seed, version, samples.
     Picture picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const;
 
 private:
@@ -49,6 +52,7 @@ private:
     std::string film_file_;
     Vec2i resolution_;
     PixelRect crop_;
+    std::vector<FileStamp> files_;
     RenderSettings settings_;
     Scene scene_;
 };

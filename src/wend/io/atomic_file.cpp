@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -46,13 +48,28 @@ void copy_into(const std::filesystem::path& device, const std::filesystem::path&
     }
 }
 
+// A signal handler can reach nothing but objects of static storage. More files than this are not written at once.
+std::array<std::atomic<const char*>, 64> unfinished{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
 /// A file of which only its own name is known, removed in the end.
 class Temporary {
 public:
-    explicit Temporary(std::filesystem::path path) : path_(std::move(path)) {}
+    explicit Temporary(std::filesystem::path path) : path_(std::move(path)) {
+        for (std::atomic<const char*>& slot : unfinished) {
+            const char* free = nullptr;
+            if (slot.compare_exchange_strong(free, path_.c_str())) {
+                slot_ = &slot;
+                break;
+            }
+        }
+    }
     ~Temporary() {
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);
+        if (slot_) {
+            *slot_ = nullptr;
+        }
     }
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
@@ -61,6 +78,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    std::atomic<const char*>* slot_ = nullptr;
 };
 
 }  // namespace
@@ -107,6 +125,14 @@ void write_atomically(const std::filesystem::path& target, std::string_view cont
             throw std::runtime_error(target.string() + ": cannot write: " + std::strerror(errno));
         }
     });
+}
+
+void remove_unfinished_files() noexcept {
+    for (const std::atomic<const char*>& slot : unfinished) {
+        if (const char* const file = slot) {
+            ::unlink(file);
+        }
+    }
 }
 
 void require_writable(const std::filesystem::path& target) {

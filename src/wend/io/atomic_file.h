@@ -19,6 +19,10 @@ void write_atomically(const std::filesystem::path& target, std::string_view cont
 /// Tries whether write_atomically() can succeed, to ask before long work. Throws InputError, naming the reason, if not.
 void require_writable(const std::filesystem::path& target);
 
+/// Removes what write_atomically() has not finished, in any thread, for a program that is about to end. May be called
+/// from a signal handler.
+void remove_unfinished_files() noexcept;
+
 /// Whether there is something of that name that is neither a file nor a folder, so that writing replaces nothing.
 bool is_device(const std::filesystem::path& target);
 

@@ -35,7 +35,6 @@ public:
     /// Of so many walks, the share that is to be recorded.
     double recorded_share(double walks) const { return budget_.share(walks); }
     const guide::Fields& fields() const { return fields_; }
-    guide::Fields take_fields() { return std::move(fields_); }
     /// What photons know that the fields do not.
     const CausticMap& surface_caustics() const { return surface_caustics_; }
     const CausticMap& volume_caustics() const { return volume_caustics_; }

@@ -49,19 +49,20 @@ WalkTally PixelWalks::tally() const {
         return {};
     }
     const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
-    return {count_, sum_, count_ * variance, work_};
+    return {count_, sum_, count_ * variance, count_ * scale_ * scale_ * variance, work_};
 }
 
 WalkTally& WalkTally::operator+=(const WalkTally& o) {
     walks += o.walks;
     value += o.value;
+    spread += o.spread;
     square += o.square;
     work += o.work;
     return *this;
 }
 
 WalkTally WalkTally::scaled(double factor) const {
-    return {factor * walks, factor * value, factor * square, factor * work};
+    return {factor * walks, factor * value, factor * spread, factor * square, factor * work};
 }
 
 GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles,
@@ -143,8 +144,8 @@ double GuidingChoice::Products::mean_of_tiles() const {
 
 GuidingChoice::Products GuidingChoice::squared_errors() const {
     Products squares = products(&WalkTally::square);
-    const Products values = products(&WalkTally::value);
-    const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles();
+    const Products values = products(&WalkTally::value), spreads = products(&WalkTally::spread);
+    const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles(), spread = spreads.mean_of_tiles();
     std::array<double, most_walk_kinds> walks{};
     for (const WalkTallies& tile : tallies_) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
@@ -162,10 +163,12 @@ GuidingChoice::Products GuidingChoice::squared_errors() const {
             if (walks[kind] == 0 || walks[other] == 0) {
                 continue;
             }
-            constexpr double beyond_chance = 3;
+            // Less than this part of the light may be chance, too, where a few bright walks bring most of it.
+            constexpr double beyond_chance = 4, least_part = 0.2;
             const double lack = bright * (values.kind[other] - values.kind[kind]);
-            const double chance = std::sqrt(hard * (shown.kind[other] / walks[other] + shown.kind[kind] / walks[kind]));
-            if (lack > beyond_chance * chance) {
+            const double chance =
+                std::sqrt(spread * (spreads.kind[other] / walks[other] + spreads.kind[kind] / walks[kind]));
+            if (lack > std::max(beyond_chance * chance, least_part * bright * values.kind[other])) {
                 squares.kind[kind] = std::max(squares.kind[kind], shown.kind[kind] + walks[kind] * lack * lack / hard);
             }
         }

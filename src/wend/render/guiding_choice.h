@@ -14,8 +14,9 @@ namespace wend {
 /// What walks of one kind have shown in a tile.
 struct WalkTally {
     double walks = 0;
-    double value = 0;   ///< sum of what they brought, as PixelWalks weighs it
-    double square = 0;  ///< sum over the walks of the variance of what one brings, likewise
+    double value = 0;   ///< sum of what they brought
+    double spread = 0;  ///< sum over the walks of the variance of what one brings
+    double square = 0;  ///< the same, as PixelWalks weighs it
     double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
 
     WalkTally& operator+=(const WalkTally& o);
@@ -26,13 +27,13 @@ struct WalkTally {
 /// The walks of one kind that a pixel has in a pass.
 class PixelWalks {
 public:
-    /// What they bring is multiplied by `scale`: the tile's mean over what is expected of the pixel, since errors count
-    /// relative to their pixel. Ratios within a tile are known long before brightness is.
+    /// Their errors are multiplied by `scale`: the picture's mean over what is expected of the pixel, since errors
+    /// count relative to their pixel.
     explicit PixelWalks(double scale = 1) : scale_(scale) {}
 
     /// A walk that brought so much, by so much counted work.
     void add(float brought, double work) {
-        const double x = scale_ * static_cast<double>(brought);
+        const double x = static_cast<double>(brought);
         ++count_;
         sum_ += x;
         squares_ += x * x;

@@ -34,13 +34,14 @@ struct PassPlan {
     double recorded_share = 1;  ///< of the walks, those that are recorded
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
+    double mean_estimate = 0;    ///< of all pixels; 0 where estimates are not known
     double sample_variance = 0;  ///< of one sample, relative to its pixel; 0 where estimates are not known
 
     /// See ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
         bytes(plan.first, plan.count, plan.learns, plan.guides, plan.steers, plan.recorded_share, plan.estimates,
-              plan.sample_variance);
+              plan.mean_estimate, plan.sample_variance);
     }
 
     /// Samples of each pixel once the pass has ended.

@@ -111,7 +111,7 @@ public:
             const Vec2i pixel = tile.pixel(tile.pixels_done);
             const float expected = estimate(pixel);
             if (tile.samples_done == 0) {
-                tile.of_pixel = PixelWalks(expected > 0 ? mean / static_cast<double>(expected) : 1.0);
+                tile.of_pixel = PixelWalks(error_scale(expected, mean));
             }
             for (; tile.samples_done < plan_.count; ++tile.samples_done) {
                 if (tile.counts.segments - looked > few) {
@@ -164,6 +164,16 @@ private:
         result.sample.radiance *= place.weight * settings_.exposure;
         film_.add(pixel, result.sample);
         return true;
+    }
+
+    /// What makes errors of a pixel relative to it, given the mean of its tile. What is known of it is what few walks
+    /// have found: where that is next to nothing another kind of walk may find much, which must not count as its error.
+    double error_scale(float expected, double tile_mean) const {
+        constexpr double darkest_in_tile = 0.25, darkest_in_picture = 0.1;
+        const double mean = plan_.mean_estimate;
+        const double shown =
+            std::max({static_cast<double>(expected), darkest_in_tile * tile_mean, darkest_in_picture * mean});
+        return mean > 0 ? mean / shown : 1;
     }
 
     /// By a number of its own: what a walk does must not depend on whether it is recorded.

@@ -121,10 +121,10 @@ public:
         return statistics;
     }
 
-    RenderStatistics finish() {
+    RenderStatistics result() const {
         RenderStatistics result = statistics();
         if (!settings_.preset.is_classical()) {
-            result.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().take_fields());
+            result.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().fields());
             result.field_bytes = result.fields->bytes();
         }
         check_rejected(result.counts);
@@ -252,6 +252,7 @@ private:
             plan.estimates = pixel_estimates(film_.beauty(), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
+                plan.mean_estimate += static_cast<double>(estimate) / context_.pixels;
             }
             plan.sample_variance = std::pow(noise_, 2) * samples;
         }
@@ -352,8 +353,8 @@ RenderStatistics Render::statistics() const {
     return work_->statistics();
 }
 
-RenderStatistics Render::finish() {
-    return work_->finish();
+RenderStatistics Render::result() const {
+    return work_->result();
 }
 
 void Render::save(ArchiveWriter& bytes) const {
@@ -373,7 +374,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
             break;
         }
     }
-    return render.finish();
+    return render.result();
 }
 
 }  // namespace wend

@@ -106,9 +106,9 @@ public:
     RenderProgress progress() const;
     /// So far; without fields.
     RenderStatistics statistics() const;
-    /// At the end: the render gives up what it has learned. Throws std::runtime_error if more than one sample in 10^4
-    /// (and more than ten) was not a finite number: that is a mistake, not chance.
-    RenderStatistics finish();
+    /// With a copy of what was learned. Throws std::runtime_error if more than one sample in 10^4 (and more than ten)
+    /// was not a finite number: that is a mistake, not chance.
+    RenderStatistics result() const;
 
     /// All that is needed to go on, the film included.
     void save(ArchiveWriter& bytes) const;

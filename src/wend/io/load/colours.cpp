@@ -89,6 +89,7 @@ Rgb reduce_named(const LoadContext& context, const std::string& name, SpectrumKi
         throw InputError(place, fmt::format("\"{}\" is neither a known spectrum ({}) nor a file", name,
                                             fmt::join(spectrum_names(), ", ")));
     }
+    context.files->insert(file);
     return reduce(read_spectrum(file, place), kind, place);
 }
 

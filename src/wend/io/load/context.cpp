@@ -35,6 +35,7 @@ std::filesystem::path required_file(const LoadContext& context, const pbrt::Enti
     if (!std::filesystem::is_regular_file(file, ignored)) {
         throw InputError(place, fmt::format("there is no file \"{}\"", file.string()));
     }
+    context.files->insert(file);
     return file;
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ private:
 struct LoadContext {
     std::filesystem::path base_directory;
     Warnings warnings;
+    /// That were read so far, in order.
+    std::shared_ptr<std::set<std::filesystem::path>> files = std::make_shared<std::set<std::filesystem::path>>();
     /// Triangles that subdivision led to so far.
     double subdivided = 0;
 };

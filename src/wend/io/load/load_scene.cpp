@@ -125,6 +125,7 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& o
 
 LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {
     LoadContext context{description.base_directory, {}};
+    context.files->insert(description.files.begin(), description.files.end());
     LoadedScene loaded;
     const FilmSettings film = load_film(context, description.film, overrides.resolution);
     const SamplerSettings sampler = load_sampler(context, description.sampler, description.options);
@@ -143,6 +144,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.scene.camera_medium = medium_id(description.camera.medium);
     context.warnings.add_unused("Option", description.options);
     SceneBuilder(context, description, loaded.scene).build();
+    loaded.files.assign(context.files->begin(), context.files->end());
     loaded.warnings = std::move(description.warnings);
     loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());
     return loaded;

@@ -27,6 +27,8 @@ struct LoadedScene {
     int max_depth = 5;
     std::uint64_t seed = 0;
     std::string film_file;  ///< where the file wants the picture
+    /// All that was read, in order of their names.
+    std::vector<std::filesystem::path> files;
     /// What Wend lacks or ignores, each kind once, and shapes that do not hold their medium, as `file:line:column:
     /// warning: ...`.
     std::vector<std::string> warnings;

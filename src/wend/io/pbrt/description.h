@@ -74,6 +74,7 @@ struct ObjectInstance {
 /// All indices are valid and every texture that a parameter names exists.
 struct Description {
     std::filesystem::path base_directory;
+    std::vector<std::filesystem::path> files;  ///< that were parsed; none if the text is no file
 
     // Directives that a file need not have start with the types that pbrt takes then.
     CameraEntity camera{{"perspective", {}, {}}, {}, {}};

@@ -133,7 +133,9 @@ const std::unordered_map<std::string_view, Parser::Directive>& Parser::directive
 
 Description Parser::parse() {
     read_directives();
-    return builder_.finish(next_location());
+    Description description = builder_.finish(next_location());
+    description.files = tokens_.files();
+    return description;
 }
 
 // Until the end of the main or imported file.

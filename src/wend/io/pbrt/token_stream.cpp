@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t deepest_nesting = 64;
 // A few small files that include each other twice, level by level, would otherwise keep the reader busy for ever.
-constexpr int most_files = 100'000;
+constexpr std::size_t most_files = 100'000;
 
 }  // namespace
 
@@ -41,6 +41,7 @@ TokenStream::TokenStream(const std::filesystem::path& file)
     : TokenStream(read_text_file(file, Place{file.string()}), file.string(), file.parent_path(), true) {
     std::error_code ignored;
     sources_.back()->path = std::filesystem::weakly_canonical(file, ignored);
+    files_.push_back(file);
 }
 
 void TokenStream::expect(Token::Kind kind) {
@@ -72,7 +73,7 @@ void TokenStream::enter(const std::string& file_name, const Location& place, Ent
     if (sources_.size() >= deepest_nesting) {
         throw InputError(place, fmt::format("files are included more than {} deep", deepest_nesting));
     }
-    if (++files_entered_ > most_files) {
+    if (files_.size() > most_files) {
         throw InputError(place, fmt::format("more than {} files are included", most_files));
     }
     auto file = std::make_shared<const SourceFile>(SourceFile{path.string(), path.parent_path()});
@@ -80,6 +81,7 @@ void TokenStream::enter(const std::string& file_name, const Location& place, Ent
     source->path = canonical;
     source->opened_at = place;
     sources_.push_back(std::move(source));
+    files_.push_back(path);
 }
 
 void TokenStream::leave_finished_includes() {

@@ -35,6 +35,9 @@ public:
     /// Opens a file named at `place`, looked up beside the file that names it, then beside the main file. Throws
     /// InputError if it is missing, already open (a cycle), or if files are nested too deeply or are too many.
     void enter(const std::string& file_name, const Location& place, Entry entry);
+    /// All files that were opened so far.
+    const std::vector<std::filesystem::path>& files() const { return files_; }
+
     /// Closes the included files that have been read to their end.
     void leave_finished_includes();
     /// Closes an imported file.
@@ -55,7 +58,7 @@ private:
 
     std::filesystem::path base_directory_;
     bool allow_includes_;
-    int files_entered_ = 0;
+    std::vector<std::filesystem::path> files_;
     std::vector<std::unique_ptr<Source>> sources_;
 };
 

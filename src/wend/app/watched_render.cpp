@@ -1,0 +1,129 @@
+#include <wend/app/checkpoint.h>
+#include <wend/app/progress.h>
+#include <wend/app/progress_lines.h>
+#include <wend/app/watched_render.h>
+#include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <optional>
+#include <ostream>
+
+namespace wend {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Something to be done every so many seconds.
+class Regularly {
+public:
+    explicit Regularly(double seconds) : seconds_(seconds) { restart(); }
+
+    bool is_due() const { return seconds_ > 0 && left() <= 0; }
+    /// Seconds until it is due.
+    double left() const {
+        return seconds_ > 0 ? seconds_ - std::chrono::duration<double>(Clock::now() - start_).count()
+                            : std::numeric_limits<double>::infinity();
+    }
+    void restart() { start_ = Clock::now(); }
+
+private:
+    double seconds_;
+    Clock::time_point start_;
+};
+
+/// Does what may fail without harm to the render; says so where it does.
+template <class Action>
+void attempt(const Streams& streams, const Action& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        streams.err << "warning: " << error.what() << "; the render goes on\n" << std::flush;
+    }
+}
+
+}  // namespace
+
+void WatchOptions::add_to(CLI::App& command) {
+    command.add_option("--progress", progress, "how progress is shown: bar, json (a line each second) or none")
+        ->check(CLI::IsMember({"bar", "json", "none"}))
+        ->capture_default_str();
+    command.add_option("--progress-file", progress_file, "write the lines of JSON to this file");
+    command
+        .add_option("--write-every", write_every,
+                    "write the picture after the first pass and every so many seconds, and not only at the end")
+        ->check(seconds_problem);
+    CLI::Option* file = command.add_option("--checkpoint", checkpoint,
+                                           "keep in this file where the render is, so that it can be resumed");
+    command.add_option("--checkpoint-every", checkpoint_every, "seconds between checkpoints")
+        ->check(seconds_problem)
+        ->capture_default_str()
+        ->needs(file);
+    command.add_option("--resume", resume, "go on from this checkpoint; scene and settings must be the same");
+}
+
+void WatchOptions::check() const {
+    for (const std::string& file : {progress_file, checkpoint}) {
+        if (!file.empty()) {
+            require_writable(file);
+        }
+    }
+}
+
+RenderStatistics watched_render(const Session& session, Film& film, const RenderSettings& settings,
+                                const WatchOptions& options, const CommonOptions& common, const Streams& streams,
+                                const std::function<void(const RenderStatistics&)>& write_picture) {
+    // How soon it is noticed that something is due.
+    constexpr double step = 0.25;
+    Render render(session.scene(), film, settings);
+    if (!options.resume.empty()) {
+        resume_from(options.resume, render, session, settings);
+    }
+    std::optional<ProgressLines> lines;
+    if (!options.progress_file.empty()) {
+        lines.emplace(options.progress_file);
+    } else if (options.progress == "json") {
+        lines.emplace(streams.err);
+    }
+    ProgressBar bar(streams.err, !common.quiet && options.progress == "bar",
+                    std::filesystem::path(session.scene_file()).filename().string());
+    Regularly pictures(options.write_every), checkpoints(options.checkpoint.empty() ? 0 : options.checkpoint_every);
+    bool has_picture = options.write_every == 0, goes_on = true;
+    const auto is_stopped = [&] { return settings.stop && *settings.stop; };
+    while (goes_on && !is_stopped()) {
+        goes_on = render.step(std::clamp(std::min(pictures.left(), checkpoints.left()), 0.0, step));
+        const RenderProgress progress = render.progress();
+        bar.update(progress);
+        if (lines) {
+            lines->update(progress);
+        }
+        if (!goes_on || is_stopped()) {
+            break;
+        }
+        if (pictures.is_due() || (!has_picture && progress.samples > 0)) {
+            attempt(streams, [&] { write_picture(render.statistics()); });
+            has_picture = true;
+            pictures.restart();
+        }
+        if (checkpoints.is_due()) {
+            attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+            checkpoints.restart();
+        }
+    }
+    const RenderStatistics statistics = render.result();
+    if (lines) {
+        lines->finish(render.progress(), !is_stopped());
+    }
+    write_picture(statistics);
+    // After the picture: it takes longer, and who stops a render may not wait for ever.
+    if (!options.checkpoint.empty()) {
+        attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+    }
+    return statistics;
+}
+
+}  // namespace wend
