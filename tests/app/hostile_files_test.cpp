@@ -170,6 +170,7 @@ TEST_F(HostileFiles, WhatNeverEndsIsGivenUp) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"render", "/dev/zero"},
                                                       {"field", "/dev/zero"},
                                                       {"metric", "/dev/zero", "a.exr"},
+                                                      {"merge", "out.exr", "/dev/zero", "a.exr"},
                                                       {"render", "/dev/zero", "--load-field", "/dev/zero"}}) {
         expect_refused(run_limited(arguments, folder_.path(), folder_), "/dev/zero");
     }

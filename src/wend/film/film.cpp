@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/film/chess_board.h>
 #include <wend/film/film.h>
 #include <wend/film/pixel_estimate.h>
 
@@ -73,43 +74,15 @@ double Film::Pixel::spread(int c, double weight) const {
 }
 
 std::size_t Film::half_of(std::size_t index) const {
-    const auto width = static_cast<std::size_t>(crop_.width());
-    return (index % width + index / width) % 2;
-}
-
-Image Film::filled_from(std::size_t half, double weight) const {
-    Image image(crop_.width(), crop_.height());
-    const auto index = [&](int x, int y) { return static_cast<std::size_t>(y * image.width + x); };
-    const auto value = [&](int x, int y) {
-        const Pixel& p = pixels_[index(x, y)];
-        return Rgb(static_cast<float>(p.mean(0, weight)), static_cast<float>(p.mean(1, weight)),
-                   static_cast<float>(p.mean(2, weight)));
-    };
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            if (half_of(index(x, y)) == half) {
-                image.at(x, y) = value(x, y);
-                continue;
-            }
-            Rgb sum;
-            int neighbours = 0;
-            for (const auto& [nx, ny] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
-                if (nx >= 0 && ny >= 0 && nx < image.width && ny < image.height) {
-                    sum += value(nx, ny);
-                    ++neighbours;
-                }
-            }
-            image.at(x, y) = neighbours > 0 ? sum / static_cast<float>(neighbours) : sum;
-        }
-    }
-    return image;
+    return chess_half(index, crop_.width());
 }
 
 std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) const {
     std::array<Comparison, 2> result;
     for (std::size_t half = 0; half < 2; ++half) {
         const std::vector<float> estimates =
-            pixel_estimates(filled_from(half, weights[half]), static_cast<int>(pixels_.front().samples()));
+            pixel_estimates(filled_from_half(beauty({weights[half], weights[half]}), half),
+                            static_cast<int>(pixels_.front().samples()));
         double variance = 0, now = 0, before = 0, count = 0, samples = 0, earlier_samples = 0;
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Pixel& p = pixels_[i];

@@ -112,8 +112,6 @@ private:
 
     std::size_t half_of(std::size_t index) const;
     Image beauty(const Halves& weights) const;
-    /// The picture as the pixels of one half tell it.
-    Image filled_from(std::size_t half, double weight) const;
     /// What one half of the pixels tells of this stage and those before, relative to the picture.
     struct Comparison {
         double variance = 0;  ///< of one sample of this stage, summed over the channels

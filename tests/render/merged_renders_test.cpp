@@ -1,0 +1,97 @@
+// Several renders merged against one of as many samples.
+#include <tests/support/scenes.h>
+#include <wend/film/merge.h>
+#include <wend/render/render.h>
+#include <wend/stats/moments.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr int side = 16;
+
+/// Thin fog over a floor under a lamp that is far off: rare bright samples would hide a difference.
+Scene foggy_floor() {
+    SceneDescription scene = test::scene_with_camera({0, 1, 4}, {0, 0.6f, 0}, 40, side);
+    const MediumId fog = test::add_homogeneous(scene, Rgb(0.05f), Rgb(0.3f, 0.25f, 0.2f));
+    const int grey = test::add_diffuse(scene, Rgb(0.6f));
+    test::add_parallelogram(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, grey);
+    test::add_box(scene, {{-1, 0.2f, -1}, {1, 1.2f, 1}}, test::add_interface(scene), fog);
+    test::add_lamp(scene, {-3, 8, -3}, 6, Rgb(5), grey);
+    test::add_environment(scene, Rgb(0.2f));
+    return Scene(std::move(scene));
+}
+
+Picture picture_of(const Scene& scene, int samples, std::uint64_t seed) {
+    RenderSettings settings;
+    settings.preset = parse_preset("classical");
+    settings.sampler = SamplerKind::independent;
+    settings.samples = samples;
+    settings.seed = seed;
+    Film film({side, side}, {{0, 0}, {side, side}});
+    render(scene, film, settings);
+    return film.picture();
+}
+
+/// Over repetitions: relMSE, and the mean of the layer `variance`.
+struct Quality {
+    Moments relmse, variance;
+
+    void add(const Picture& picture, const Image& truth) {
+        double mean = 0;
+        for (const Rgb& pixel : truth.pixels) {
+            mean += static_cast<double>(mean_value(pixel)) / static_cast<double>(truth.pixels.size());
+        }
+        const auto told = std::find_if(picture.layers.begin(), picture.layers.end(),
+                                       [](const Layer& layer) { return layer.name == "variance"; });
+        const double values = 3 * static_cast<double>(truth.pixels.size());
+        double errors = 0, variances = 0;
+        for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                const double reference = static_cast<double>(truth.pixels[i][c]);
+                errors += std::pow(static_cast<double>(picture.image.pixels[i][c]) - reference, 2) /
+                          (reference * reference + 0.01 * mean * mean);
+                variances += static_cast<double>(told->values[3 * i + static_cast<std::size_t>(c)]);
+            }
+        }
+        relmse.add(errors / values);
+        variance.add(variances / values);
+    }
+};
+
+/// Whether they are alike to 5 %, at four standard errors (wrongly refused in 6 of 100,000 tests), which must be small
+/// enough to see 5 %.
+void expect_alike(const Moments& merged, const Moments& single) {
+    const double ratio = merged.mean() / single.mean();
+    const double error = ratio * std::hypot(merged.relative_error(), single.relative_error());
+    EXPECT_LT(std::abs(ratio - 1), 4 * error) << ratio << " +- " << error;
+    EXPECT_LT(4 * error, 0.05) << "too few renders to see 5 %";
+}
+
+TEST(MergedRendersSlow, AreAsGoodAsOneOfAsManySamples) {
+    // 300 times four renders of 16 samples against one of 64; the truth has the noise of 64 such renders.
+    constexpr int repetitions = 300;
+    const Scene scene = foggy_floor();
+    const Image truth = picture_of(scene, 64 * 64, 1).image;
+    Quality merged, single;
+    std::uint64_t seed = 2;
+    for (int i = 0; i < repetitions; ++i) {
+        const std::uint64_t first = seed;
+        seed += 5;
+        std::vector<Picture> parts;
+        for (std::uint64_t k = 0; k < 4; ++k) {
+            parts.push_back(picture_of(scene, 16, first + k));
+        }
+        merged.add(merge_pictures(4, [&](std::size_t k) { return parts[k]; }).picture, truth);
+        single.add(picture_of(scene, 64, first + 4), truth);
+    }
+    expect_alike(merged.relmse, single.relmse);
+    expect_alike(merged.variance, single.variance);
+}
+
+}  // namespace
+}  // namespace wend
