@@ -15,7 +15,7 @@ constexpr double many = GuidingChoice::fewest_pixels;
 
 /// Walks that each brought the pixel's value but for an error of this variance.
 WalkTally walks(double count, double variance, double work) {
-    return {count, count, count * variance, count * work};
+    return {count, count, count * variance, count * variance, count * work};
 }
 
 /// Of a scene without fog, taught by classical walks, with every kind tried.
@@ -154,9 +154,9 @@ TEST(GuidingChoice, WhatHasFoundNothingIsNotTakenToBeExact) {
     blind.value = 0;
     const GuidingChoice choice = tried(1, {{blind, blind, walks(1000, 5, 8)}});
     EXPECT_EQ(choice.shares(0, 8)[directions], 1);
-    // What lacks no more than chance would have it keeps its variance.
+    // What lacks no more than a few bright walks may bring keeps its variance.
     WalkTally dim = walks(1000, 1, 1);
-    dim.value = 950;
+    dim.value = 850;
     EXPECT_GT(tried(1, {{dim, walks(1000, 5, 8), walks(1000, 5, 8)}}).shares(0, 8)[classical], 0.8f);
 }
 
@@ -215,7 +215,8 @@ TEST(PixelWalks, ShowTheVarianceByTheirScale) {
     walks.add(1, 6);
     const WalkTally tally = walks.tally();
     EXPECT_EQ(tally.walks, 2);
-    EXPECT_EQ(tally.value, 2);
+    EXPECT_EQ(tally.value, 4);
+    EXPECT_EQ(tally.spread, 2 * 2);
     EXPECT_EQ(tally.square, 2 * 0.5);
     EXPECT_EQ(tally.work, 11);
     EXPECT_EQ(tally.scaled(0.5).walks, 1);

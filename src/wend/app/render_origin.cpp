@@ -103,7 +103,6 @@ RenderOrigin render_origin(const std::string& file, const Picture& picture) {
             metadata.optional("scene_digest"),
             metadata.seeds(),
             metadata.number<std::uint64_t>("spp"),
-            metadata.number<double>("seconds"),
             fmt::format("{}x{}", picture.full_size.x, picture.full_size.y),
             fmt::format("pixels {} to {} by {} to {}", from.x, to.x, from.y, to.y),
             metadata.object("settings")};
@@ -146,7 +145,6 @@ void RenderOrigins::add(const RenderOrigin& next) {
         throw InputError(Place{next.file}, "there are too many samples to count");
     }
     samples_ += next.samples;
-    seconds_ += next.seconds;
     if (!first_) {
         first_ = next;
     }
@@ -167,7 +165,6 @@ std::map<std::string, std::string> RenderOrigins::metadata() const {
                                                    {"wend:settings", json_text(settings)},
                                                    {"wend:seed", std::move(seeds)},
                                                    {"wend:version", WEND_VERSION},
-                                                   {"wend:seconds", fmt::format("{:.3f}", seconds_)},
                                                    {"wend:spp", std::to_string(samples_)}};
     if (first_with_digest_) {
         metadata["wend:scene_digest"] = *first_with_digest_->digest;

@@ -22,7 +22,6 @@ struct RenderOrigin {
     std::optional<std::string> digest;  ///< of the scene's content, where it was kept
     std::vector<std::uint64_t> seeds;   ///< more than one if the picture was merged
     std::uint64_t samples = 0;          ///< per pixel
-    double seconds = 0;
     std::string resolution, crop;  ///< of the picture, as text
     nlohmann::json settings;       ///< an object
 };
@@ -54,7 +53,6 @@ private:
     std::map<std::uint64_t, std::string> file_of_seed_;
     std::vector<std::uint64_t> seeds_;
     std::uint64_t samples_ = 0;
-    double seconds_ = 0;
 };
 
 }  // namespace wend

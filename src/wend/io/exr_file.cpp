@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
+#include <wend/core/parallel.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/image_size.h>
@@ -12,6 +13,7 @@
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
 
@@ -300,13 +302,26 @@ Imath::Box2i data_window(const Picture& picture) {
     return {picture.offset, picture.offset + Vec2i(picture.image.width, picture.image.height) - Vec2i(1)};
 }
 
+/// The library's own threads compress: a picture that is written while a render rests, or has been told to stop, must
+/// not take long.
+void start_threads() {
+    static const bool are_started = [] {
+        Imf::setGlobalThreadCount(hardware_threads());
+        return true;
+    }();
+    static_cast<void>(are_started);
+}
+
 /// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
 void write_frame(const std::filesystem::path& file, const Picture& picture, const Imf::FrameBuffer& frame) {
     const Imath::Box2i window = data_window(picture);
     const Vec2i full_size = picture.full_size == Vec2i(0, 0) ? window.max + Vec2i(1) : picture.full_size;
     try {
+        start_threads();
         Imf::Header header(Imath::Box2i(Vec2i(0, 0), full_size - Vec2i(1)), window);
         header.compression() = Imf::ZIP_COMPRESSION;
+        // Noise hardly gets smaller by trying harder.
+        header.zipCompressionLevel() = 2;
         for (const auto& [name, value] : picture.metadata) {
             header.insert(name, Imf::StringAttribute(value));
         }
