@@ -1,6 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
 #include <wend/app/interrupt.h>
+#include <wend/app/mpi_ranks.h>
 #include <wend/app/session.h>
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -112,19 +114,27 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     nlohmann::json described = session.describe(settings);
     described["passes"] = statistics.passes;
     described["output"] = output.string();
-    return {{"spp", statistics.samples},
-            {"seconds", statistics.seconds},
-            {"training_seconds", statistics.training_seconds},
-            {"paths", statistics.counts.paths},
-            {"segments", statistics.counts.segments},
-            {"guiding", kinds_json(statistics.kinds)},
-            {"field_bytes", statistics.field_bytes},
-            {"rejected_samples", statistics.counts.rejected},
-            {"interrupted", statistics.interrupted},
-            {"settings", std::move(described)}};
+    nlohmann::json told = {{"spp", statistics.samples},
+                           {"seconds", statistics.seconds},
+                           {"training_seconds", statistics.training_seconds},
+                           {"paths", statistics.counts.paths},
+                           {"segments", statistics.counts.segments},
+                           {"guiding", kinds_json(statistics.kinds)},
+                           {"field_bytes", statistics.field_bytes},
+                           {"rejected_samples", statistics.counts.rejected},
+                           {"interrupted", statistics.interrupted},
+                           {"settings", std::move(described)}};
+    if (statistics.ranks > 1) {
+        told["ranks"] = statistics.ranks;
+        told["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
+    }
+    return told;
 }
 
-void render_scene(const RenderOptions& options, const Streams& streams) {
+void render_scene(RenderOptions options, const Streams& streams) {
+    const std::unique_ptr<Ranks> ranks = ranks_of_job();
+    const bool is_first = !ranks || ranks->rank() == 0;
+    options.common.quiet = options.common.quiet || !is_first;
     const Preset preset = parse_preset(options.sampling);
     const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
     const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
@@ -149,6 +159,7 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
         settings.samples = most_samples;
     }
     settings.noise = options.noise;
+    settings.ranks = ranks.get();
     settings.seconds = options.seconds;
     settings.passes = passes;
     RecordSamples records;
@@ -165,6 +176,9 @@ void render_scene(const RenderOptions& options, const Streams& streams) {
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
+    if (!is_first) {
+        return;
+    }
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
     }
