@@ -59,8 +59,9 @@ void WatchOptions::add_to(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--progress-file", progress_file, "write the lines of JSON to this file");
     command
-        .add_option("--write-every", write_every,
-                    "write the picture after the first pass and every so many seconds, and not only at the end")
+        .add_option(
+            "--write-every", write_every,
+            "write the picture after the first pass, or 5 seconds, and every so many seconds, and not only at the end")
         ->check(seconds_problem);
     CLI::Option* file = command.add_option("--checkpoint", checkpoint,
                                            "keep in this file where the render is, so that it can be resumed");
@@ -84,6 +85,8 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
                                 const std::function<void(const RenderStatistics&)>& write_picture) {
     // How soon it is noticed that something is due.
     constexpr double step = 0.25;
+    // For the first picture: of a pass that takes longer there is a part.
+    constexpr double longest_wait = 5;
     Render render(session.scene(), film, settings);
     if (!options.resume.empty()) {
         resume_from(options.resume, render, session, settings);
@@ -111,7 +114,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         if (!goes_on || render.is_stopped()) {
             break;
         }
-        const bool writes_picture = agreed(settings.ranks, pictures.is_due() || (!has_picture && progress.samples > 0));
+        const bool writes_picture =
+            agreed(settings.ranks,
+                   pictures.is_due() || (!has_picture && (progress.samples > 0 || progress.seconds > longest_wait)));
         const bool writes_checkpoint = agreed(settings.ranks, checkpoints.is_due());
         if (writes_picture || writes_checkpoint) {
             render.share();
