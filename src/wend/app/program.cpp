@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <new>
 #include <ostream>
 #include <stdexcept>
 #include <utility>
@@ -74,17 +73,12 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
         }
         require_written(out);
         return 0;
-    } catch (const InputError& e) {
-        err << e.what() << '\n';
-        return 2;
     } catch (const EndedBySignal& signal) {
         return 128 + signal.number;
-    } catch (const std::bad_alloc&) {
-        err << "error: out of memory\n";
     } catch (const std::exception& e) {
-        err << "error: " << e.what() << '\n';
+        err << failure_text(e) << '\n';
+        return dynamic_cast<const InputError*>(&e) ? 2 : 1;
     }
-    return 1;
 }
 
 }  // namespace wend
