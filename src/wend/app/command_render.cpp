@@ -257,7 +257,8 @@ void check_frames(const RenderOptions& options, const std::vector<int>& frames) 
     for (const int frame : frames) {
         RenderOptions one = of_frame(options, frame);
         for (const std::string* name : names_read(one)) {
-            if (!name->empty() && !std::filesystem::exists(*name)) {
+            std::error_code error;
+            if (!name->empty() && !std::filesystem::exists(*name, error)) {
                 throw InputError(Place{*name}, fmt::format("does not exist, and frame {} wants it", frame));
             }
         }
