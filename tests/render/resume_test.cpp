@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <barrier>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <thread>
@@ -124,6 +126,110 @@ TEST_P(Resumed, WalksThatWereDroppedAreWalkedAgain) {
 
 INSTANTIATE_TEST_SUITE_P(Presets, Resumed,
                          testing::Values("classical", "direction", "full", "distance+direction+roulette+splitting"));
+
+/// Ranks that are threads of this process.
+class ThreadRanks : public Ranks {
+public:
+    struct Table {
+        explicit Table(int size) : said(static_cast<std::size_t>(size)), barrier(size) {}
+        std::vector<std::string> said;
+        std::barrier<> barrier;
+    };
+
+    ThreadRanks(Table& table, int rank) : table_(table), rank_(rank) {}
+
+    int rank() const override { return rank_; }
+    int size() const override { return static_cast<int>(table_.said.size()); }
+    std::vector<std::string> gather(const std::string& mine) override {
+        table_.said[static_cast<std::size_t>(rank_)] = mine;
+        table_.barrier.arrive_and_wait();
+        std::vector<std::string> all = table_.said;
+        table_.barrier.arrive_and_wait();
+        return all;
+    }
+
+private:
+    Table& table_;
+    int rank_;
+};
+
+/// What each of so many ranks has in the end; `work` is done by each, with its render and its film.
+template <class Work>
+std::vector<std::string> by_ranks(int count, const Scene& scene, RenderSettings settings, const Work& work) {
+    ThreadRanks::Table table(count);
+    std::vector<std::string> films(static_cast<std::size_t>(count));
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < count; ++rank) {
+        threads.emplace_back([&, rank] {
+            ThreadRanks ranks(table, rank);
+            RenderSettings own = settings;
+            own.ranks = &ranks;
+            Film film = new_film();
+            Render render(scene, film, own);
+            work(render, ranks);
+            films[static_cast<std::size_t>(rank)] = bytes_of(film);
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    return films;
+}
+
+TEST_P(Resumed, AnyNumberOfRanksHasTheSameFilm) {
+    const Scene scene(table_top());
+    const std::string expected = uninterrupted(scene, settings_of(GetParam(), 1));
+    for (const int count : {2, 3, 5}) {
+        const auto films = by_ranks(count, scene, settings_of(GetParam(), 1), [](Render& render, const Ranks&) {
+            while (render.step(0.02)) {
+            }
+        });
+        for (const std::string& film : films) {
+            EXPECT_TRUE(film == expected) << count << " ranks";
+        }
+    }
+}
+
+TEST_P(Resumed, RanksStopTogetherAndAnyNumberGoesOn) {
+    const Scene scene(table_top());
+    const std::string expected = uninterrupted(scene, settings_of(GetParam(), 1));
+    std::string state;
+    std::atomic<bool> stop = false;
+    RenderSettings settings = settings_of(GetParam(), 1);
+    settings.stop = &stop;
+    by_ranks(3, scene, settings, [&](Render& render, const Ranks& ranks) {
+        for (int step = 0; !render.is_stopped() && render.step(0.02); ++step) {
+            if (ranks.rank() == 1 && step == 10) {
+                stop = true;
+            }
+        }
+        if (ranks.rank() == 0) {
+            state = saved(render);
+        }
+    });
+    for (const int count : {1, 2}) {
+        const auto films = by_ranks(count, scene, settings_of(GetParam(), 1), [&](Render& render, const Ranks&) {
+            ArchiveReader bytes(state);
+            render.restore(bytes);
+            while (render.step(0.05)) {
+            }
+        });
+        EXPECT_TRUE(films.front() == expected) << count << " ranks";
+    }
+}
+
+TEST(Ranks, GetSharesOfLikeWork) {
+    const std::vector<std::uint64_t> work = {9, 1, 1, 1, 1, 5, 4, 0, 0};
+    const std::vector<int> shares = shares_of_ranks(work, 2);
+    std::uint64_t load[2] = {0, 0};
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        load[shares[i]] += work[i];
+    }
+    EXPECT_EQ(load[0], 11u);
+    EXPECT_EQ(load[1], 11u);
+    EXPECT_EQ(shares_of_ranks({0, 0, 0}, 3).size(), 3u);
+    EXPECT_EQ(shares_of_ranks({}, 3).size(), 0u);
+}
 
 TEST(Render, ForeignBytesAreRefused) {
     const Scene scene(table_top());

@@ -2,6 +2,7 @@
 #include <wend/app/comparison.h>
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
+#include <wend/app/mpi_ranks.h>
 #include <wend/app/session.h>
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
@@ -14,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -149,20 +151,32 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     nlohmann::json described = session.describe(settings);
     described["passes"] = statistics.passes;
     described["output"] = output.string();
-    return {{"spp", statistics.samples},
-            {"seconds", statistics.seconds},
-            {"training_seconds", statistics.training_seconds},
-            {"paths", statistics.counts.paths},
-            {"segments", statistics.counts.segments},
-            {"guiding", kinds_json(statistics.kinds)},
-            {"field_bytes", statistics.field_bytes},
-            {"rejected_samples", statistics.counts.rejected},
-            {"interrupted", statistics.interrupted},
-            {"settings", std::move(described)}};
+    nlohmann::json told = {{"spp", statistics.samples},
+                           {"seconds", statistics.seconds},
+                           {"training_seconds", statistics.training_seconds},
+                           {"paths", statistics.counts.paths},
+                           {"segments", statistics.counts.segments},
+                           {"guiding", kinds_json(statistics.kinds)},
+                           {"field_bytes", statistics.field_bytes},
+                           {"rejected_samples", statistics.counts.rejected},
+                           {"interrupted", statistics.interrupted},
+                           {"settings", std::move(described)}};
+    if (statistics.ranks > 1) {
+        told["ranks"] = statistics.ranks;
+        told["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
+    }
+    return told;
 }
 
-/// Renders one picture; what was learned comes back. `fields` is what is known before, if not null.
-FieldsPointer render_scene(const RenderOptions& options, const Streams& streams, FieldsPointer fields = nullptr) {
+/// Whether this process is the one that tells and writes.
+bool is_first_of(const Ranks* ranks) {
+    return !ranks || ranks->rank() == 0;
+}
+
+/// Renders one picture; what was learned comes back. `fields` is what is known before, if not null; `ranks` are the
+/// processes that render it together, null for one alone.
+FieldsPointer render_scene(const RenderOptions& options, const Streams& streams, Ranks* ranks,
+                           FieldsPointer fields = nullptr) {
     const RenderPlan plan = plan_of(options);
     check(options, plan.preset);
     check_paths(options, options.output);
@@ -184,6 +198,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
         settings.samples = most_samples;
     }
     settings.noise = options.noise;
+    settings.ranks = ranks;
     settings.seconds = options.seconds;
     settings.passes = plan.passes;
     RecordSamples records;
@@ -200,6 +215,9 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
+    if (!is_first_of(ranks)) {
+        return statistics.fields;
+    }
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
     }
@@ -268,7 +286,7 @@ void check_frames(const RenderOptions& options, const std::vector<int>& frames) 
     paths.check();
 }
 
-void render_frames(RenderOptions options, const Streams& streams) {
+void render_frames(RenderOptions options, const Streams& streams, Ranks* ranks) {
     const std::vector<int> frames = parse_frames(options.frames);
     if (options.output.empty()) {
         // The scenes' own names for their pictures may all be the same.
@@ -276,12 +294,28 @@ void render_frames(RenderOptions options, const Streams& streams) {
     }
     check_frames(options, frames);
     FieldsPointer carried;
-    for_each_frame(frames, streams, [&](int frame) {
-        FieldsPointer learned = render_scene(of_frame(options, frame), streams, carried);
+    const auto render = [&](int frame) {
+        FieldsPointer learned = render_scene(of_frame(options, frame), streams, ranks, carried);
         if (options.carry_field) {
             carried = std::move(learned);
         }
-    });
+    };
+    if (ranks) {
+        // After an error the others do not know which frame is next: it ends all.
+        std::for_each(frames.begin(), frames.end(), render);
+    } else {
+        for_each_frame(frames, streams, render);
+    }
+}
+
+void render(RenderOptions options, const Streams& streams, bool has_frames) {
+    const std::unique_ptr<Ranks> ranks = ranks_of_job();
+    options.common.quiet = options.common.quiet || !is_first_of(ranks.get());
+    if (has_frames) {
+        render_frames(options, streams, ranks.get());
+    } else {
+        render_scene(options, streams, ranks.get());
+    }
 }
 
 }  // namespace
@@ -333,13 +367,7 @@ Action add_render_command(CLI::App& program) {
     options->watch.add_to(command);
     command.get_option("--resume")->excludes(load_field)->excludes(save_records)->excludes(carry_field);
     options->common.add_to(command);
-    return [options, frames](const Streams& streams) {
-        if (frames->count() > 0) {
-            render_frames(*options, streams);
-        } else {
-            render_scene(*options, streams);
-        }
-    };
+    return [options, frames](const Streams& streams) { render(*options, streams, frames->count() > 0); };
 }
 
 }  // namespace wend

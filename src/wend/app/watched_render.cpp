@@ -36,6 +36,11 @@ private:
     Clock::time_point start_;
 };
 
+/// Whether the first rank says so; it alone looks at the clock and writes files.
+bool agreed(Ranks* ranks, bool mine) {
+    return ranks ? ranks->gather(mine ? "1" : "0").front() == "1" : mine;
+}
+
 /// Does what may fail without harm to the render; says so where it does.
 template <class Action>
 void attempt(const Streams& streams, const Action& action) {
@@ -54,8 +59,9 @@ void WatchOptions::add_to(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--progress-file", progress_file, "write the lines of JSON to this file");
     command
-        .add_option("--write-every", write_every,
-                    "write the picture after the first pass and every so many seconds, and not only at the end")
+        .add_option(
+            "--write-every", write_every,
+            "write the picture after the first pass, or 5 seconds, and every so many seconds, and not only at the end")
         ->check(seconds_problem);
     CLI::Option* file = command.add_option("--checkpoint", checkpoint,
                                            "keep in this file where the render is, so that it can be resumed");
@@ -79,44 +85,62 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
                                 const std::function<void(const RenderStatistics&)>& write_picture) {
     // How soon it is noticed that something is due.
     constexpr double step = 0.25;
+    // For the first picture: of a pass that takes longer there is a part.
+    constexpr double longest_wait = 5;
     Render render(session.scene(), film, settings);
     if (!options.resume.empty()) {
         resume_from(options.resume, render, session, settings);
     }
+    const bool is_first = !settings.ranks || settings.ranks->rank() == 0;
     std::optional<ProgressLines> lines;
-    if (!options.progress_file.empty()) {
+    if (!is_first) {
+        // Progress is told once.
+    } else if (!options.progress_file.empty()) {
         lines.emplace(options.progress_file);
     } else if (options.progress == "json") {
         lines.emplace(streams.err);
     }
-    ProgressBar bar(streams.err, !common.quiet && options.progress == "bar",
+    ProgressBar bar(streams.err, is_first && !common.quiet && options.progress == "bar",
                     std::filesystem::path(session.scene_file()).filename().string());
     Regularly pictures(options.write_every), checkpoints(options.checkpoint.empty() ? 0 : options.checkpoint_every);
-    bool has_picture = options.write_every == 0, goes_on = true;
-    const auto is_stopped = [&] { return settings.stop && *settings.stop; };
-    while (goes_on && !is_stopped()) {
+    bool has_picture = options.write_every == 0;
+    for (bool goes_on = true; goes_on;) {
         goes_on = render.step(std::clamp(std::min(pictures.left(), checkpoints.left()), 0.0, step));
         const RenderProgress progress = render.progress();
         bar.update(progress);
         if (lines) {
             lines->update(progress);
         }
-        if (!goes_on || is_stopped()) {
+        if (!goes_on || render.is_stopped()) {
             break;
         }
-        if (pictures.is_due() || (!has_picture && progress.samples > 0)) {
-            attempt(streams, [&] { write_picture(render.statistics()); });
+        const bool writes_picture =
+            agreed(settings.ranks,
+                   pictures.is_due() || (!has_picture && (progress.samples > 0 || progress.seconds > longest_wait)));
+        const bool writes_checkpoint = agreed(settings.ranks, checkpoints.is_due());
+        if (writes_picture || writes_checkpoint) {
+            render.share();
+        }
+        if (writes_picture) {
+            if (is_first) {
+                attempt(streams, [&] { write_picture(render.statistics()); });
+            }
             has_picture = true;
             pictures.restart();
         }
-        if (checkpoints.is_due()) {
-            attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+        if (writes_checkpoint) {
+            if (is_first) {
+                attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+            }
             checkpoints.restart();
         }
     }
     const RenderStatistics statistics = render.result();
     if (lines) {
-        lines->finish(render.progress(), !is_stopped());
+        lines->finish(render.progress(), !render.is_stopped());
+    }
+    if (!is_first) {
+        return statistics;
     }
     write_picture(statistics);
     // After the picture: it takes longer, and who stops a render may not wait for ever.

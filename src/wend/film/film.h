@@ -77,6 +77,14 @@ public:
         bytes.raw(film.pixels_.data(), film.pixels_.size());
     }
 
+    /// The pixels of a part of the crop window alone.
+    template <class Archive, class Self>
+    static void archive_part(Archive& bytes, Self& film, const PixelRect& part) {
+        for (int y = part.min.y; y < part.max.y; ++y) {
+            bytes.raw(&film.pixels_[film.index_of({part.min.x, y})], static_cast<std::size_t>(part.width()));
+        }
+    }
+
     static constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
 
 private:
@@ -120,10 +128,11 @@ private:
     std::array<Comparison, 2> compare_stages(const Halves& weights) const;
     Halves stage_weights() const;
 
-    Pixel& at(const Vec2i& p) {
-        return pixels_[static_cast<std::size_t>(p.y - crop_.min.y) * static_cast<std::size_t>(crop_.width()) +
-                       static_cast<std::size_t>(p.x - crop_.min.x)];
+    std::size_t index_of(const Vec2i& p) const {
+        return static_cast<std::size_t>(p.y - crop_.min.y) * static_cast<std::size_t>(crop_.width()) +
+               static_cast<std::size_t>(p.x - crop_.min.x);
     }
+    Pixel& at(const Vec2i& p) { return pixels_[index_of(p)]; }
 
     Vec2i full_size_;
     PixelRect crop_;

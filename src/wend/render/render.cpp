@@ -64,27 +64,62 @@ public:
 
     bool step(double seconds) {
         if (!is_within_pass_) {
-            const int count = next_count();
+            const int count = agreed(next_count());
             if (count <= 0) {
                 return false;
             }
             begin_pass(count);
         }
         const Rest rest(std::min(time_after(Clock::now(), seconds), end_of_time()), settings_.stop);
-        while (walk(rest)) {
+        for (bool is_over = false; all_have_walked(rest, is_over);) {
+            if (kind_ + 1 == choice_.kinds().size()) {
+                share();
+                end_pass();
+                return agreed(next_count()) > 0;
+            }
+            if (next_kind_begins_stage()) {
+                share();
+                film_.begin_stage();
+            }
             for (Tile& tile : tiles_) {
                 tile.pixels_done = 0;
             }
-            if (++kind_ == choice_.kinds().size()) {
-                end_pass();
-                return next_count() > 0;
+            ++kind_;
+            if (is_over) {
+                share();
+                break;
             }
-            begin_kind();
         }
-        return Clock::now() < end_of_time();
+        return !is_time_over_;
     }
 
     bool is_within_pass() const { return is_within_pass_; }
+    bool is_stopped() const { return is_stopped_; }
+
+    void share() {
+        if (!settings_.ranks || !is_within_pass_) {
+            return;
+        }
+        ArchiveWriter mine;
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            if (owns(i)) {
+                archive_tile(mine, *this, i);
+            }
+        }
+        const std::vector<std::string> all = gather(mine.take());
+        for (std::size_t rank = 0; rank < all.size(); ++rank) {
+            if (static_cast<int>(rank) == settings_.ranks->rank()) {
+                continue;
+            }
+            ArchiveReader bytes(all[rank]);
+            for (std::size_t i = 0; i < tiles_.size(); ++i) {
+                if (owners_[i] == static_cast<int>(rank)) {
+                    archive_tile(bytes, *this, i);
+                }
+            }
+            bytes.require(bytes.empty());
+        }
+    }
 
     RenderProgress progress() const {
         RenderProgress progress;
@@ -118,6 +153,7 @@ public:
             statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
         }
         statistics.interrupted = is_within_pass_ || next_count() > 0;
+        statistics.ranks = settings_.ranks ? settings_.ranks->size() : 1;
         return statistics;
     }
 
@@ -140,6 +176,7 @@ public:
         bytes(seconds_before_);
         bytes.require(bytes.empty() && seconds_before_ >= 0);
         start_ = Clock::now();
+        share_out();
     }
 
 private:
@@ -155,12 +192,80 @@ private:
               work.mark_, work.last_mark_);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
-            bytes(work.tiles_[i]);
-            work.learners_.archive_records(bytes, work.records_[i]);
+            archive_work(bytes, work, i);
         }
         const std::size_t estimates = work.plan_.estimates.size();
         bytes.require(work.kind_ <= work.choice_.kinds().size() && work.plan_.count >= 0 &&
                       (estimates == 0 || estimates == static_cast<std::size_t>(work.context_.pixels)));
+    }
+
+    /// What was done in a tile, but for the film.
+    template <class Archive, class Self>
+    static void archive_work(Archive& bytes, Self& work, std::size_t tile) {
+        bytes(work.tiles_[tile]);
+        work.learners_.archive_records(bytes, work.records_[tile]);
+    }
+    template <class Archive, class Self>
+    static void archive_tile(Archive& bytes, Self& work, std::size_t tile) {
+        archive_work(bytes, work, tile);
+        Film::archive_part(bytes, work.film_, work.tiles_[tile].pixels);
+    }
+
+    bool owns(std::size_t tile) const { return !settings_.ranks || owners_[tile] == settings_.ranks->rank(); }
+    /// Who walks which tile in the pass at hand.
+    void share_out() {
+        if (settings_.ranks) {
+            std::vector<std::uint64_t> work;
+            for (const Tile& tile : tiles_) {
+                work.push_back(tile.counts.segments);
+            }
+            owners_ = shares_of_ranks(work, settings_.ranks->size());
+        }
+    }
+    std::vector<std::string> gather(const std::string& mine) {
+        statistics_.bytes_sent += mine.size();
+        return settings_.ranks->gather(mine);
+    }
+    /// What the first rank says.
+    template <class T>
+    T agreed(T mine) {
+        if (settings_.ranks) {
+            ArchiveWriter bytes;
+            bytes(mine);
+            const std::string said = gather(bytes.take()).front();
+            ArchiveReader reader(said);
+            reader(mine);
+        }
+        return mine;
+    }
+    /// Goes on with walks of the kind at hand. Whether all ranks have walked theirs; where one is stopped, or time is
+    /// over, all know what each has done.
+    bool all_have_walked(const Rest& rest, bool& is_over) {
+        struct Said {
+            bool has_walked, is_stopped, is_time_over;
+        };
+        std::vector<Said> all = {{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()}};
+        if (settings_.ranks) {
+            ArchiveWriter bytes;
+            bytes(all.front());
+            const std::vector<std::string> said = gather(bytes.take());
+            all.resize(said.size());
+            for (std::size_t rank = 0; rank < said.size(); ++rank) {
+                ArchiveReader reader(said[rank]);
+                reader(all[rank]);
+            }
+        }
+        const auto any = [&](bool Said::*what) {
+            return std::any_of(all.begin(), all.end(), [what](const Said& said) { return said.*what; });
+        };
+        const bool have_all = std::all_of(all.begin(), all.end(), [](const Said& said) { return said.has_walked; });
+        is_stopped_ = any(&Said::is_stopped);
+        is_time_over_ = any(&Said::is_time_over);
+        is_over = is_stopped_ || is_time_over_;
+        if (is_over && !have_all) {
+            share();
+        }
+        return have_all;
     }
 
     double seconds() const { return seconds_before_ + seconds_since(start_); }
@@ -176,11 +281,15 @@ private:
     }
 
     double fraction() const {
-        std::uint64_t paths = 0;
-        for (const Tile& tile : tiles_) {
-            paths += tile.counts.paths;
+        // Of other ranks it is not known how far they are in the pass at hand.
+        double paths = 0, pixels = 0;
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            if (owns(i)) {
+                paths += static_cast<double>(tiles_[i].counts.paths);
+                pixels += tiles_[i].pixel_count();
+            }
         }
-        const double samples = static_cast<double>(paths) / context_.pixels;
+        const double samples = pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
         const double by_noise = settings_.noise > 0 && noise_ > 0 ? std::pow(settings_.noise / noise_, 2) : 0.0;
         return std::min(1.0, std::max(schedule_.fraction(samples, seconds()), by_noise));
     }
@@ -205,20 +314,22 @@ private:
             tiles_[i].shares = choice_.shares(i, count);
             tiles_[i].tallies = {};
         }
+        share_out();
         kind_ = 0;
         is_within_pass_ = true;
-        begin_kind();
     }
 
-    void begin_kind() {
-        // By one sample a stage would not know its variance.
-        if (kind_ > 0 && choice_.is_trial() && plan_.count >= 2 * static_cast<int>(choice_.kinds().size())) {
-            film_.begin_stage();
-        }
+    /// By one sample a stage would not know its variance.
+    bool next_kind_begins_stage() const {
+        return choice_.is_trial() && plan_.count >= 2 * static_cast<int>(choice_.kinds().size());
     }
 
     void end_pass() {
         is_within_pass_ = false;
+        kind_ = 0;
+        for (Tile& tile : tiles_) {
+            tile.pixels_done = 0;
+        }
         statistics_.samples += plan_.count;
         statistics_.passes.push_back(plan_.count);
         const Clock::time_point start = Clock::now();
@@ -274,7 +385,11 @@ private:
         const Preset& preset = choice_.kinds()[kind_].preset;
         const auto run_with = [&](const auto& decisions) {
             const Pass one(scene_, film_, settings_, decisions, choice_, kind_, learners_, plan_, rest);
-            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) { one.run(tiles_[i], records_[i]); });
+            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) {
+                if (owns(i)) {
+                    one.run(tiles_[i], records_[i]);
+                }
+            });
         };
         if (preset.is_classical()) {
             const bool ends_early = settings_.preset.is_classical();
@@ -282,8 +397,12 @@ private:
         } else {
             walk_guided(preset, run_with);
         }
-        return std::all_of(tiles_.begin(), tiles_.end(),
-                           [](const Tile& tile) { return tile.pixels_done == tile.pixel_count(); });
+        for (std::size_t i = 0; i < tiles_.size(); ++i) {
+            if (owns(i) && tiles_[i].pixels_done < tiles_[i].pixel_count()) {
+                return false;
+            }
+        }
+        return true;
     }
 
     template <class Run>
@@ -321,6 +440,8 @@ private:
     Learners learners_;
     GuidingChoice choice_;
 
+    std::vector<int> owners_;  ///< by tile, in the pass at hand: ranks; none where there is one
+    bool is_stopped_ = false, is_time_over_ = false;
     bool is_within_pass_ = false;
     PassPlan plan_;                ///< of the pass at hand
     std::size_t kind_ = 0;         ///< of the walks at hand
@@ -343,6 +464,14 @@ bool Render::step(double seconds) {
 
 bool Render::is_within_pass() const {
     return work_->is_within_pass();
+}
+
+bool Render::is_stopped() const {
+    return work_->is_stopped();
+}
+
+void Render::share() {
+    work_->share();
 }
 
 RenderProgress Render::progress() const {
@@ -369,7 +498,7 @@ RenderStatistics render(const Scene& scene, Film& film, const RenderSettings& se
                         const std::function<bool(const RenderProgress&)>& keep_going) {
     Render render(scene, film, settings);
     for (bool goes_on = true; goes_on;) {
-        goes_on = render.step() && !(settings.stop && *settings.stop);
+        goes_on = render.step() && !render.is_stopped();
         if (!render.is_within_pass() && keep_going && !keep_going(render.progress())) {
             break;
         }

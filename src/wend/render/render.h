@@ -7,6 +7,7 @@
 #include <wend/guide/fit.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/preset.h>
+#include <wend/render/ranks.h>
 #include <wend/sampling/sampler.h>
 #include <wend/transport/path_tracer.h>
 #include <wend/transport/subsurface_guides.h>
@@ -52,6 +53,9 @@ struct RenderSettings {
     float exposure = 1;  ///< multiplies all radiances
     /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;
+    /// Not null: this is one of several processes that render the same picture together, and all of them get it. They
+    /// make the same calls of Render, in the same order.
+    Ranks* ranks = nullptr;
 };
 
 /// How far a render is.
@@ -81,6 +85,8 @@ struct RenderStatistics {
     std::vector<int> passes;  ///< samples per pixel of each pass
     std::vector<WalkKindStatistics> kinds;
     bool interrupted = false;
+    int ranks = 1;
+    std::uint64_t bytes_sent = 0;                 ///< by this rank, to others
     std::shared_ptr<const guide::Fields> fields;  ///< what was learned; null if nothing was guided
 };
 
@@ -102,6 +108,11 @@ public:
     bool step(double seconds = endless);
     /// Whether a pass has been begun and not ended.
     bool is_within_pass() const;
+    /// Whether the last step found that RenderSettings::stop is true, in any rank.
+    bool is_stopped() const;
+    /// Tells all ranks what each has done in the pass at hand, so that film and state are whole in each; before save(),
+    /// or where the film is looked at in between.
+    void share();
 
     RenderProgress progress() const;
     /// So far; without fields.

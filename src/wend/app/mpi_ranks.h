@@ -1,0 +1,15 @@
+// The processes that mpirun has started together.
+#pragma once
+
+#include <wend/render/ranks.h>
+
+#include <memory>
+
+namespace wend {
+
+/// This process and those started beside it to render one picture; null where it was started alone. There may be one at
+/// a time, and one in the life of a process. Throws InputError where this program was built without MPI: each process
+/// would render the whole picture, and all would write the same file.
+std::unique_ptr<Ranks> ranks_of_job();
+
+}  // namespace wend
