@@ -22,8 +22,8 @@ struct RenderOrigin {
     std::optional<std::string> digest;  ///< of the scene's content, where it was kept
     std::vector<std::uint64_t> seeds;   ///< more than one if the picture was merged
     std::uint64_t samples = 0;          ///< per pixel
-    std::string resolution, crop;  ///< of the picture, as text
-    nlohmann::json settings;       ///< an object
+    std::string resolution, crop;       ///< of the picture, as text
+    nlohmann::json settings;            ///< an object
 };
 
 /// Reads the metadata that `wend render` writes. Throws InputError naming the file where they are missing or damaged.
