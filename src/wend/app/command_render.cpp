@@ -163,6 +163,7 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
                            {"settings", std::move(described)}};
     if (statistics.ranks > 1) {
         told["ranks"] = statistics.ranks;
+        told["waiting_seconds"] = statistics.waiting_seconds;
         told["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
     }
     return told;

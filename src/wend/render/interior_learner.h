@@ -71,6 +71,7 @@ public:
     template <class Archive, class OfTile>
     void archive_records(Archive& bytes, OfTile& records) const {
         bytes(records.moments);
+        guides_.check(bytes, records.moments);
     }
 
 private:

@@ -195,7 +195,8 @@ private:
             archive_work(bytes, work, i);
         }
         const std::size_t estimates = work.plan_.estimates.size();
-        bytes.require(work.kind_ <= work.choice_.kinds().size() && work.plan_.count >= 0 &&
+        bytes.require(work.kind_ < work.choice_.kinds().size() && work.plan_.count >= 0 && work.plan_.first >= 0 &&
+                      work.statistics_.samples >= 0 &&
                       (estimates == 0 || estimates == static_cast<std::size_t>(work.context_.pixels)));
     }
 
@@ -223,8 +224,11 @@ private:
         }
     }
     std::vector<std::string> gather(const std::string& mine) {
+        const Clock::time_point start = Clock::now();
+        std::vector<std::string> all = settings_.ranks->gather(mine);
         statistics_.bytes_sent += mine.size();
-        return settings_.ranks->gather(mine);
+        statistics_.waiting_seconds += seconds_since(start);
+        return all;
     }
     /// What the first rank says.
     template <class T>

@@ -86,6 +86,7 @@ struct RenderStatistics {
     std::vector<WalkKindStatistics> kinds;
     bool interrupted = false;
     int ranks = 1;
+    double waiting_seconds = 0;                   ///< of this rank for others, messages included
     std::uint64_t bytes_sent = 0;                 ///< by this rank, to others
     std::shared_ptr<const guide::Fields> fields;  ///< what was learned; null if nothing was guided
 };

@@ -20,6 +20,7 @@ public:
     TechniqueMixes(const Box3& box, float defensive_fraction);
 
     int cell_at(const Vec3& entry) const;
+    int cells() const { return static_cast<int>(plans_.size()); }
     const TechniqueMix& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
     /// The interior walk with what it brought over what is expected in its cell, as errors of a picture count relative
     /// to it, but no more than SecondMoments::most_expected. What moments are to be made of.
@@ -42,6 +43,13 @@ public:
               mixes.connects_through_);
         bytes.require(mixes.plans_.size() == cells && mixes.brought_.size() == cells &&
                       (mixes.expected_.empty() || mixes.expected_.size() == cells));
+        for (const TechniqueMix& plan : mixes.plans_) {
+            // Each is a ray, or several.
+            constexpr int most_connections = 64;
+            for (const NextEventSettings& next : {plan.guided, plan.unguided}) {
+                bytes.require(next.at_surfaces >= 0 && next.at_surfaces <= most_connections);
+            }
+        }
     }
 
 private:

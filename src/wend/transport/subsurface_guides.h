@@ -52,6 +52,16 @@ public:
         }
     }
 
+    /// Throws unless moments can be of interior walks in these media.
+    template <class Archive>
+    void check(Archive& bytes, const SecondMoments& moments) const {
+        for (std::size_t id = 0; id < media_.size(); ++id) {
+            for (const auto& [cell, sums] : moments.of(static_cast<int>(id))) {
+                bytes.require(media_[id] && cell >= 0 && cell < media_[id]->plans.cells());
+            }
+        }
+    }
+
 private:
     struct Dense {
         InteriorGuide guide;

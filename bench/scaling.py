@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""How a picture by several processes scales: measured on this machine, and worked out for clusters.
+
+Measures one render by 1 and 2 threads and by 1, 2 and 4 ranks of one thread each, and fits the model of docs/scaling.md
+to those of 1 and 2 ranks. What it says of 4 ranks on two cores is held against the measurement. Then tiles of a large
+picture are shared out among up to 4,096 ranks as the renderer does, by the work that they were in one render, and loaded
+by the work that they are in another: so imbalance is counted, not assumed. Messages are as large as they are there.
+
+Rows go to bench/results/scaling.json, tables into docs/scaling.md.
+"""
+
+import argparse
+import heapq
+import json
+import math
+import os
+import statistics
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SCENES = ["fog-door", "cloud"]
+TILE = 16
+# Of a pixel of the film, and of a record of a vertex, as ranks tell them to each other.
+BYTES_OF_PIXEL, BYTES_OF_RECORD, MOST_RECORDS = 168, 100, 2e6
+CLUSTERS = {"100 Gb/s, 2 µs": (2e-6, 12.5e9), "10 Gb/s, 20 µs": (20e-6, 1.25e9)}
+
+
+def render(wend, scene, ranks, threads, options, folder):
+    told = Path(folder) / "told.json"
+    command = [str(wend), "render", str(ROOT / "scenes" / f"{scene}.pbrt"), "--threads", str(threads), "--quiet",
+               "--json", str(told), "-o", str(Path(folder) / "picture.exr"), *map(str, options)]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                       OMPI_MCA_mpi_yield_when_idle="1")
+    subprocess.run(command, check=True, env=environment)
+    return json.loads(told.read_text())
+
+
+def measure(wend, scene, repetitions, folder):
+    """Medians of each way to use the machine, which take turns."""
+    ways = [(1, 1), (1, 2), (2, 1), (4, 1)]
+    told = {way: [] for way in ways}
+    for _ in range(repetitions):
+        for ranks, threads in ways:
+            told[ranks, threads].append(
+                render(wend, scene, ranks, threads, ["--resolution", "160x90", "--spp", 31, "--sampling",
+                                                     "direction+roulette+splitting"], folder))
+    return [{"scene": scene, "ranks": ranks, "threads": threads,
+             "seconds": statistics.median(t["seconds"] for t in told[ranks, threads]),
+             "training": statistics.median(t["training_seconds"] for t in told[ranks, threads]),
+             "passes": len(told[ranks, threads][0]["settings"]["passes"]),
+             "bytes_per_pass": told[ranks, threads][0].get("bytes_per_pass", 0)} for ranks, threads in ways]
+
+
+def predicted(rows, ranks, cores):
+    """Seconds by the model, whose serial part is fitted to the run of two ranks."""
+    one, two = (next(r for r in rows if r["ranks"] == n and r["threads"] == 1) for n in (1, 2))
+    # one = walks + serial; two = walks / 2 + serial: what every rank does for itself, training above all.
+    serial = 2 * two["seconds"] - one["seconds"]
+    walks = one["seconds"] - serial
+    # More ranks than cores take turns, and what each does for itself is done so many times.
+    return walks / min(ranks, cores) + serial * max(1, ranks / cores)
+
+
+def tile_work(wend, scene, seed, folder):
+    """Segments of each tile of a large picture, from its layers."""
+    import numpy
+    import OpenEXR
+    render(wend, scene, 1, 0, ["--resolution", "1920x1080", "--spp", 4, "--seed", seed, "--sampling", "classical"],
+           folder)
+    channels = OpenEXR.File(str(Path(folder) / "picture.exr")).channels()
+    segments = numpy.asarray(channels["segments.N"].pixels, float)
+    height, width = segments.shape
+    rows = [segments[y:y + TILE] for y in range(0, height, TILE)]
+    return [float(row[:, x:x + TILE].sum()) for row in rows for x in range(0, width, TILE)]
+
+
+def imbalance(before, now, ranks):
+    """The largest load over the mean, where tiles are shared out by their work before (shares_of_ranks)."""
+    loads = [(0.0, rank) for rank in range(ranks)]
+    heapq.heapify(loads)
+    actual = [0.0] * ranks
+    for tile in sorted(range(len(before)), key=lambda t: -before[t]):
+        load, rank = heapq.heappop(loads)
+        actual[rank] += now[tile]
+        heapq.heappush(loads, (load + before[tile] + 1, rank))
+    return max(actual) * ranks / sum(actual)
+
+
+def simulate(scene, before, now, segments_per_second, seconds_to_fit, cores_of_rank=16):
+    """Seconds of a pass of 32 samples of a large picture while fields learn."""
+    pixels, samples = 1920 * 1080, 32
+    work = sum(now) * samples / 4 / segments_per_second / cores_of_rank
+    message = pixels * BYTES_OF_PIXEL + MOST_RECORDS * BYTES_OF_RECORD
+    for ranks in (1, 4, 16, 64, 256, 1024, 4096):
+        balance = imbalance(before, now, ranks)
+        row = {"scene": scene, "simulated_ranks": ranks, "imbalance": balance, "walks": work * balance / ranks,
+               "fit": seconds_to_fit}
+        for name, (latency, bandwidth) in CLUSTERS.items():
+            # One broadcast of each rank's part, pipelined along a tree.
+            row[f"messages, {name}"] = 0 if ranks == 1 else ranks * latency * math.log2(ranks) + message / bandwidth
+        yield row
+
+
+def tables(rows):
+    lines = ["| scene | ranks × threads | seconds | over one | model |", "|---|---|---|---|---|"]
+    for scene in SCENES:
+        measured = [r for r in rows if r["scene"] == scene and "ranks" in r]
+        one = measured[0]["seconds"]
+        for row in measured:
+            model = f"{predicted(measured, row['ranks'], 2):.2f}" if row["threads"] == 1 else ""
+            lines.append(f"| `{scene}` | {row['ranks']} × {row['threads']} | {row['seconds']:.2f} | "
+                         f"{one / row['seconds']:.2f} | {model} |")
+    lines += ["", "| scene | ranks | imbalance | walks, s | fit, s | " +
+              " | ".join(f"messages at {name}, s" for name in CLUSTERS) + " | efficiency |",
+              "|---|---|---|---|---|" + "---|" * (len(CLUSTERS) + 1)]
+    for scene in SCENES:
+        simulated = [r for r in rows if r["scene"] == scene and "simulated_ranks" in r]
+        for row in simulated:
+            messages = [row[f"messages, {name}"] for name in CLUSTERS]
+            whole = row["walks"] + row["fit"] + messages[0]
+            ideal = (simulated[0]["walks"] + simulated[0]["fit"]) / row["simulated_ranks"]
+            lines.append(f"| `{scene}` | {row['simulated_ranks']} | {row['imbalance']:.2f} | {row['walks']:.3f} | "
+                         f"{row['fit']:.2f} | " + " | ".join(f"{m:.3f}" for m in messages) + f" | {ideal / whole:.2f} |")
+    return "\n".join(lines)
+
+
+def write_page(text, commit):
+    page = ROOT / "docs" / "scaling.md"
+    begin, end = "<!-- scaling -->", "<!-- /scaling -->"
+    content = page.read_text()
+    head, rest = content.split(begin)
+    page.write_text(head + begin + "\n" + text + f"\n\n*Commit `{commit}`.*\n" + end + rest.split(end)[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--wend", type=Path, default=ROOT / "build/release/bin/wend")
+    parser.add_argument("--repetitions", type=int, default=3)
+    arguments = parser.parse_args()
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], check=True, capture_output=True,
+                            text=True).stdout.strip()
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in SCENES:
+            measured = measure(arguments.wend, scene, arguments.repetitions, folder)
+            rows += measured
+            before, now = (tile_work(arguments.wend, scene, seed, folder) for seed in (1, 2))
+            told = render(arguments.wend, scene, 1, 1, ["--resolution", "320x180", "--spp", 15, "--sampling", "classical"],
+                          folder)
+            # Two million records a pass, by as many threads as a rank has.
+            fit = measured[0]["training"] / measured[0]["passes"] / 4
+            rows += simulate(scene, before, now, told["segments"] / told["seconds"], fit)
+    (ROOT / "bench/results/scaling.json").write_text(json.dumps({"commit": commit, "rows": rows}, indent=1) + "\n")
+    write_page(tables(rows), commit)
+    print(tables(rows))
+
+
+if __name__ == "__main__":
+    main()
