@@ -9,7 +9,7 @@
 namespace wend {
 namespace {
 
-class MpiRender : public testing::Test {
+class SlowMpiRender : public testing::Test {
 protected:
     void SetUp() override {
         if (std::system("mpirun --version > /dev/null 2>&1") != 0) {
@@ -63,7 +63,7 @@ AttributeEnd
 };
 
 // Walks inside a dense medium, a grid, and a caustic of a ball of glass.
-TEST_F(MpiRender, IsTheSameFileForAnyNumberOfRanks) {
+TEST_F(SlowMpiRender, IsTheSameFileForAnyNumberOfRanks) {
     ASSERT_EQ(test::run_wend(
                   {"render", scene_, "--resolution", "48x36", "--quiet", "--spp", "40", "-o", folder_.file("one.exr")})
                   .status,
@@ -77,7 +77,7 @@ TEST_F(MpiRender, IsTheSameFileForAnyNumberOfRanks) {
     }
 }
 
-TEST_F(MpiRender, FramesAreTheSameFilesToo) {
+TEST_F(SlowMpiRender, FramesAreTheSameFilesToo) {
     for (const char* frame : {"film.1.pbrt", "film.2.pbrt"}) {
         std::filesystem::copy_file(scene_, folder_.file(frame));
     }
@@ -106,7 +106,7 @@ TEST_F(MpiRender, FramesAreTheSameFilesToo) {
     }
 }
 
-TEST_F(MpiRender, ALostRankEndsTheJobAndAnyNumberResumes) {
+TEST_F(SlowMpiRender, ALostRankEndsTheJobAndAnyNumberResumes) {
     ASSERT_EQ(test::run_wend(
                   {"render", scene_, "--resolution", "48x36", "--quiet", "--spp", "80", "-o", folder_.file("one.exr")})
                   .status,

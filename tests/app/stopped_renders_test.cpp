@@ -18,9 +18,9 @@ namespace {
 using nlohmann::json;
 using test::run_wend;
 
-class StoppedRender : public testing::Test {
+class SlowStoppedRender : public testing::Test {
 protected:
-    StoppedRender() : scene_(folder_.write("room.pbrt", test::small_scene())) {}
+    SlowStoppedRender() : scene_(folder_.write("room.pbrt", test::small_scene())) {}
 
     std::vector<std::string> arguments(const std::string& picture, int samples,
                                        const std::vector<std::string>& more = {}) const {
@@ -44,7 +44,7 @@ protected:
 };
 
 // 20 processes that live for 50 to 300 ms, and one that ends what they began.
-TEST_F(StoppedRender, KilledAgainAndAgainItIsTheSameFile) {
+TEST_F(SlowStoppedRender, KilledAgainAndAgainItIsTheSameFile) {
     constexpr int samples = 400, kills = 20;
     ASSERT_EQ(run_wend(arguments("whole.exr", samples)).status, 0);
     Pcg32 random(3);
@@ -72,7 +72,7 @@ TEST_F(StoppedRender, KilledAgainAndAgainItIsTheSameFile) {
     EXPECT_TRUE(bytes("room.exr") == bytes("whole.exr")) << "killed " << killed << " times";
 }
 
-TEST_F(StoppedRender, StoppedBySignalItGoesOnWhereItWas) {
+TEST_F(SlowStoppedRender, StoppedBySignalItGoesOnWhereItWas) {
     ASSERT_EQ(run_wend(arguments("whole.exr", 150)).status, 0);
     const std::vector<std::string> kept = {"--checkpoint", folder_.file("room.checkpoint"), "--checkpoint-every",
                                            "1000"};
@@ -94,7 +94,7 @@ TEST_F(StoppedRender, StoppedBySignalItGoesOnWhereItWas) {
     EXPECT_EQ(read_picture(folder_.file("more.exr")).metadata.at("wend:spp"), "181");
 }
 
-TEST_F(StoppedRender, AFullDiskKeepsTheLastGoodCheckpoint) {
+TEST_F(SlowStoppedRender, AFullDiskKeepsTheLastGoodCheckpoint) {
     const std::vector<std::string> kept = {"--checkpoint",       folder_.file("room.checkpoint"),
                                            "--checkpoint-every", "0.05",
                                            "--resume",           folder_.file("room.checkpoint")};
@@ -125,7 +125,7 @@ TEST_F(StoppedRender, AFullDiskKeepsTheLastGoodCheckpoint) {
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"room.checkpoint", "room.exr", "room.pbrt", "whole.exr"}));
 }
 
-TEST_F(StoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
+TEST_F(SlowStoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
     const std::string file = folder_.file("room.checkpoint");
     ASSERT_EQ(run_wend(arguments("room.exr", 9, {"--checkpoint", file, "--seed", "3"})).status, 0);
     const auto refused = [&](std::vector<std::string> more, const std::string& what) {
@@ -161,7 +161,7 @@ TEST_F(StoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
     }
 }
 
-TEST_F(StoppedRender, ProgressForProgramsIsALineOfJsonEach) {
+TEST_F(SlowStoppedRender, ProgressForProgramsIsALineOfJsonEach) {
     const std::string file = folder_.file("progress.jsonl");
     for (const bool to_file : {false, true}) {
         const auto result = run_wend(arguments("room.exr", 40,
@@ -186,7 +186,7 @@ TEST_F(StoppedRender, ProgressForProgramsIsALineOfJsonEach) {
     }
 }
 
-TEST_F(StoppedRender, EndsAtTheNoiseThatIsAskedFor) {
+TEST_F(SlowStoppedRender, EndsAtTheNoiseThatIsAskedFor) {
     const auto result = run_wend({"render", scene_, "-o", folder_.file("room.exr"), "--resolution", "48x36", "--quiet",
                                   "--noise", "0.1", "--progress", "json", "--json", "-"});
     ASSERT_EQ(result.status, 0) << result.err;
