@@ -25,4 +25,22 @@ if(WEND_BUILD_RENDERER)
   install(TARGETS wend RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   # What `wend demo` renders; it looks for them beside the installed program.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/wend COMPONENT program)
+
+  # The program itself writes its completions and its manual page, where this machine can run it.
+  if(NOT CMAKE_CROSSCOMPILING)
+    set(texts ${PROJECT_BINARY_DIR}/install-texts)
+    install(CODE "
+      file(MAKE_DIRECTORY \"${texts}\")
+      function(wend_text file)
+        execute_process(COMMAND \"$<TARGET_FILE:wend>\" \${ARGN} OUTPUT_FILE \"${texts}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
+      endfunction()
+      wend_text(wend completion bash)
+      wend_text(_wend completion zsh)
+      wend_text(wend.fish completion fish)
+      wend_text(wend.1 man-page)" COMPONENT program)
+    install(FILES ${texts}/wend DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+    install(FILES ${texts}/_wend DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+    install(FILES ${texts}/wend.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+    install(FILES ${texts}/wend.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  endif()
 endif()

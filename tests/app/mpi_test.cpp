@@ -77,6 +77,35 @@ TEST_F(SlowMpiRender, IsTheSameFileForAnyNumberOfRanks) {
     }
 }
 
+TEST_F(SlowMpiRender, FramesAreTheSameFilesToo) {
+    for (const char* frame : {"film.1.pbrt", "film.2.pbrt"}) {
+        std::filesystem::copy_file(scene_, folder_.file(frame));
+    }
+    const std::vector<std::string> film = {"render",
+                                           folder_.file("film.#.pbrt"),
+                                           "--frames",
+                                           "1-2",
+                                           "--carry-field",
+                                           "--spp",
+                                           "9",
+                                           "--sampling",
+                                           "direction",
+                                           "--quiet",
+                                           "-o"};
+    std::string arguments;
+    for (const std::string& argument : film) {
+        arguments += "'" + argument + "' ";
+    }
+    std::vector<std::string> alone = film;
+    alone.push_back(folder_.file("one.#.exr"));
+    ASSERT_EQ(test::run_wend(alone).status, 0);
+    ASSERT_EQ(run(2, arguments + "'" + folder_.file("all.#.exr") + "' --threads 1", "told.txt"), 0)
+        << bytes("errors.txt");
+    for (const char* end : {".1.exr", ".2.exr"}) {
+        EXPECT_TRUE(bytes(std::string("all") + end) == bytes(std::string("one") + end)) << end;
+    }
+}
+
 TEST_F(SlowMpiRender, ALostRankEndsTheJobAndAnyNumberResumes) {
     ASSERT_EQ(test::run_wend(
                   {"render", scene_, "--resolution", "48x36", "--quiet", "--spp", "80", "-o", folder_.file("one.exr")})

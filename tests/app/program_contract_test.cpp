@@ -55,8 +55,11 @@ TEST_F(Program, SaysHowItIsUsed) {
             EXPECT_TRUE(contains(help.out, option)) << command << ' ' << option;
         }
     }
-    for (const char* option :
-         {"--output", "--spp", "--time", "--resolution", "--sampling", "--crop", "--passes", "--max-depth"}) {
+    for (const char* option : {"--config", "--version", "completion"}) {
+        EXPECT_TRUE(contains(general.out, option)) << option;
+    }
+    for (const char* option : {"--output", "--spp", "--time", "--resolution", "--sampling", "--crop", "--passes",
+                               "--max-depth", "--frames", "--carry-field"}) {
         EXPECT_TRUE(contains(run_wend({"render", "--help"}).out, option)) << option;
     }
     for (const char* option : {"--time", "--sampling", "--reference", "--out"}) {

@@ -1,5 +1,6 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
+#include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
 #include <wend/app/session.h>
@@ -36,6 +37,17 @@ struct RenderOptions {
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
+    std::string frames;
+    bool carry_field = false;
+};
+
+using FieldsPointer = std::shared_ptr<const guide::Fields>;
+
+/// What the texts of the options mean.
+struct RenderPlan {
+    Preset preset;
+    SubsurfacePreset subsurface;
+    std::vector<int> passes;
 };
 
 std::vector<int> parse_passes(const std::string& text) {
@@ -55,6 +67,13 @@ std::vector<int> parse_passes(const std::string& text) {
         throw InputError(fmt::format("--passes {}: more than {} samples per pixel", text, most_samples));
     }
     return passes;
+}
+
+/// Throws InputError for what is wrong whatever the scene.
+RenderPlan plan_of(const RenderOptions& options) {
+    options.scene.check();
+    return {parse_preset(options.sampling), parse_subsurface(options.subsurface),
+            options.passes ? parse_passes(*options.passes) : std::vector<int>()};
 }
 
 /// Where the picture goes if nobody says: the scene's own file name, in the current folder. Throws InputError where
@@ -77,11 +96,11 @@ void check(const RenderOptions& options, const Preset& preset) {
     if (options.half) {
         require_exr_extension(options.output);
     }
-    if (preset.is_classical() &&
-        !(options.load_field.empty() && options.save_field.empty() && options.save_records.empty())) {
+    if (preset.is_classical() && (options.carry_field || !(options.load_field.empty() && options.save_field.empty() &&
+                                                           options.save_records.empty()))) {
         throw InputError(
-            "--load-field, --save-field and --save-records: classical sampling has no field; give --sampling, such as "
-            "direction");
+            "--load-field, --save-field, --save-records and --carry-field: classical sampling has no field; give "
+            "--sampling, such as direction");
     }
     for (const std::string& file : {options.save_field, options.save_records}) {
         if (!file.empty()) {
@@ -91,13 +110,31 @@ void check(const RenderOptions& options, const Preset& preset) {
     options.watch.check();
 }
 
-/// The paths that are written differ, and are not read.
+/// What renders read and write.
+struct Paths {
+    std::vector<std::string> read, resumed, written, checkpoints;
+
+    void add(const RenderOptions& options, const std::string& output) {
+        read.insert(read.end(), {options.scene.file, options.load_field});
+        resumed.push_back(options.watch.resume);
+        written.insert(written.end(), {output, options.common.json, options.save_field, options.save_records,
+                                       options.watch.progress_file});
+        checkpoints.push_back(options.watch.checkpoint);
+    }
+
+    /// The paths that are written differ, and are not read. A checkpoint may be the one that is resumed.
+    void check() const {
+        require_distinct(resumed, written);
+        std::vector<std::string> all = written;
+        all.insert(all.end(), checkpoints.begin(), checkpoints.end());
+        require_distinct(read, all);
+    }
+};
+
 void check_paths(const RenderOptions& options, const std::string& output) {
-    require_distinct({options.scene.file, options.load_field},
-                     {output, options.common.json, options.save_field, options.save_records, options.watch.checkpoint,
-                      options.watch.progress_file});
-    require_distinct({options.watch.resume}, {output, options.common.json, options.save_field, options.save_records,
-                                              options.watch.progress_file});
+    Paths paths;
+    paths.add(options, output);
+    paths.check();
 }
 
 void warn_of_lacks(const RenderStatistics& statistics, std::ostream& err) {
@@ -132,17 +169,19 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     return told;
 }
 
-void render_scene(RenderOptions options, const Streams& streams) {
-    const std::unique_ptr<Ranks> ranks = ranks_of_job();
-    const bool is_first = !ranks || ranks->rank() == 0;
-    options.common.quiet = options.common.quiet || !is_first;
-    const Preset preset = parse_preset(options.sampling);
-    const SubsurfacePreset subsurface = parse_subsurface(options.subsurface);
-    const std::vector<int> passes = options.passes ? parse_passes(*options.passes) : std::vector<int>();
-    check(options, preset);
+/// Whether this process is the one that tells and writes.
+bool is_first_of(const Ranks* ranks) {
+    return !ranks || ranks->rank() == 0;
+}
+
+/// Renders one picture; what was learned comes back. `fields` is what is known before, if not null; `ranks` are the
+/// processes that render it together, null for one alone.
+FieldsPointer render_scene(const RenderOptions& options, const Streams& streams, Ranks* ranks,
+                           FieldsPointer fields = nullptr) {
+    const RenderPlan plan = plan_of(options);
+    check(options, plan.preset);
     check_paths(options, options.output);
-    std::shared_ptr<const guide::Fields> fields;
-    if (!options.load_field.empty()) {
+    if (!fields && !options.load_field.empty()) {
         fields = std::make_shared<const guide::Fields>(read_fields(options.load_field));
     }
     const Session session(options.scene, options.common, streams);
@@ -151,8 +190,8 @@ void render_scene(RenderOptions options, const Streams& streams) {
     check_paths(options, output.string());
 
     RenderSettings settings = session.settings();
-    settings.preset = preset;
-    settings.subsurface = subsurface;
+    settings.preset = plan.preset;
+    settings.subsurface = plan.subsurface;
     settings.fields = std::move(fields);
     if (options.samples > 0) {
         settings.samples = options.samples;
@@ -160,11 +199,11 @@ void render_scene(RenderOptions options, const Streams& streams) {
         settings.samples = most_samples;
     }
     settings.noise = options.noise;
-    settings.ranks = ranks.get();
+    settings.ranks = ranks;
     settings.seconds = options.seconds;
-    settings.passes = passes;
+    settings.passes = plan.passes;
     RecordSamples records;
-    settings.keeps_fields = !options.save_field.empty() || !options.save_records.empty();
+    settings.keeps_fields = options.carry_field || !options.save_field.empty() || !options.save_records.empty();
     if (!options.save_records.empty()) {
         settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
     }
@@ -177,8 +216,8 @@ void render_scene(RenderOptions options, const Streams& streams) {
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
-    if (!is_first) {
-        return;
+    if (!is_first_of(ranks)) {
+        return statistics.fields;
     }
     if (!options.save_field.empty()) {
         write_fields(options.save_field, *statistics.fields);
@@ -192,6 +231,91 @@ void render_scene(RenderOptions options, const Streams& streams) {
     options.common.write_json(streams, report(session, settings, statistics, output));
     if (interrupt.signal() != 0) {
         throw EndedBySignal{interrupt.signal()};
+    }
+    return statistics.fields;
+}
+
+/// The options that name files: these differ from frame to frame.
+std::vector<std::string*> names_read(RenderOptions& options) {
+    return {&options.scene.file, &options.load_field, &options.watch.resume};
+}
+std::vector<std::string*> names_written(RenderOptions& options) {
+    return {&options.output,       &options.common.json,      &options.save_field,
+            &options.save_records, &options.watch.checkpoint, &options.watch.progress_file};
+}
+
+RenderOptions of_frame(RenderOptions options, int frame) {
+    for (const auto& names : {names_read(options), names_written(options)}) {
+        for (std::string* name : names) {
+            *name = with_frame_number(*name, frame);
+        }
+    }
+    return options;
+}
+
+/// Refuses frames that would write the same file.
+void require_frame_numbers(RenderOptions options) {
+    for (const std::string* name : names_written(options)) {
+        if (!name->empty() && *name != "-" && !is_device(*name) && !has_frame_number(*name)) {
+            throw InputError(Place{*name}, "all frames would write it: put #### where the frame's number goes");
+        }
+    }
+}
+
+/// Throws InputError for what is wrong with one of the frames, before the first is rendered.
+void check_frames(const RenderOptions& options, const std::vector<int>& frames) {
+    const RenderPlan plan = plan_of(options);
+    if (!has_frame_number(options.scene.file)) {
+        throw InputError(Place{options.scene.file},
+                         "--frames wants the frame's number in the scene's name: put #### in its place");
+    }
+    if (frames.size() > 1) {
+        require_frame_numbers(options);
+    }
+    Paths paths;
+    for (const int frame : frames) {
+        RenderOptions one = of_frame(options, frame);
+        for (const std::string* name : names_read(one)) {
+            std::error_code error;
+            if (!name->empty() && !std::filesystem::exists(*name, error)) {
+                throw InputError(Place{*name}, fmt::format("does not exist, and frame {} wants it", frame));
+            }
+        }
+        check(one, plan.preset);
+        paths.add(one, one.output);
+    }
+    paths.check();
+}
+
+void render_frames(RenderOptions options, const Streams& streams, Ranks* ranks) {
+    const std::vector<int> frames = parse_frames(options.frames);
+    if (options.output.empty()) {
+        // The scenes' own names for their pictures may all be the same.
+        options.output = std::filesystem::path(options.scene.file).stem().string() + ".exr";
+    }
+    check_frames(options, frames);
+    FieldsPointer carried;
+    const auto render = [&](int frame) {
+        FieldsPointer learned = render_scene(of_frame(options, frame), streams, ranks, carried);
+        if (options.carry_field) {
+            carried = std::move(learned);
+        }
+    };
+    if (ranks) {
+        // After an error the others do not know which frame is next: it ends all.
+        std::for_each(frames.begin(), frames.end(), render);
+    } else {
+        for_each_frame(frames, streams, render);
+    }
+}
+
+void render(RenderOptions options, const Streams& streams, bool has_frames) {
+    const std::unique_ptr<Ranks> ranks = ranks_of_job();
+    options.common.quiet = options.common.quiet || !is_first_of(ranks.get());
+    if (has_frames) {
+        render_frames(options, streams, ranks.get());
+    } else {
+        render_scene(options, streams, ranks.get());
     }
 }
 
@@ -233,10 +357,18 @@ Action add_render_command(CLI::App& program) {
                            "write a sample of what the field learned from to this file (for 'wend field --records')");
     CLI::Option* load_field = command.add_option("--load-field", options->load_field,
                                                  "go on with what an earlier render of the scene learned");
+    CLI::Option* frames = command.add_option(
+        "--frames", options->frames,
+        "render these frames one after another, such as 1-48, 1-48x2 or 7: the number goes where names have ####");
+    CLI::Option* carry_field =
+        command
+            .add_flag("--carry-field", options->carry_field,
+                      "a frame begins with what the one before has learned: good where little changes")
+            ->needs(frames);
     options->watch.add_to(command);
-    command.get_option("--resume")->excludes(load_field)->excludes(save_records);
+    command.get_option("--resume")->excludes(load_field)->excludes(save_records)->excludes(carry_field);
     options->common.add_to(command);
-    return [options](const Streams& streams) { render_scene(*options, streams); };
+    return [options, frames](const Streams& streams) { render(*options, streams, frames->count() > 0); };
 }
 
 }  // namespace wend

@@ -13,6 +13,9 @@ Action add_demo_command(CLI::App& program);
 Action add_field_command(CLI::App& program);
 Action add_halfspace_command(CLI::App& program);
 Action add_slab_command(CLI::App& program);
+Action add_completion_command(CLI::App& program);
+/// Not in --help: for who packs the program.
+Action add_man_page_command(CLI::App& program);
 
 /// The names that --sampling takes, for help texts.
 std::string guidable_decisions_text();

@@ -51,7 +51,7 @@ const std::atomic<bool>& InterruptGuard::flag() const {
     return interrupted;
 }
 
-int InterruptGuard::signal() const {
+int InterruptGuard::signal() {
     return number;
 }
 

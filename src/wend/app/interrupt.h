@@ -19,8 +19,8 @@ public:
 
     bool is_requested() const { return flag(); }
     const std::atomic<bool>& flag() const;
-    /// Of the signal; 0 where there was none.
-    int signal() const;
+    /// Of the signal that came while the newest guard lived; 0 where there was none.
+    static int signal();
 
 private:
     static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};

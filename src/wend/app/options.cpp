@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
@@ -126,6 +127,14 @@ void require_distinct(const std::vector<std::string>& inputs, const std::vector<
             throw InputError(Place{name}, "would be written twice: choose another name for one of the outputs");
         }
     }
+}
+
+std::string failure_text(const std::exception& failure) {
+    if (dynamic_cast<const std::bad_alloc*>(&failure)) {
+        return "error: out of memory";
+    }
+    const bool names_a_place = dynamic_cast<const InputError*>(&failure) != nullptr;
+    return (names_a_place ? "" : "error: ") + std::string(failure.what());
 }
 
 std::vector<std::string> split_list(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <iosfwd>
 #include <optional>
@@ -53,6 +54,9 @@ std::pair<int, int> parse_resolution(const std::string& text);
 /// Throws InputError if two of the outputs are the same file, or one is an input. Empty names, "-" and devices are
 /// none.
 void require_distinct(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+/// What to say of a failure, as standard error has it.
+std::string failure_text(const std::exception& failure);
 
 /// Splits at commas.
 std::vector<std::string> split_list(const std::string& text);

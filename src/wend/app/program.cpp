@@ -1,4 +1,5 @@
 #include <wend/app/commands.h>
+#include <wend/app/config_file.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/program.h>
 #include <wend/core/error.h>
@@ -6,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <new>
 #include <ostream>
 #include <stdexcept>
 #include <utility>
@@ -29,10 +29,22 @@ InputError unknown_subcommand(const CLI::App& program) {
     const std::vector<std::string> given = program.remaining();
     std::string names;
     for (const CLI::App* command : program.get_subcommands({})) {
-        names += (names.empty() ? "" : ", ") + command->get_name();
+        if (!command->get_group().empty()) {
+            names += (names.empty() ? "" : ", ") + command->get_name();
+        }
     }
     return InputError((given.empty() ? "a subcommand is missing" : "unknown subcommand '" + given.front() + "'") +
                       ": expected one of " + names + " (--help says more)");
+}
+
+/// A wrong value may be one that nobody has typed.
+void note_config(const CLI::App& program, const CLI::ParseError& error, std::ostream& err) {
+    if (dynamic_cast<const CLI::FileError*>(&error)) {
+        return;
+    }
+    for (const std::string& file : program.get_config_ptr()->results()) {
+        err << "note: options were also taken from " << file << '\n';
+    }
 }
 
 void require_written(std::ostream& out) {
@@ -49,12 +61,16 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
         CLI::App program("Wend renders participating media by zero-variance-based path sampling.", "wend");
         program.set_version_flag("--version", std::string("wend ") + WEND_VERSION);
         program.require_subcommand(1);
+        // The program's own options may come last.
+        program.fallthrough();
         std::vector<std::pair<CLI::App*, Action>> actions;
         for (const auto add : {add_render_command, add_compare_command, add_metric_command, add_merge_command,
-                               add_demo_command, add_field_command, add_halfspace_command, add_slab_command}) {
+                               add_demo_command, add_field_command, add_halfspace_command, add_slab_command,
+                               add_completion_command, add_man_page_command}) {
             Action action = add(program);
             actions.emplace_back(program.get_subcommands({}).back(), std::move(action));
         }
+        add_config_option(program);
         try {
             program.parse(argc, argv);
         } catch (const CLI::ParseError& e) {
@@ -62,6 +78,7 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
                 throw unknown_subcommand(program);
             }
             if (program.exit(e, out, err) != 0) {
+                note_config(program, e, err);
                 return 2;
             }
             require_written(out);
@@ -74,17 +91,12 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
         }
         require_written(out);
         return 0;
-    } catch (const InputError& e) {
-        err << e.what() << '\n';
-        return 2;
     } catch (const EndedBySignal& signal) {
         return 128 + signal.number;
-    } catch (const std::bad_alloc&) {
-        err << "error: out of memory\n";
     } catch (const std::exception& e) {
-        err << "error: " << e.what() << '\n';
+        err << failure_text(e) << '\n';
+        return dynamic_cast<const InputError*>(&e) ? 2 : 1;
     }
-    return 1;
 }
 
 }  // namespace wend

@@ -60,6 +60,18 @@ void SceneOptions::add_to(CLI::App& command) {
     command.add_option("--sampler", sampler, "random numbers: sobol or independent (default: the scene's)");
 }
 
+void SceneOptions::check() const {
+    if (!resolution.empty()) {
+        parse_resolution(resolution);
+    }
+    if (!crop.empty()) {
+        parse_crop(crop, {1, 1});
+    }
+    if (!sampler.empty()) {
+        parse_sampler(sampler);
+    }
+}
+
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
     : Session(options, common, streams, load(options)) {
 }

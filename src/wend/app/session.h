@@ -23,6 +23,8 @@ struct SceneOptions {
     std::string sampler;
 
     void add_to(CLI::App& command);
+    /// Throws InputError for what is wrong whatever the scene.
+    void check() const;
 };
 
 /// A loaded scene and the settings to render it with.

@@ -1,0 +1,68 @@
+#include <wend/app/command_tree.h>
+
+#include <CLI/CLI.hpp>
+
+namespace wend {
+namespace {
+
+/// The values in "TEXT:{bar,json,none}" or "normal|diffuse", the two ways in which options say which they take.
+std::vector<std::string> choices_in(const std::string& type) {
+    const std::size_t open = type.find('{'), close = type.find('}');
+    if (open != std::string::npos && close != std::string::npos && open < close) {
+        return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+    }
+    if (type.find('|') != std::string::npos) {
+        return CLI::detail::split(type, '|');
+    }
+    return {};
+}
+
+OptionShape shape_of(const CLI::Option& option) {
+    OptionShape shape;
+    for (const std::string& name : option.get_snames()) {
+        shape.names.push_back("-" + name);
+    }
+    for (const std::string& name : option.get_lnames()) {
+        shape.names.push_back("--" + name);
+    }
+    if (option.get_positional()) {
+        shape.names = {option.get_name(true)};
+    }
+    if (option.get_items_expected_max() > 0) {
+        const std::string type = option.get_type_name();
+        shape.choices = choices_in(type);
+        shape.value = type.substr(0, type.find(':'));
+    }
+    shape.description = option.get_description();
+    shape.default_value = option.get_default_str();
+    shape.is_required = option.get_required();
+    shape.is_repeated = option.get_items_expected_max() > 1;
+    return shape;
+}
+
+CommandShape shape_of(const CLI::App& app) {
+    CommandShape shape;
+    shape.name = app.get_parent() ? app.get_name() : "";
+    shape.description = app.get_description();
+    shape.footer = app.get_footer();
+    for (const CLI::Option* option : app.get_options()) {
+        if (!option->get_group().empty()) {
+            (option->get_positional() ? shape.arguments : shape.options).push_back(shape_of(*option));
+        }
+    }
+    return shape;
+}
+
+}  // namespace
+
+std::vector<CommandShape> command_tree(const CLI::App& program) {
+    std::vector<CommandShape> all = {shape_of(program)};
+    for (const CLI::App* command : program.get_subcommands({})) {
+        if (!command->get_group().empty()) {
+            all.push_back(shape_of(*command));
+        }
+    }
+    return all;
+}
+
+}  // namespace wend

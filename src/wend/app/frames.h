@@ -1,0 +1,26 @@
+// The frames of a film that one call renders: their numbers, their names, and one after another.
+#pragma once
+
+#include <wend/app/options.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wend {
+
+/// "1-48", "1-48x2" (every second) or "7". Throws InputError.
+std::vector<int> parse_frames(const std::string& text);
+
+/// Whether a frame's number has a place in the name: a group of '#'.
+bool has_frame_number(const std::string& name);
+
+/// The name with the frame's number for its group of '#', with at least as many digits. Throws InputError where there
+/// are two groups.
+std::string with_frame_number(const std::string& name, int frame);
+
+/// Renders one frame after another. What goes wrong in one is told, and the others are rendered all the same; at the
+/// end the first error's kind is thrown, with the numbers of all that failed. A signal (EndedBySignal) ends all.
+void for_each_frame(const std::vector<int>& frames, const Streams& streams, const std::function<void(int)>& render);
+
+}  // namespace wend
