@@ -74,6 +74,7 @@ TEST_F(SlowMpiRender, IsTheSameFileForAnyNumberOfRanks) {
         const auto told = nlohmann::json::parse(bytes("told.json"));
         EXPECT_EQ(told["ranks"], ranks) << "one rank alone tells";
         EXPECT_GT(told["bytes_per_pass"], 0);
+        EXPECT_GT(told["bytes_per_rank"], 1 << 20);
     }
 }
 

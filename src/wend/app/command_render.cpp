@@ -147,7 +147,7 @@ void warn_of_lacks(const RenderStatistics& statistics, std::ostream& err) {
 }
 
 nlohmann::json report(const Session& session, const RenderSettings& settings, const RenderStatistics& statistics,
-                      const std::filesystem::path& output) {
+                      const std::filesystem::path& output, std::uint64_t memory_of_rank) {
     nlohmann::json described = session.describe(settings);
     described["passes"] = statistics.passes;
     described["output"] = output.string();
@@ -164,6 +164,7 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     if (statistics.ranks > 1) {
         told["ranks"] = statistics.ranks;
         told["waiting_seconds"] = statistics.waiting_seconds;
+        told["bytes_per_rank"] = memory_of_rank;
         told["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
     }
     return told;
@@ -216,6 +217,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
+    const std::uint64_t memory_of_rank = ranks ? most_memory_of(*ranks) : 0;
     if (!is_first_of(ranks)) {
         return statistics.fields;
     }
@@ -228,7 +230,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
                                              statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
     warn_of_lacks(statistics, streams.err);
-    options.common.write_json(streams, report(session, settings, statistics, output));
+    options.common.write_json(streams, report(session, settings, statistics, output, memory_of_rank));
     if (interrupt.signal() != 0) {
         throw EndedBySignal{interrupt.signal()};
     }

@@ -1,10 +1,13 @@
 #include <wend/app/mpi_ranks.h>
 #include <wend/core/error.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 #ifdef WEND_MPI
 #define OMPI_SKIP_MPICXX  // the old bindings for C++
@@ -95,6 +98,17 @@ std::unique_ptr<Ranks> ranks_of_job() {
 #else
     throw InputError("this program was started beside others, as by mpirun, but built without MPI (libopenmpi-dev)");
 #endif
+}
+
+std::uint64_t most_memory_of(Ranks& ranks) {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    constexpr std::uint64_t unit = 1024;
+    std::uint64_t most = 0;
+    for (const std::string& said : ranks.gather(std::to_string(unit * static_cast<std::uint64_t>(used.ru_maxrss)))) {
+        most = std::max<std::uint64_t>(most, std::stoull(said));
+    }
+    return most;
 }
 
 }  // namespace wend

@@ -3,6 +3,7 @@
 
 #include <wend/render/ranks.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace wend {
@@ -11,5 +12,8 @@ namespace wend {
 /// a time, and one in the life of a process. Throws InputError where this program was built without MPI: each process
 /// would render the whole picture, and all would write the same file.
 std::unique_ptr<Ranks> ranks_of_job();
+
+/// Bytes of memory that the largest of the processes has had so far; all ranks ask.
+std::uint64_t most_memory_of(Ranks& ranks);
 
 }  // namespace wend
