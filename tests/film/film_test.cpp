@@ -212,6 +212,30 @@ TEST(Film, AStageOfOneSampleCountsAsTheOneBefore) {
     EXPECT_EQ(film.beauty().at(1, 0), Rgb(2));
 }
 
+TEST(Film, StagesOfOneSampleHaveTheVarianceOfThoseBefore) {
+    constexpr int pixels = 4000, samples = 8, single_stages = 4;
+    Film film({pixels, 1}, {{0, 0}, {pixels, 1}});
+    Pcg32 random(5);
+    const auto add = [&] {
+        for (int x = 0; x < pixels; ++x) {
+            film.add({x, 0}, sample_of(Rgb(random.uniform())));
+        }
+    };
+    for (int i = 0; i < samples; ++i) {
+        add();
+    }
+    for (int i = 0; i < single_stages; ++i) {
+        film.begin_stage();
+        add();
+    }
+    const Picture picture = film.picture();
+    double sum = 0;
+    for (int x = 0; x < pixels; ++x) {
+        sum += static_cast<double>(layer(picture, "variance").values[3 * static_cast<std::size_t>(x)]);
+    }
+    EXPECT_NEAR(sum / pixels * (samples + single_stages), 1.0 / 12, 0.02 / 12);
+}
+
 TEST(Film, RejectedSamplesCountAsBlack) {
     Film film = one_pixel();
     film.add({0, 0}, sample_of(Rgb(4)));

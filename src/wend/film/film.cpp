@@ -63,6 +63,11 @@ double Film::Pixel::variance(int c) const {
     return std::max(0.0, squares[c] / n - first * first) * n / (n - 1);
 }
 
+double Film::Pixel::likely_variance(int c) const {
+    return count < 2 && earlier_weight > 0 ? earlier_spread[c] * earlier_count / (earlier_weight * earlier_weight)
+                                           : variance(c);
+}
+
 double Film::Pixel::mean(int c, double weight) const {
     const double total = this->weight(weight);
     return total > 0 ? (earlier_sum[c] + weight * sum[c]) / total : 0.0;
@@ -70,7 +75,7 @@ double Film::Pixel::mean(int c, double weight) const {
 
 double Film::Pixel::spread(int c, double weight) const {
     const double total = this->weight(weight);
-    return total > 0 ? (earlier_spread[c] + weight * weight * count * variance(c)) / (total * total) : 0.0;
+    return total > 0 ? (earlier_spread[c] + weight * weight * count * likely_variance(c)) / (total * total) : 0.0;
 }
 
 std::size_t Film::half_of(std::size_t index) const {
@@ -137,7 +142,7 @@ void Film::begin_stage() {
         Pixel& p = pixels_[i];
         const double weight = weights[half_of(i)];
         for (int c = 0; c < 3; ++c) {
-            p.earlier_spread[c] += weight * weight * p.count * p.variance(c);
+            p.earlier_spread[c] += weight * weight * p.count * p.likely_variance(c);
             p.earlier_sum[c] += weight * std::exchange(p.sum[c], 0);
             p.squares[c] = 0;
         }

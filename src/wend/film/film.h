@@ -110,6 +110,8 @@ private:
         std::uint32_t samples() const { return count + earlier_count; }
         /// Variance of one sample in this stage; 0 where it is not known.
         double variance(int c) const;
+        /// The same, or where one sample alone does not tell it that of samples before.
+        double likely_variance(int c) const;
         /// The pixel where samples of this stage count `weight` times: its mean, and the variance of that.
         double weight(double weight) const { return earlier_weight + weight * count; }
         double mean(int c, double weight) const;
