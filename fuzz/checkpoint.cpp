@@ -16,7 +16,7 @@ wend::SceneDescription lit_floor() {
     fog.scattering = wend::Rgb(0.3f);
     scene.media.emplace_back(fog);
     scene.camera_medium = 0;
-    scene.materials.emplace_back(wend::DiffuseMaterial{});
+    scene.materials.emplace_back(wend::DiffuseMaterial{scene.textures.add(wend::ConstantTexture{wend::Rgb(0.5f)})});
     for (const float x : {-1.0f, 1.0f}) {
         const wend::Vec3 corner(x, 2, 4);
         scene.lights.push_back(wend::make_triangle_light(corner, corner + wend::Vec3(1, 0, 0),
