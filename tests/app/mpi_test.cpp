@@ -21,7 +21,8 @@ protected:
             setenv(setting, "1", 0);
         }
         setenv("OMPI_MCA_btl", "self,vader", 0);
-        if (run(2, "--version", "version.txt") == 0 && render(2, "small.exr", "--spp 1") == 2) {
+        if (render(2, "small.exr", "--spp 1") != 0 &&
+            bytes("errors.txt").find("built without MPI") != std::string::npos) {
             GTEST_SKIP() << "wend was built without MPI";
         }
     }

@@ -151,23 +151,23 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     nlohmann::json described = session.describe(settings);
     described["passes"] = statistics.passes;
     described["output"] = output.string();
-    nlohmann::json told = {{"spp", statistics.samples},
-                           {"seconds", statistics.seconds},
-                           {"training_seconds", statistics.training_seconds},
-                           {"paths", statistics.counts.paths},
-                           {"segments", statistics.counts.segments},
-                           {"guiding", kinds_json(statistics.kinds)},
-                           {"field_bytes", statistics.field_bytes},
-                           {"rejected_samples", statistics.counts.rejected},
-                           {"interrupted", statistics.interrupted},
-                           {"settings", std::move(described)}};
+    nlohmann::json results = {{"spp", statistics.samples},
+                              {"seconds", statistics.seconds},
+                              {"training_seconds", statistics.training_seconds},
+                              {"paths", statistics.counts.paths},
+                              {"segments", statistics.counts.segments},
+                              {"guiding", kinds_json(statistics.kinds)},
+                              {"field_bytes", statistics.field_bytes},
+                              {"rejected_samples", statistics.counts.rejected},
+                              {"interrupted", statistics.interrupted},
+                              {"settings", std::move(described)}};
     if (statistics.ranks > 1) {
-        told["ranks"] = statistics.ranks;
-        told["waiting_seconds"] = statistics.waiting_seconds;
-        told["bytes_per_rank"] = memory_of_rank;
-        told["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
+        results["ranks"] = statistics.ranks;
+        results["waiting_seconds"] = statistics.waiting_seconds;
+        results["bytes_per_rank"] = memory_of_rank;
+        results["bytes_per_pass"] = statistics.bytes_sent / std::max<std::size_t>(1, statistics.passes.size());
     }
-    return told;
+    return results;
 }
 
 /// Whether this process is the one that tells and writes.

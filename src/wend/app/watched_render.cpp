@@ -94,7 +94,7 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     const bool is_first = !settings.ranks || settings.ranks->rank() == 0;
     std::optional<ProgressLines> lines;
     if (!is_first) {
-        // Progress is told once.
+        // One rank shows progress for all.
     } else if (!options.progress_file.empty()) {
         lines.emplace(options.progress_file);
     } else if (options.progress == "json") {

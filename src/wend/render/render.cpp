@@ -64,9 +64,12 @@ public:
 
     bool step(double seconds) {
         if (!is_within_pass_) {
-            const int count = agreed(next_count());
+            // What a pass begins with takes time, too.
+            constexpr int stopped = -1;
+            const int count = agreed(settings_.stop && *settings_.stop ? stopped : next_count());
+            is_stopped_ = count == stopped;
             if (count <= 0) {
-                return false;
+                return is_stopped_;
             }
             begin_pass(count);
         }
