@@ -93,9 +93,7 @@ Rgb absorption_of(const HairMaterial& m, const Textures& textures, const Texture
     }
     if (m.given == HairMaterial::Colour::pigments) {
         // Per unit of concentration (deon2011), as pbrt has it.
-        const auto amount = [&](TextureId id) {
-            return id < 0 ? 0.0f : std::max(textures.evaluate_grey(id, p), 0.0f);
-        };
+        const auto amount = [&](TextureId id) { return id < 0 ? 0.0f : std::max(textures.evaluate_grey(id, p), 0.0f); };
         return Rgb(0.419f, 0.697f, 1.37f) * amount(m.eumelanin) + Rgb(0.187f, 0.4f, 1.05f) * amount(m.pheomelanin);
     }
     // chiang2016's fit of what the multiple scattering of a head of hair makes of it.

@@ -77,16 +77,15 @@ struct HairMaterial {
 /// At each point one of two others, by chance.
 struct MixMaterial {
     int first = 0;
-    int second = 0;  ///< index in the scene's materials
+    int second = 0;        ///< index in the scene's materials
     TextureId amount = 0;  ///< probability of the second
 };
 
 /// No scattering at all: a boundary between media of the same refractive index.
 struct InterfaceMaterial {};
 
-using Material =
-    std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
-                 ThinDielectricMaterial, CoatedMaterial, HairMaterial, MixMaterial, InterfaceMaterial>;
+using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
+                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, MixMaterial, InterfaceMaterial>;
 
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);

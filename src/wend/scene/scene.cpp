@@ -56,7 +56,8 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     }
     has_mixtures_ = std::any_of(d_.materials.begin(), d_.materials.end(),
                                 [](const Material& m) { return std::holds_alternative<MixMaterial>(m); });
-    has_details_ = std::any_of(d_.details.begin(), d_.details.end(), [](const SurfaceDetail& d) { return !d.is_none(); });
+    has_details_ =
+        std::any_of(d_.details.begin(), d_.details.end(), [](const SurfaceDetail& d) { return !d.is_none(); });
     bounds_ = caster_->bounds();
     if (!(bounds_.min.x <= bounds_.max.x)) {
         bounds_ = Box3(Vec3(-1), Vec3(1));  // nothing but lights and media

@@ -153,9 +153,10 @@ private:
         }
         MixMaterial mix{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f)};
         if (is_interface(mix.first) || is_interface(mix.second)) {
-            context_.warnings.add(p.place_of("materials"),
-                                  "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
-                                  "shape leaves a share of it out)");
+            context_.warnings.add(
+                p.place_of("materials"),
+                "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
+                "shape leaves a share of it out)");
             (is_interface(mix.first) ? mix.first : mix.second) = is_interface(mix.first) ? mix.second : mix.first;
         }
         return {mix};
@@ -180,8 +181,7 @@ private:
         const auto displacement = textures_.find_real(p, "displacement");
         if (!p.get_string("normalmap", "").empty()) {
             if (displacement) {
-                context_.warnings.add(p.place_of("displacement"),
-                                      "\"displacement\" is ignored beside \"normalmap\"");
+                context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
             }
             detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
         } else if (displacement && textures_.varies(*displacement)) {
@@ -190,9 +190,7 @@ private:
         return detail;
     }
 
-    LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) {
-        return {load_metal(entity.parameters, "", 1)};
-    }
+    LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) { return {load_metal(entity.parameters, "", 1)}; }
 
     LoadedMaterial load_dielectric(const pbrt::MaterialEntity& entity) {
         return {DielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")}};
@@ -279,9 +277,9 @@ private:
         }
         // Copper where nothing is given. What is known by wavelength is averaged by what it reflects.
         const auto by_wavelength = [&](const std::string& name, const char* copper) {
-            return p.has(name) ? (p.type_of(name) == pbrt::ParameterType::spectrum ? find_spectrum(context_, p, name)
-                                                                                   : nullptr)
-                               : find_metal_constant(copper);
+            return p.has(name)
+                       ? (p.type_of(name) == pbrt::ParameterType::spectrum ? find_spectrum(context_, p, name) : nullptr)
+                       : find_metal_constant(copper);
         };
         const auto eta = by_wavelength(prefix + "eta", "metal-Cu-eta"), k = by_wavelength(prefix + "k", "metal-Cu-k");
         if (eta && k) {
@@ -390,8 +388,8 @@ void force_diffuse(std::vector<LoadedMaterial>& materials, Textures& textures) {
         const Material& material = loaded.material;
         if (!std::holds_alternative<InterfaceMaterial>(material) && !std::holds_alternative<MixMaterial>(material) &&
             !std::holds_alternative<DiffuseMaterial>(material)) {
-            loaded.material = DiffuseMaterial{textures.add_constant(hemispherical_albedo(
-                make_bsdf(material, textures, {{0.5f, 0.5f}, {0, 0, 0}})))};
+            loaded.material = DiffuseMaterial{
+                textures.add_constant(hemispherical_albedo(make_bsdf(material, textures, {{0.5f, 0.5f}, {0, 0, 0}})))};
         }
     }
 }

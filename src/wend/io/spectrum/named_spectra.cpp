@@ -183,7 +183,8 @@ const Row* find(std::span<const Row> rows, std::string_view name) {
 }
 
 /// One of the two constants, constant beyond the ends of the table.
-std::function<double(double)> interpolated(std::span<const OpticalConstants> table, double OpticalConstants::*constant) {
+std::function<double(double)> interpolated(std::span<const OpticalConstants> table,
+                                           double OpticalConstants::*constant) {
     return [table, constant](double w) {
         const auto above = std::upper_bound(table.begin(), table.end(), w,
                                             [](double at, const OpticalConstants& row) { return at < row.wavelength; });

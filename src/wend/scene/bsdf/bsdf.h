@@ -171,8 +171,8 @@ private:
     float offset_;
     float ior_;
     Rgb absorption_;
-    std::array<float, orders> variance_{};  ///< along
-    float scale_ = 0;                       ///< of the logistic distribution across
+    std::array<float, orders> variance_{};          ///< along
+    float scale_ = 0;                               ///< of the logistic distribution across
     std::array<float, 3> sin_tilt_{}, cos_tilt_{};  ///< of 1, 2 and 4 tilts
 };
 

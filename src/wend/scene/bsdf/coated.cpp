@@ -37,12 +37,13 @@ float power_heuristic(float a, float b) {
 
 template <class... Vectors>
 std::uint64_t key_of(std::uint64_t seed, const Vectors&... v) {
-    return hash_of(seed, (std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32 | std::bit_cast<std::uint32_t>(v.y))...,
+    return hash_of(seed,
+                   (std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32 | std::bit_cast<std::uint32_t>(v.y))...,
                    std::bit_cast<std::uint32_t>(v.z)...);
 }
 
-/// A walk between coat and base. All directions point upwards or downwards the way that light is followed, from where it
-/// is looked at.
+/// A walk between coat and base. All directions point upwards or downwards the way that light is followed, from where
+/// it is looked at.
 class CoatWalk {
 public:
     CoatWalk(const CoatedBsdf& b, const Vec3& wi, Pcg32& random)
@@ -117,7 +118,8 @@ private:
         if (!is_mirror) {
             const Vec3 up = -exit_->direction;
             const Rgb value = std::visit([&](const auto& base) { return base.evaluate(wo, up); }, b_.base);
-            connect(value / std::abs(up.z), std::visit([&](const auto& base) { return base.density(wo, up); }, b_.base));
+            connect(value / std::abs(up.z),
+                    std::visit([&](const auto& base) { return base.density(wo, up); }, b_.base));
         }
         const float u = random_.uniform();
         const Vec2 u2 = random_.uniform2();
@@ -138,12 +140,11 @@ private:
         return true;
     }
 
-    /// Adds what leaves along the exit that was drawn from outside, scattered into it by `value` (per cosine). `density`:
-    /// with which that would have been drawn from here.
+    /// Adds what leaves along the exit that was drawn from outside, scattered into it by `value` (per cosine).
+    /// `density`: with which that would have been drawn from here.
     void connect(const Rgb& value, float density) {
         const float share = exit_->specular ? 1.0f : power_heuristic(exit_->density, density);
-        sum_ += weight_ * value *
-                (leaving_ * share * transmittance(b_.thickness - height_, exit_->direction));
+        sum_ += weight_ * value * (leaving_ * share * transmittance(b_.thickness - height_, exit_->direction));
     }
 
     /// Adds what leaves along the direction that was drawn here, with that density if with any, through a rough coat.
@@ -203,11 +204,13 @@ CoatedBsdf::Shares CoatedBsdf::shares(const Vec3& wo) const {
     }
     const float below = inside / (f + inside);
     // Most of what a metal reflects goes the way of its lobe; of what was scattered or reflected again, all ways.
-    const float as_base =
-        std::holds_alternative<ConductorBsdf>(base) ? (is_black(albedo) ? 0.8f : 0.8f * std::exp(-2 * thickness)) : 0.0f;
+    const float as_base = std::holds_alternative<ConductorBsdf>(base)
+                              ? (is_black(albedo) ? 0.8f : 0.8f * std::exp(-2 * thickness))
+                              : 0.0f;
     const bool mirrors = has_smooth_metal() && coat.is_specular();
     const float base_share = below * as_base;
-    return mirrors ? Shares{1 - below + base_share, 0, below - base_share} : Shares{1 - below, base_share, below - base_share};
+    return mirrors ? Shares{1 - below + base_share, 0, below - base_share}
+                   : Shares{1 - below, base_share, below - base_share};
 }
 
 ConductorBsdf CoatedBsdf::seen_base() const {
@@ -285,8 +288,8 @@ Rgb CoatedBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
         return Rgb(0.0f);
     }
     const Vec3 o = upwards(wo), i = upwards(wi);
-    const bool is_closed = returned >= 0 && coat.is_specular() && is_black(albedo) &&
-                           std::holds_alternative<LambertBsdf>(base);
+    const bool is_closed =
+        returned >= 0 && coat.is_specular() && is_black(albedo) && std::holds_alternative<LambertBsdf>(base);
     return coat.evaluate(o, i) + (is_closed ? diffuse_value(o, i) : walked_value(o, i));
 }
 

@@ -142,7 +142,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const 
     if (s) {
         const float chosen = reflects ? reflection : 1 - reflection;
         s->density_ratio = chosen / (reflects ? f : 1 - f);
-        s->density *= chosen;
+        s->density = s->specular ? chosen : density(wo, s->direction);
     }
     return s;
 }

@@ -59,14 +59,16 @@ float fifth(float x) {
 /// What all directions of incidence have in common, given one.
 struct HairBsdf::Fibre {
     float sin_o, cos_o, phi_o;
-    float gamma_o, gamma_t;             ///< azimuth of where light enters, outside and inside, against the normal there
-    std::array<Rgb, orders> share;      ///< of light, by how often it was reflected inside
-    std::array<float, orders> chosen;   ///< probabilities
+    float gamma_o, gamma_t;            ///< azimuth of where light enters, outside and inside, against the normal there
+    std::array<Rgb, orders> share;     ///< of light, by how often it was reflected inside
+    std::array<float, orders> chosen;  ///< probabilities
 
     Fibre(const HairBsdf& hair, const Vec3& wo);
 
     /// By how much an order turns light around the fibre, without roughness.
-    float turn(int order) const { return 2 * static_cast<float>(order) * gamma_t - 2 * gamma_o + static_cast<float>(order) * pi; }
+    float turn(int order) const {
+        return 2 * static_cast<float>(order) * gamma_t - 2 * gamma_o + static_cast<float>(order) * pi;
+    }
 
     /// Sine and cosine of the inclination of wo against an order's scales.
     std::pair<float, float> tilted(const HairBsdf& hair, int order) const {
@@ -81,7 +83,8 @@ struct HairBsdf::Fibre {
     /// Density of an order at a direction.
     float density(const HairBsdf& hair, int order, const Vec3& wi) const {
         const auto [sin, cos] = tilted(hair, order);
-        const float m = along(safe_sqrt(1 - sqr(wi.x)), cos, wi.x, sin, hair.variance_[static_cast<std::size_t>(order)]);
+        const float m =
+            along(safe_sqrt(1 - sqr(wi.x)), cos, wi.x, sin, hair.variance_[static_cast<std::size_t>(order)]);
         if (order == orders - 1) {
             return m / (2 * pi);
         }
@@ -165,8 +168,7 @@ std::optional<BsdfSample> HairBsdf::sample(const Vec3& wo, float u, const Vec2& 
     const float c = 1 + v * std::log(x + (1 - x) * std::exp(-2 / v));
     const float sin_i = std::clamp(-c * sin + safe_sqrt(1 - c * c) * std::cos(2 * pi * u2.y) * cos, -1.0f, 1.0f);
     const float cos_i = safe_sqrt(1 - sqr(sin_i));
-    const float turn =
-        order == orders - 1 ? 2 * pi * rest : fibre.turn(order) + sample_trimmed_logistic(rest, scale_);
+    const float turn = order == orders - 1 ? 2 * pi * rest : fibre.turn(order) + sample_trimmed_logistic(rest, scale_);
     const float phi = fibre.phi_o + turn;
     const Vec3 wi(sin_i, cos_i * std::cos(phi), cos_i * std::sin(phi));
     const float density_of_it = density(wo, wi);
