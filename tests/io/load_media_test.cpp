@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace wend {
@@ -85,8 +87,9 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
                  "test.pbrt:3:49: error: a colour must be finite and not negative");
     EXPECT_PRED2(contains, message("homogeneous", "\"float g\" 1"),
                  "test.pbrt:3:49: error: \"g\" must lie between -1 and 1");
-    EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"mie\""),
-                 "test.pbrt:3:49: error: the phase function \"mie\" is unknown; known are draine, henyeygreenstein");
+    EXPECT_PRED2(
+        contains, message("homogeneous", "\"string phase\" \"mie\""),
+        "test.pbrt:3:49: error: the phase function \"mie\" is unknown; known are cornetteshanks, draine, fog, ");
     EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"draine\" \"float alpha\" -1"),
                  "\"alpha\" must lie between 0 and");
     EXPECT_PRED2(contains, message("homogeneous", "\"float scale\" -1"), "\"scale\" must not be below 0");
@@ -110,6 +113,45 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
     EXPECT_PRED2(contains, message("rgbgrid", ""), "needs the parameter");
     EXPECT_PRED2(contains, message("nanovdb", "\"string filename\" \"none-such.nvdb\""), "there is no file");
     EXPECT_PRED2(contains, message("nanovdb", ""), "\"string filename\"");
+}
+
+TEST(LoadMedia, PhaseFunctionsByNameAndByTable) {
+    const auto phase = [](const std::string& parameters) {
+        return load_one<HomogeneousMedium>("homogeneous", "\"string phase\" " + parameters).phase;
+    };
+    for (const float c : {-0.9f, 0.1f, 0.8f}) {
+        EXPECT_FLOAT_EQ(phase("\"rayleigh\"").evaluate(c), Draine(0, 1).evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"cornetteshanks\" \"float g\" 0.6").evaluate(c), Draine(0.6f, 1).evaluate(c));
+        HenyeyGreensteinMixture mixture;
+        mixture.add(3, 0.8f);
+        mixture.add(1, -0.4f);
+        EXPECT_FLOAT_EQ(
+            phase("\"henyeygreensteinmixture\" \"float g\" [ 0.8 -0.4 ] \"float weights\" [ 3 1 ]").evaluate(c),
+            mixture.evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"fog\" \"float diameter\" 9").evaluate(c), fog_droplets(9).evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"fournierforand\" \"float index\" 1.15").evaluate(c),
+                        fournier_forand(1.15f, 3.5835f).evaluate(c));
+    }
+    const std::string table = "\"float angles\" [ 0 60 180 ] \"float values\" [ 4 1 2 ]";
+    const PhaseFunction listed = phase("\"tabulated\" " + table);
+    EXPECT_FLOAT_EQ(listed.evaluate(1) / listed.evaluate(0.5f), 4);
+    EXPECT_FLOAT_EQ(listed.evaluate(-0.25f) / listed.evaluate(0.5f), 1.5f);
+    std::ofstream(std::filesystem::temp_directory_path() / "wend_phase.txt") << "# Mie\n0 4\n60 1 # middle\n\n180 2\n";
+    EXPECT_FLOAT_EQ(phase("\"tabulated\" \"string file\" \"wend_phase.txt\"").evaluate(0.2f), listed.evaluate(0.2f));
+    std::ofstream(std::filesystem::temp_directory_path() / "wend_phase_bad.txt") << "0 4\n60\n";
+
+    const auto refused = [&](const std::string& parameters, const std::string& message) {
+        EXPECT_PRED2(contains, message_of([&] { phase(parameters); }), message);
+    };
+    refused("\"fog\" \"float diameter\" 3", "the diameter of fog droplets must be from 5 to 50");
+    refused("\"fournierforand\" \"float slope\" 6", "the slope must be");
+    refused("\"tabulated\"", "two at least");
+    refused("\"tabulated\" \"float angles\" [ 0 180 ] \"float values\" [ 1 ]", "2 \"angles\", but 1 \"values\"");
+    refused("\"tabulated\" \"float angles\" [ 0 90 ] \"float values\" [ 1 1 ]", "must reach from straight on");
+    refused("\"tabulated\" \"string file\" \"wend_phase_bad.txt\"", "wend_phase_bad.txt:2:1: error: expected an angle");
+    refused("\"tabulated\" \"string file\" \"no_such_phase.txt\"", "no_such_phase.txt");
+    refused("\"henyeygreensteinmixture\" \"float g\" [ 1 ] \"float weights\" [ 1 ]", "\"g\" must lie within");
+    refused("\"henyeygreensteinmixture\" \"float g\" [ 0 0.1 ] \"float weights\" [ 1 ]", "as many numbers");
 }
 
 TEST(LoadMedia, UniformGridSamplesAreInTheMiddleOfTheirCells) {

@@ -1,6 +1,7 @@
 #include <wend/io/load/cloud.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/phase_functions.h>
 #include <wend/io/negative_values.h>
 #include <wend/io/volume_file.h>
 
@@ -27,40 +28,6 @@ Rgb load_emitted(LoadContext& context, const pbrt::ParameterSet& p) {
 /// pbrt calls it "Lescale", scenes for its earlier versions "LeScale".
 std::string_view emission_scale_name(const pbrt::ParameterSet& p) {
     return p.has("LeScale") ? "LeScale" : "Lescale";
-}
-
-PhaseFunction load_draine(LoadContext& context, const pbrt::ParameterSet& p) {
-    const float g = load_mean_cosine(context, p), alpha = p.get_float("alpha", 1);
-    if (!(alpha >= 0 && alpha <= Draine::largest_alpha)) {
-        throw InputError(p.place_of("alpha"),
-                         fmt::format("\"alpha\" must lie between 0 and {}, not {}", Draine::largest_alpha, alpha));
-    }
-    return PhaseFunction(Draine(g, alpha));
-}
-
-PhaseFunction load_henyey_greenstein(LoadContext& context, const pbrt::ParameterSet& p) {
-    return PhaseFunction(HenyeyGreenstein{load_mean_cosine(context, p)});
-}
-
-/// What "phase" may name.
-struct PhaseLoader {
-    std::string_view name;
-    PhaseFunction (*load)(LoadContext&, const pbrt::ParameterSet&);
-};
-constexpr std::array phase_loaders{PhaseLoader{"draine", load_draine},
-                                   PhaseLoader{"henyeygreenstein", load_henyey_greenstein}};
-
-PhaseFunction load_phase(LoadContext& context, const pbrt::ParameterSet& p) {
-    const std::string name = p.get_string("phase", "henyeygreenstein");
-    std::string known;
-    for (const PhaseLoader& loader : phase_loaders) {
-        if (name == loader.name) {
-            return loader.load(context, p);
-        }
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", loader.name);
-    }
-    throw InputError(p.place_of("phase"),
-                     fmt::format("the phase function \"{}\" is unknown; known are {}", name, known));
 }
 
 struct Coefficients {
