@@ -156,7 +156,7 @@ TEST(LoadLights, EmissionFollowsTheOrientation) {
             const auto hit = scene.intersect({{0.3f, 0.2f, side * 5}, {0, 0, -side}});
             EXPECT_TRUE(hit);
             const Rgb radiance =
-                emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal, {0, 0, side});
+                emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal, hit->uv, {0, 0, side});
             (side > 0 ? above_and_below.first : above_and_below.second) = radiance.g;
         }
         return above_and_below;

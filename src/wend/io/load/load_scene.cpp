@@ -67,6 +67,7 @@ private:
     }
 
     void add_shape(pbrt::ShapeEntity& entity) {
+        const std::size_t patches = patches_of(entity);
         std::optional<Shape> shape = load_shape(context_, entity);
         if (!shape) {
             return;
@@ -83,13 +84,35 @@ private:
         surface.flip_normal = flips_normal(entity);
         surface.alpha = load_alpha(entity);
         if (entity.area_light) {
-            attach(area_lights_[*entity.area_light], entity.world_from_object, surface, scene_.lights);
+            add_area_light(entity, patches, surface);
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
         places_.push_back(entity.place);
+    }
+
+    /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is
+    /// loaded, which takes its parameters.
+    static std::size_t patches_of(const pbrt::ShapeEntity& entity) {
+        if (entity.type == "bilinearmesh") {
+            return std::max<std::size_t>(1, entity.parameters.get_ints("indices").size() / 4);
+        }
+        return entity.type == "cylinder" ? 1 : 0;
+    }
+
+    void add_area_light(const pbrt::ShapeEntity& entity, std::size_t patches, Surface& surface) {
+        if (std::holds_alternative<InterfaceMaterial>(scene_.materials[entity.material])) {
+            context_.warnings.add(entity.place,
+                                  "an AreaLightSource on a shape of \"interface\" material is ignored, as by pbrt");
+            return;
+        }
+        const Rgb* alpha = surface.alpha >= 0 ? scene_.textures.constant(surface.alpha) : nullptr;
+        const Presence presence = surface.alpha < 0           ? Presence::solid
+                                  : alpha && !(alpha->r > 0) ? Presence::unseen
+                                                              : Presence::partly;
+        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
     }
 
     /// Those of materials have none.
