@@ -35,6 +35,17 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// A picture before its white was balanced.
+Image as_in_scene(Image picture, const ColourMatrix& balance) {
+    if (!balance.is_identity()) {
+        const ColourMatrix back = balance.inverse();
+        for (Rgb& pixel : picture.pixels) {
+            pixel = back * pixel;
+        }
+    }
+    return picture;
+}
+
 // A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
 constexpr float classical_flights = 0.25f;
 
@@ -367,7 +378,7 @@ private:
         plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
                                        std::max(choice_.recorded_share(samples), fewest_recorded / walks));
         if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
-            plan.estimates = pixel_estimates(film_.beauty(), samples);
+            plan.estimates = pixel_estimates(as_in_scene(film_.beauty(), settings_.balance), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
                 plan.mean_estimate += static_cast<double>(estimate) / context_.pixels;

@@ -19,11 +19,32 @@ MediumId medium_id(const std::optional<std::size_t>& index) {
     return index ? static_cast<MediumId>(*index) : vacuum;
 }
 
+/// Forgets what is around cameras and in shapes, for integrators of surfaces alone. Materials may still bring media of
+/// their own.
+void leave_out_media(LoadContext& context, pbrt::Description& description) {
+    bool any = description.camera.medium.has_value();
+    description.camera.medium.reset();
+    for (pbrt::ShapeEntity& shape : description.shapes) {
+        any = any || shape.interior || shape.exterior;
+        shape.interior.reset();
+        shape.exterior.reset();
+    }
+    if (any) {
+        context.warnings.add(description.integrator.place,
+                             fmt::format("Integrator \"{}\" leaves out all media, as pbrt does: \"volpath\" has them",
+                                         description.integrator.type));
+    }
+}
+
 /// Fills a SceneDescription, part by part; each refers to those before.
 class SceneBuilder {
 public:
-    SceneBuilder(LoadContext& context, pbrt::Description& description, SceneDescription& scene)
-        : context_(context), description_(description), scene_(scene), textures_(context, scene.textures) {}
+    SceneBuilder(LoadContext& context, pbrt::Description& description, bool sees_media, SceneDescription& scene)
+        : context_(context),
+          description_(description),
+          sees_media_(sees_media),
+          scene_(scene),
+          textures_(context, scene.textures) {}
 
     void build() {
         for (const pbrt::TextureEntity& texture : description_.textures) {
@@ -57,7 +78,7 @@ private:
     void add_materials() {
         for (LoadedMaterial& material : load_materials(context_, textures_, description_.materials)) {
             std::optional<MediumId> inside;
-            if (material.inside) {
+            if (material.inside && sees_media_) {
                 inside = static_cast<MediumId>(scene_.media.size());
                 scene_.media.push_back(*material.inside);
             }
@@ -132,6 +153,7 @@ private:
 
     LoadContext& context_;
     pbrt::Description& description_;
+    bool sees_media_;
     SceneDescription& scene_;
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
@@ -153,10 +175,14 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     const FilmSettings film = load_film(context, description.film, overrides.resolution);
     const SamplerSettings sampler = load_sampler(context, description.sampler, description.options);
     const IntegratorSettings integrator = load_integrator(context, description.integrator);
+    if (!integrator.sees_media) {
+        leave_out_media(context, description);
+    }
     loaded.resolution = film.resolution;
     loaded.crop = film.crop;
     loaded.film_file = film.file;
     loaded.exposure = film.sensitivity * shutter_time(description.camera);
+    loaded.balance = film.balance;
     loaded.filter = load_filter(context, description.filter);
     loaded.sampler = sampler.kind;
     loaded.samples = sampler.samples;
@@ -166,7 +192,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.scene.camera = load_camera(context, description.camera, film.resolution);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
     context.warnings.add_unused("Option", description.options);
-    SceneBuilder(context, description, loaded.scene).build();
+    SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     loaded.files.assign(context.files->begin(), context.files->end());
     loaded.warnings = std::move(description.warnings);
     loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());
