@@ -14,12 +14,13 @@ constexpr float majorant_cell_voxels = 4;
 }  // namespace
 
 Rgb GridEmission::at(const Vec3& p) const {
+    const Rgb full = strength ? radiance * strength->interpolate(strength_from_world.point(p)) : radiance;
     if (!field) {
-        return radiance;
+        return full;
     }
     const float value = field->interpolate(field_from_world.point(p));
     if (black_body.empty()) {
-        return radiance * value;
+        return full * value;
     }
     const float kelvin = (value - temperature_offset) * temperature_scale;
     // Cooler than 100 K nothing is visible.
@@ -29,7 +30,7 @@ Rgb GridEmission::at(const Vec3& p) const {
     const float position = std::min(kelvin / black_body_step, static_cast<float>(black_body.size()) - 1.001f);
     const auto i = static_cast<std::size_t>(position);
     const float f = position - static_cast<float>(i);
-    return radiance * (black_body[i] * (1 - f) + black_body[i + 1] * f);
+    return full * (black_body[i] * (1 - f) + black_body[i + 1] * f);
 }
 
 GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box,

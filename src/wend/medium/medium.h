@@ -22,6 +22,8 @@ struct GridEmission {
     Rgb radiance;
     std::shared_ptr<const Grid> field;  ///< scale or temperature; null: emits wherever it absorbs
     AffineMap field_from_world;
+    std::shared_ptr<const Grid> strength;  ///< multiplies all of it; null: 1
+    AffineMap strength_from_world;
     /// Radiance of a black body at 0, step, 2 step, ... kelvin; empty if `field` is a plain scale.
     std::vector<Rgb> black_body;
     float black_body_step = 10;

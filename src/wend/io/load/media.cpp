@@ -171,6 +171,17 @@ std::shared_ptr<GridEmission> make_emission_sampler(const pbrt::ParameterSet& p,
     return emission;
 }
 
+/// Without "Lescale" pbrt looks up a grid of a single 1, in the middle of the box: half of that is left at its faces.
+void set_default_strength(GridEmission& emission, const Vec3i& size, const Transform& index_from_world) {
+    const VoxelBox middle{Vec3i(0), Vec3i(0)};
+    emission.strength = std::make_shared<const Grid>(Vec3i(0), Vec3i(1), std::span(&middle, 1),
+                                                     [](int, int, int) { return 1.0f; });
+    // The box is from -1/2 to 1/2 then.
+    emission.strength_from_world =
+        AffineMap(Transform::scale(1.0 / size.x, 1.0 / size.y, 1.0 / size.z) *
+                  Transform::translate(0.5 * (1 - size.x), 0.5 * (1 - size.y), 0.5 * (1 - size.z)) * index_from_world);
+}
+
 /// What a "uniformgrid" emits: by a grid of temperatures, or "Le" times a number or a grid of numbers.
 std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbrt::ParameterSet& p, const Vec3i& size,
                                                  const Transform& index_from_world) {
@@ -180,6 +191,7 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
     };
     const std::string_view scales_name = emission_scale_name(p);
     const std::vector<float> scales = p.get_floats(scales_name);
+    // One number in place of one a voxel, which pbrt refuses, is the same everywhere.
     const bool is_uniform = scales.size() <= 1;
     const float scale = scales.size() == 1 ? non_negative_float(p, scales_name, 1) : 1.0f;
     const std::vector<float> temperature = p.get_floats("temperature");
@@ -188,14 +200,22 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
         if (p.has("Le")) {
             throw InputError(p.place_of("Le"), "a medium takes either \"Le\" or \"temperature\"");
         }
+        auto emission = make_emission_sampler(p, grid_of(temperature, "temperature"), index_from_world, scale);
         if (!is_uniform) {
-            context.warnings.add(p.place_of(scales_name),
-                                 "a grid of emission scales beside one of temperatures is ignored");
+            emission->strength = grid_of(scales, scales_name);
+            emission->strength_from_world = AffineMap(index_from_world);
+        } else if (scales.empty()) {
+            set_default_strength(*emission, size, index_from_world);
         }
-        return make_emission_sampler(p, grid_of(temperature, "temperature"), index_from_world, scale);
+        return emission;
     }
     if (is_black(emitted)) {
         return nullptr;
+    }
+    if (scales.empty()) {
+        context.warnings.add(p.place_of("Le"),
+                             "\"Le\" is the same everywhere: without \"Lescale\", pbrt lets it fall from the middle of "
+                             "the box to a half at its faces, and to 0.42 on average");
     }
     auto emission = std::make_shared<GridEmission>();
     emission->radiance = emitted * scale;
