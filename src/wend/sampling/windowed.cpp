@@ -7,10 +7,23 @@
 namespace wend {
 namespace {
 
+/// A place and the whole number below.
+struct Place {
+    int cell;
+    double at;
+
+    /// Divided by the number of cells, and still in its cell.
+    float coordinate(int cells) const {
+        const auto value = static_cast<float>(at / cells);
+        const int rounded = static_cast<int>(value * static_cast<float>(cells));
+        return rounded == cell ? value : std::nextafter(value, rounded > cell ? -1.0f : 2.0f);
+    }
+};
+
 /// Where an integral that grows from `low` to `high`, linearly between whole numbers, reaches a share of what it is in
-/// the end, and the whole number below.
+/// the end.
 template <class Integral>
-double invert(double low, double high, double share, const Integral& integral) {
+Place invert(double low, double high, double share, const Integral& integral) {
     const double target = share * integral(high);
     int first = static_cast<int>(std::floor(low)), last = static_cast<int>(std::ceil(high));
     while (last - first > 1) {
@@ -20,7 +33,7 @@ double invert(double low, double high, double share, const Integral& integral) {
     const double from = std::max(static_cast<double>(first), low), to = std::min(static_cast<double>(last), high);
     const double before = integral(from), after = integral(to);
     const double part = after > before ? std::clamp((target - before) / (after - before), 0.0, 1.0) : 0.5;
-    return from + part * (to - from);
+    return {first, from + part * (to - from)};
 }
 
 }  // namespace
@@ -63,12 +76,12 @@ std::optional<WindowedPiecewiseConstant2D::Sample> WindowedPiecewiseConstant2D::
     if (!(x1 > x0 && y1 > y0) || !(integral(x0, y0, x1, y1) > 0)) {
         return std::nullopt;
     }
-    const double x = invert(x0, x1, double{u.x}, [&](double to) { return integral(x0, y0, to, y1); });
+    const Place x = invert(x0, x1, double{u.x}, [&](double to) { return integral(x0, y0, to, y1); });
     // Within the column of cells that holds x all rows are in proportion to their weights.
-    const double left = std::min(std::floor(x), static_cast<double>(width_ - 1));
-    const double y = invert(y0, y1, double{u.y}, [&](double to) { return integral(left, y0, left + 1, to); });
-    const Vec2 point(std::clamp(static_cast<float>(x / width_), window.min.x, window.max.x),
-                     std::clamp(static_cast<float>(y / height_), window.min.y, window.max.y));
+    const double left = x.cell;
+    const Place y = invert(y0, y1, double{u.y}, [&](double to) { return integral(left, y0, left + 1, to); });
+    const Vec2 point(std::clamp(x.coordinate(width_), window.min.x, window.max.x),
+                     std::clamp(y.coordinate(height_), window.min.y, window.max.y));
     const float found = density(point, window);
     return found > 0 ? std::optional(Sample{point, found}) : std::nullopt;
 }

@@ -195,8 +195,8 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
     const std::string_view scales_name = emission_scale_name(p);
     const std::vector<float> scales = p.get_floats(scales_name);
     // One number in place of one a voxel, which pbrt refuses, is the same everywhere.
-    const bool is_uniform = scales.size() <= 1;
-    const float scale = scales.size() == 1 ? non_negative_float(p, scales_name, 1) : 1.0f;
+    const bool is_uniform = scales.empty() || (scales.size() == 1 && size != Vec3i(1));
+    const float scale = is_uniform && !scales.empty() ? non_negative_float(p, scales_name, 1) : 1.0f;
     const std::vector<float> temperature = p.get_floats("temperature");
     const Rgb emitted = load_emitted(context, p);
     if (!temperature.empty()) {
