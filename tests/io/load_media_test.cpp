@@ -197,18 +197,63 @@ TEST(LoadMedia, GridEmission) {
     expect_near(hot.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
 }
 
-TEST(LoadMedia, RgbGridKeepsItsMeanColour) {
-    const LoadedScene loaded = load_text(medium_text(
+/// Coefficients at a point of the world.
+Rgb look_up(const ColourGrid& grid, const GridMedium& medium, const Vec3& p) {
+    return grid.interpolate(medium.to_index({p, Vec3(0, 0, 1)}).origin);
+}
+
+TEST(LoadMedia, RgbGridHasAColourAtEachVoxel) {
+    const auto medium = load_one<GridMedium>(
         "rgbgrid",
-        "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 0 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2"));
-    EXPECT_EQ(warnings_with(loaded, "rgbgrid"), 1);
-    const auto& medium = std::get<GridMedium>(loaded.scene.media[0]);
-    expect_near(medium.scattering() * density_at(medium, {0.25f, 0.5f, 0.5f}), Rgb(4.0f));
+        "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 1 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2");
+    ASSERT_TRUE(medium.voxels());
+    const Vec3 first(0.25f, 0.5f, 0.5f), between(0.5f, 0.5f, 0.5f), face(1, 0.5f, 0.5f);
+    expect_near(look_up(medium.voxels()->scattering, medium, first), {2, 4, 6});
+    expect_near(look_up(medium.voxels()->scattering, medium, between), Rgb(4.0f));
+    expect_near(look_up(medium.voxels()->scattering, medium, face), {3, 2, 1});
+    expect_near(look_up(medium.voxels()->absorption, medium, between), {0, 1, 0});
+    EXPECT_EQ(density_at(medium, first), 6);
+    EXPECT_GE(density_at(medium, between), 5);
+    expect_near(medium.scattering(), Rgb(4.0f));
+    expect_near(extinction_at(medium, between), {4, 5, 4});
+}
+
+TEST(LoadMedia, RgbGridsEmissionIsNotNormalized) {
     const auto red = load_one<GridMedium>(
         "rgbgrid", "\"rgb sigma_a\" [ 1 0 0 ] \"rgb sigma_s\" [ 2 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");
-    expect_near(red.absorption() * density_at(red, {0.5f, 0.5f, 0.5f}), {1, 0, 0});
-    expect_near(red.scattering() * density_at(red, {0.5f, 0.5f, 0.5f}), {2, 1, 1});
-    expect_near(red.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
+    const Vec3 middle(0.5f, 0.5f, 0.5f);
+    expect_near(red.emission()->at(middle), Rgb(1, 2, 3) * 213.71379f, 1e-2f);
+    expect_near(red.emitted_at(middle), {213.71379f, 0, 0}, 1e-2f);
+    const auto message = [](const std::string& parameters) {
+        return message_of([&] { load_one<GridMedium>("rgbgrid", parameters); });
+    };
+    EXPECT_PRED2(contains, message("\"rgb sigma_s\" [ 1 1 1 ] \"rgb Le\" [ 1 1 1 ]"), "beside \"rgb Le\"");
+    EXPECT_PRED2(contains, message("\"rgb sigma_s\" [ 1 1 1 ] \"float scale\" 1e7"), "mean free paths");
+}
+
+TEST(LoadMedia, RgbGridsMissingCoefficientIsOneUpToTheFaces) {
+    const auto medium = load_one<GridMedium>("rgbgrid", "\"rgb sigma_s\" [ 2 2 2 ] \"float scale\" 3");
+    const Vec3 face(1, 0.5f, 0.5f);
+    expect_near(look_up(medium.voxels()->absorption, medium, face), Rgb(3.0f));
+    expect_near(look_up(medium.voxels()->scattering, medium, face), Rgb(3.0f));
+}
+
+TEST(LoadMedia, TemperaturesWithoutAScaleGlowLessTowardsTheFaces) {
+    const auto grid = [](const std::string& scale) {
+        return load_one<GridMedium>("uniformgrid",
+                                    "\"integer nx\" 3 \"float density\" [ 1 1 1 ] \"float temperature\" [ 2000 2000 2000 ] "
+                                    "\"point3 p1\" [ 3 1 1 ]" +
+                                        scale,
+                                    "Translate 1 0 0 ");
+    };
+    const Vec3 middle(2.5f, 0.5f, 0.5f), quarter(1.75f, 0.5f, 0.5f);
+    const Rgb full = grid(" \"float Lescale\" 1").emission()->at(middle);
+    const auto falling = grid("");
+    expect_near(falling.emission()->at(middle), full);
+    expect_near(falling.emission()->at(quarter), full * 0.75f);
+    const auto scaled = grid(" \"float Lescale\" [ 0 4 0 ]");
+    expect_near(scaled.emission()->at(middle), full * 4.0f);
+    expect_near(scaled.emission()->at({2, 0.5f, 0.5f}), full * 2.0f);
 }
 
 TEST(LoadMedia, CloudFillsItsBoxFromBelow) {

@@ -19,11 +19,32 @@ MediumId medium_id(const std::optional<std::size_t>& index) {
     return index ? static_cast<MediumId>(*index) : vacuum;
 }
 
+/// Forgets what is around cameras and in shapes, for integrators of surfaces alone. Materials may still bring media of
+/// their own.
+void leave_out_media(LoadContext& context, pbrt::Description& description) {
+    bool any = description.camera.medium.has_value();
+    description.camera.medium.reset();
+    for (pbrt::ShapeEntity& shape : description.shapes) {
+        any = any || shape.interior || shape.exterior;
+        shape.interior.reset();
+        shape.exterior.reset();
+    }
+    if (any) {
+        context.warnings.add(description.integrator.place,
+                             fmt::format("Integrator \"{}\" leaves out all media, as pbrt does: \"volpath\" has them",
+                                         description.integrator.type));
+    }
+}
+
 /// Fills a SceneDescription, part by part; each refers to those before.
 class SceneBuilder {
 public:
-    SceneBuilder(LoadContext& context, pbrt::Description& description, SceneDescription& scene)
-        : context_(context), description_(description), scene_(scene), textures_(context, scene.textures) {}
+    SceneBuilder(LoadContext& context, pbrt::Description& description, bool sees_media, SceneDescription& scene)
+        : context_(context),
+          description_(description),
+          sees_media_(sees_media),
+          scene_(scene),
+          textures_(context, scene.textures) {}
 
     void build() {
         for (const pbrt::TextureEntity& texture : description_.textures) {
@@ -61,7 +82,7 @@ private:
         }
         for (LoadedMaterial& material : materials) {
             std::optional<MediumId> inside;
-            if (material.inside) {
+            if (material.inside && sees_media_) {
                 inside = static_cast<MediumId>(scene_.media.size());
                 scene_.media.push_back(*material.inside);
             }
@@ -72,6 +93,7 @@ private:
     }
 
     void add_shape(pbrt::ShapeEntity& entity) {
+        const std::size_t patches = patches_of(entity);
         std::optional<Shape> shape = load_shape(context_, entity);
         if (!shape) {
             return;
@@ -88,13 +110,35 @@ private:
         surface.flip_normal = flips_normal(entity);
         surface.alpha = load_alpha(entity);
         if (entity.area_light) {
-            attach(area_lights_[*entity.area_light], entity.world_from_object, surface, scene_.lights);
+            add_area_light(entity, patches, surface);
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
         places_.push_back(entity.place);
+    }
+
+    /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is
+    /// loaded, which takes its parameters.
+    static std::size_t patches_of(const pbrt::ShapeEntity& entity) {
+        if (entity.type == "bilinearmesh") {
+            return std::max<std::size_t>(1, entity.parameters.get_ints("indices").size() / 4);
+        }
+        return entity.type == "cylinder" ? 1 : 0;
+    }
+
+    void add_area_light(const pbrt::ShapeEntity& entity, std::size_t patches, Surface& surface) {
+        if (std::holds_alternative<InterfaceMaterial>(scene_.materials[entity.material])) {
+            context_.warnings.add(entity.place,
+                                  "an AreaLightSource on a shape of \"interface\" material is ignored, as by pbrt");
+            return;
+        }
+        const Rgb* alpha = surface.alpha >= 0 ? scene_.textures.constant(surface.alpha) : nullptr;
+        const Presence presence = surface.alpha < 0           ? Presence::solid
+                                  : alpha && !(alpha->r > 0) ? Presence::unseen
+                                                              : Presence::partly;
+        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
     }
 
     /// Those of materials have none.
@@ -114,6 +158,7 @@ private:
 
     LoadContext& context_;
     pbrt::Description& description_;
+    bool sees_media_;
     SceneDescription& scene_;
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
@@ -135,10 +180,14 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     const FilmSettings film = load_film(context, description.film, overrides.resolution);
     const SamplerSettings sampler = load_sampler(context, description.sampler, description.options);
     const IntegratorSettings integrator = load_integrator(context, description.integrator);
+    if (!integrator.sees_media) {
+        leave_out_media(context, description);
+    }
     loaded.resolution = film.resolution;
     loaded.crop = film.crop;
     loaded.film_file = film.file;
     loaded.exposure = film.sensitivity * shutter_time(description.camera);
+    loaded.balance = film.balance;
     loaded.filter = load_filter(context, description.filter);
     loaded.sampler = sampler.kind;
     loaded.samples = sampler.samples;
@@ -147,7 +196,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.scene.light_tree = integrator.light_tree;
     loaded.scene.camera = load_camera(context, description.camera, film.resolution);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
-    SceneBuilder(context, description, loaded.scene).build();
+    SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     context.warnings.add_unused("Option", description.options);
     loaded.files.assign(context.files->begin(), context.files->end());
     loaded.warnings = std::move(description.warnings);
