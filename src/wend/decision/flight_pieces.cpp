@@ -87,7 +87,7 @@ void FlightPieces::finish(float length, float ahead, bool level) {
         lit += or_nothing(piece.in_scattered * part);
         piece.cumulative = lit;
     }
-    const float most_of_beam = lit;
+    const float most_of_beam = lit > 0 ? lit : std::numeric_limits<float>::infinity();
     for (int i = 0; i < near_count_; ++i) {
         Near& near = *near_[i];
         near.part = or_nothing(near.part * dot(scattering_rate_, transmitted(near.along.closest())));

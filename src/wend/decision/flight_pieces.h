@@ -42,7 +42,8 @@ public:
     bool has_room_for_near() const { return near_count_ - beam_count_ < most_near; }
 
     /// A light whose beam the ray crosses there, of this in-scattered radiance times squared distance. Before the first
-    /// piece, and as long as there is room. No beam is taken to bring more than all pieces: something may stand in it.
+    /// piece, and as long as there is room. Where pieces are lit, no beam
+    /// is taken to bring more than all of them: something may stand in it.
     void add_beam(const Equiangular& along, float strength);
     bool has_room_for_beam() const { return beam_count_ < most_beams; }
 

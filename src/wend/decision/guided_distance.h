@@ -31,7 +31,8 @@ concept AdjointAlongRays = requires(const F& field, const Vec3& p, const Ray& ra
 enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 
 /// Flights through homogeneous media in proportion to the light along the ray as the cells of the volume's field tell
-/// it (FlightPieces). Through grids they are classical (docs/experiments/distance.md).
+/// it (FlightPieces), and to that of the beams that it crosses; where the field knows nothing yet, to that alone.
+/// Through grids they are classical (docs/experiments/distance.md).
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
@@ -52,7 +53,7 @@ public:
     }
 
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (!looks_ahead(medium, start) || !volume_->is_trained()) {
+        if (!looks_ahead(medium, start) || (!volume_->is_trained() && beams_.empty())) {
             return classical_.sample(medium, start, u, random);
         }
         return fly(std::get<HomogeneousMedium>(medium), start, u);
@@ -77,8 +78,16 @@ private:
         float confidence = 0;
         const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
-        medium.phase.visit([&](const auto& phase) { confidence = look_along(start, phase, reach, pieces); });
-        pieces.finish(start.length, ahead(start), levels());
+        medium.phase.visit([&](const auto& phase) {
+            look_for_beams(start, phase, pieces);
+            confidence = volume_->is_trained() ? look_along(start, phase, reach, pieces) : 1.0f;
+        });
+        if (volume_->is_trained()) {
+            pieces.finish(start.length, ahead(start), levels());
+        } else {
+            pieces.add(start.length, 0);
+            pieces.finish(start.length, 0, false);
+        }
         const FlightPieces::Outcome outcome =
             pieces.sample(pieces.is_lit() ? defensive_fraction(confidence, start.weight) : 1.0f, u);
         Flight flight;
@@ -92,11 +101,8 @@ private:
         return flight;
     }
 
-    /// How far the cell at the beginning is to be trusted. `reach`: few flights go further.
     template <class Phase>
-    float look_along(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
-        const Vec3& before = start.ray.direction;
-        float confidence = 0;
+    void look_for_beams(const FlightStart& start, const Phase& phase, FlightPieces& pieces) const {
         for (const Beam& beam : beams_) {
             const auto part = pieces.has_room_for_beam() ? crossing(beam, start.ray, start.length) : std::nullopt;
             if (part) {
@@ -104,6 +110,13 @@ private:
                 pieces.add_beam(along, beam.intensity * phase.evaluate(along.cosine()));
             }
         }
+    }
+
+    /// How far the cell at the beginning is to be trusted. `reach`: few flights go further.
+    template <class Phase>
+    float look_along(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
+        const Vec3& before = start.ray.direction;
+        float confidence = 0;
         const auto look = [&](const auto& light, float t_in, float t_out) {
             if (!(t_in > 0)) {
                 confidence = light.confidence;

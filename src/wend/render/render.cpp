@@ -49,6 +49,8 @@ Image as_in_scene(Image picture, const ColourMatrix& balance) {
 
 // A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
 constexpr float classical_flights = 0.25f;
+// Beams say nothing of what is beside them.
+constexpr float share_beside_beams = 0.5f;
 
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
@@ -410,9 +412,13 @@ private:
                 }
             });
         };
-        if (preset.is_classical()) {
-            const bool ends_early = settings_.preset.is_classical();
-            run_with(ClassicalDecisions{{}, {}, ends_early ? ClassicalRoulette() : unguided_walks_end});
+        if (settings_.preset.is_classical()) {
+            run_with(ClassicalDecisions{{}, {}, ClassicalRoulette()});
+        } else if (preset.is_classical() && beams_.empty()) {
+            run_with(ClassicalDecisions{{}, {}, unguided_walks_end});
+        } else if (preset.is_classical()) {
+            run_with(GuidedDecisions{towards_beams_, GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
+                                     unguided_walks_end});
         } else {
             walk_guided(preset, run_with);
         }
@@ -436,8 +442,8 @@ private:
                                         preset.direction ? &learned.surface_caustics() : nullptr,
                                         preset.direction ? &learned.volume_caustics() : nullptr);
         const auto run_guided = [&](const auto& survival) {
-            if (preset.guides_distance()) {
-                run_with(GuidedDecisions{distance, direction, survival});
+            if (preset.guides_distance() || !beams_.empty()) {
+                run_with(GuidedDecisions{preset.guides_distance() ? distance : towards_beams_, direction, survival});
             } else {
                 run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
             }
@@ -455,6 +461,10 @@ private:
     Schedule schedule_;
     LearningContext context_;
     const std::vector<Beam> beams_ = beams_of(scene_.lights());
+    /// Fields that never learn, for flights that follow beams alone.
+    const guide::Fields unknown_{guide::Field::empty(scene_.bounds()), guide::Field::empty(scene_.bounds())};
+    const GuidedDistance<guide::Field> towards_beams_{&unknown_.surface, &unknown_.volume, share_beside_beams,
+                                                      DistanceGuiding::scatter_and_distance, beams_};
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
     Learners learners_;
