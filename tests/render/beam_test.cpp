@@ -1,0 +1,92 @@
+// The light of a spot's beam in fog, scattered once, against its integral along the ray.
+#include <tests/support/scenes.h>
+
+#include <wend/film/film.h>
+#include <wend/numeric/quadrature.h>
+#include <wend/render/render.h>
+#include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+constexpr float extinction = 0.25f, scattering = 0.2f, mean_cosine = 0.4f;
+constexpr float across = 0.02f, height = 0.5f;  // where the camera's ray passes the lamp by
+
+/// A lamp above the ray of a picture of one pixel, shining down across it and along it.
+SpotLight lamp() {
+    const Transform light_from_world =
+        Transform::look_at({across, height, 3}, {across, -1, 3.6f}, {1, 0, 0});
+    SpotLight spot;
+    spot.position = {across, height, 3};
+    spot.intensity = Rgb(3, 2, 1);
+    spot.light_from_world = AffineMap(light_from_world);
+    spot.cos_inner = std::cos(0.25f);
+    spot.cos_outer = std::cos(0.35f);
+    return spot;
+}
+
+/// ∫ σs p I T / r² along the ray from (0, 0, 0) in the direction z.
+Rgb exact() {
+    const SpotLight spot = lamp();
+    const HenyeyGreenstein phase{mean_cosine};
+    Rgb sum(0.0f);
+    constexpr int steps = 200000;
+    constexpr float end = 8;
+    for (int i = 0; i < steps; ++i) {
+        const Vec3 p(0, 0, end * (static_cast<float>(i) + 0.5f) / steps);
+        const Vec3 from_light = p - spot.position;
+        const float r = length(from_light);
+        const Rgb intensity = intensity_towards(spot, from_light / r);
+        sum += intensity * (scattering * phase.evaluate(dot(Vec3(0, 0, 1), -from_light / r)) *
+                            std::exp(-extinction * (p.z + r)) / (r * r) * end / steps);
+    }
+    return sum;
+}
+
+Moments rendered(const char* preset, int samples, int channel) {
+    SceneDescription s = test::scene_with_camera({0, 0, 0}, {0, 0, 1}, 0.001f, 1);
+    const Rgb absorbed(extinction - scattering);
+    s.camera_medium = test::add_homogeneous(s, absorbed, Rgb(scattering), mean_cosine);
+    test::add_parallelogram(s, {-50, -50, 20}, {100, 0, 0}, {0, 100, 0}, test::add_diffuse(s, Rgb(0.0f)));
+    s.lights.push_back(lamp());
+    const Scene scene(std::move(s));
+    Moments moments;
+    for (std::uint64_t seed = 0; seed < 64; ++seed) {
+        Film film({1, 1}, {{0, 0}, {1, 1}});
+        RenderSettings settings;
+        settings.preset = parse_preset(preset);
+        settings.samples = samples;
+        settings.seed = seed;
+        settings.max_depth = 1;
+        render(scene, film, settings);
+        moments.add(film.beauty().at(0, 0)[channel]);
+    }
+    return moments;
+}
+
+TEST(SlowBeam, EveryPresetHasItsLight) {
+    // 64 renders of so many samples each.
+    const Rgb expected = exact();
+    ASSERT_GT(expected.g, 0);
+    for (const int samples : {4, 16, 256}) {
+        for (const char* preset : {"classical", "direction", "distance+direction", "full"}) {
+            const Moments green = rendered(preset, samples, 1);
+            EXPECT_TRUE(agrees(green, static_cast<double>(expected.g), 4, 1e-3))
+                << preset << ' ' << samples << ": " << green.mean() << " +- " << green.standard_error() << ", exactly "
+                << expected.g;
+        }
+    }
+    // By that many, 1 % is seen, and beams are drawn better than by chance.
+    const Moments classical = rendered("classical", 256, 1), guided = rendered("distance+direction", 256, 1);
+    EXPECT_LT(guided.standard_error(), 0.003 * static_cast<double>(expected.g));
+    EXPECT_LT(3 * guided.standard_error(), classical.standard_error());
+}
+
+}  // namespace
+}  // namespace wend
