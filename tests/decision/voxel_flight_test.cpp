@@ -18,9 +18,8 @@ constexpr int side = 4;
 /// A grid of 4 x 4 x 4 uneven values up to `largest`.
 Grid uneven_grid(std::uint64_t seed, float largest) {
     const VoxelBox all{Vec3i(0), Vec3i(side - 1)};
-    return {Vec3i(0), Vec3i(side), std::span(&all, 1), [&](int x, int y, int z) {
-                return largest * Pcg32(hash_of(seed, x, y, z)).uniform();
-            }};
+    return {Vec3i(0), Vec3i(side), std::span(&all, 1),
+            [&](int x, int y, int z) { return largest * Pcg32(hash_of(seed, x, y, z)).uniform(); }};
 }
 
 struct Coefficients {
@@ -42,8 +41,8 @@ Coefficients uneven_coefficients() {
 
 GridMedium uneven_medium(std::shared_ptr<const GridEmission> emission = nullptr) {
     const Coefficients c = uneven_coefficients();
-    return {c.bound,  Transform(), Box3(Vec3(0.0f), Vec3(side - 1)), c.voxels, Rgb(1.0f), Rgb(1.0f), PhaseFunction(),
-            emission};
+    return {c.bound,         Transform(), Box3(Vec3(0.0f), Vec3(side - 1)), c.voxels, Rgb(1.0f), Rgb(1.0f),
+            PhaseFunction(), emission};
 }
 
 const Ray ray{{-0.5f, 0.4f, 0.9f}, normalize(Vec3(2, 0.6f, 0.7f))};

@@ -160,7 +160,8 @@ TEST(LoadFilm, NamesWhatItIgnores) {
                   "Film \"gbuffer\" \"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 5000 "
                   "\"float maxcomponentvalue\" 10 \"bool savefp16\" false \"float frob\" 3");
     EXPECT_EQ(loaded.warnings.size(), 4u);
-    for (const char* text : {"\"gbuffer\" is not implemented", "\"canon_eos_5d\"", "\"maxcomponentvalue\"", "\"frob\""}) {
+    for (const char* text :
+         {"\"gbuffer\" is not implemented", "\"canon_eos_5d\"", "\"maxcomponentvalue\"", "\"frob\""}) {
         EXPECT_EQ(warnings_with(loaded, text), 1) << text;
     }
 }

@@ -114,10 +114,11 @@ ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parame
     const std::string sensor = parameters.get_string("sensor", "cie1931");
     const bool is_measured = sensor != "cie1931";
     if (is_measured) {
-        context.warnings.add(parameters.place_of("sensor"),
-                             fmt::format("the colours of the sensor \"{}\" are those of \"cie1931\" with the same white: "
-                                         "pbrt's differ by a few per cent",
-                                         sensor));
+        context.warnings.add(
+            parameters.place_of("sensor"),
+            fmt::format("the colours of the sensor \"{}\" are those of \"cie1931\" with the same white: "
+                        "pbrt's differ by a few per cent",
+                        sensor));
     }
     const float given = parameters.get_float("whitebalance", 0);
     const float temperature = given == 0 && is_measured ? white_of_sensors : given;
@@ -143,8 +144,8 @@ void replace_film(LoadContext& context, const pbrt::Entity& film) {
     } else {
         static_cast<void>(p.get_string("coordinatesystem", "camera"));
     }
-    context.warnings.add(film.place, fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place; {}",
-                                                 film.type, lost));
+    context.warnings.add(film.place,
+                         fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place; {}", film.type, lost));
 }
 
 }  // namespace
@@ -298,8 +299,7 @@ IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& int
                      "simplevolpath", "sppm", "volpath"});
     }
     IntegratorSettings settings;
-    settings.sees_media =
-        std::count(std::begin(surfaces_alone), std::end(surfaces_alone), integrator.type) == 0;
+    settings.sees_media = std::count(std::begin(surfaces_alone), std::end(surfaces_alone), integrator.type) == 0;
     settings.max_depth = p.get_int("maxdepth", 5);
     if (settings.max_depth < 0) {
         throw InputError(p.place_of("maxdepth"),
