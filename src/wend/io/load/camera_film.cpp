@@ -107,18 +107,16 @@ int positive_int(const pbrt::ParameterSet& parameters, std::string_view name, in
     return value;
 }
 
-/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none; beside that it sees
-/// as the standard observer does.
+/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none.
 ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parameters) {
     constexpr float white_of_sensors = 6500;
     const std::string sensor = parameters.get_string("sensor", "cie1931");
     const bool is_measured = sensor != "cie1931";
-    if (is_measured) {
-        context.warnings.add(
-            parameters.place_of("sensor"),
-            fmt::format("the colours of the sensor \"{}\" are those of \"cie1931\" with the same white: "
-                        "pbrt's differ by a few per cent",
-                        sensor));
+    if (is_measured && sensor != "nikon_d850") {
+        context.warnings.add(parameters.place_of("sensor"),
+                             fmt::format("the colours of the sensor \"{}\" are not known: those of \"nikon_d850\" "
+                                         "take their place",
+                                         sensor));
     }
     const float given = parameters.get_float("whitebalance", 0);
     const float temperature = given == 0 && is_measured ? white_of_sensors : given;
@@ -126,7 +124,7 @@ ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parame
         return {};
     }
     try {
-        return white_balance(double{temperature});
+        return is_measured ? sensor_balance(double{temperature}) : white_balance(double{temperature});
     } catch (const InputError& error) {
         throw InputError(parameters.place_of("whitebalance"), error.what());
     }
