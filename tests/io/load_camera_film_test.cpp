@@ -160,7 +160,8 @@ TEST(LoadFilm, NamesWhatItIgnores) {
                   "Film \"gbuffer\" \"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 5000 "
                   "\"float maxcomponentvalue\" 10 \"bool savefp16\" false \"float frob\" 3");
     EXPECT_EQ(loaded.warnings.size(), 4u);
-    for (const char* text : {"\"gbuffer\" is not implemented", "\"canon_eos_5d\"", "\"maxcomponentvalue\"", "\"frob\""}) {
+    for (const char* text :
+         {"\"gbuffer\" is not implemented", "\"canon_eos_5d\"", "\"maxcomponentvalue\"", "\"frob\""}) {
         EXPECT_EQ(warnings_with(loaded, text), 1) << text;
     }
 }
@@ -171,8 +172,8 @@ TEST(LoadFilm, BalancesWhite) {
     EXPECT_TRUE(balance("\"float whitebalance\" 0").is_identity());
     EXPECT_EQ(balance("\"float whitebalance\" 4000").m, white_balance(4000).m);
     // A measured sensor has a white of its own.
-    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\"").m, white_balance(6500).m);
-    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\" \"float whitebalance\" 5000").m, white_balance(5000).m);
+    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\"").m, sensor_balance(6500).m);
+    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\" \"float whitebalance\" 5000").m, sensor_balance(5000).m);
     EXPECT_PRED2(contains, message_of([&] { balance("\"float whitebalance\" -5"); }),
                  "test.pbrt:1:12: error: the white of -5 K");
 }

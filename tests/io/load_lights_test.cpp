@@ -166,7 +166,8 @@ TEST(LoadLights, GoniometricLightsHaveTheirPoleAlongY) {
     }
     const auto file = write_picture_of("wend_load_goniometric.exr", image);
     const std::string text = "LightSource \"goniometric\" \"string filename\" \"" + file.string() + "\"";
-    const auto light = only_light<GoniometricLight>("Translate 1 2 3 " + text + " \"rgb I\" [ 2 1 0 ] \"float scale\" 5");
+    const auto light =
+        only_light<GoniometricLight>("Translate 1 2 3 " + text + " \"rgb I\" [ 2 1 0 ] \"float scale\" 5");
     EXPECT_EQ(light.position, Vec3(1, 2, 3));
     expect_near(shines(light, {0, 1, 0}), {20, 10, 0});
     EXPECT_TRUE(is_black(shines(light, {0, -1, 0})));
@@ -196,7 +197,6 @@ TEST(LoadLights, UnknownLightsAreRefused) {
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"laser\""); }), "known are distant");
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"point\" \"rgb I\" [ 1 -1 1 ]"); }), "not negative");
 }
-
 
 TEST(LoadLights, EachTriangleIsALight) {
     const LoadedScene loaded = load_text("AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ 5 6 7 ] " +
@@ -237,8 +237,8 @@ TEST(LoadLights, EmissionFollowsTheOrientation) {
         for (const float side : {1.0f, -1.0f}) {
             const auto hit = scene.intersect({{0.3f, 0.2f, side * 5}, {0, 0, -side}});
             EXPECT_TRUE(hit);
-            const Rgb radiance =
-                emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal, hit->uv, {0, 0, side});
+            const Rgb radiance = emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal,
+                                                  hit->uv, {0, 0, side});
             (side > 0 ? above_and_below.first : above_and_below.second) = radiance.g;
         }
         return above_and_below;
@@ -277,8 +277,8 @@ TEST(LoadLights, AreaLightsShineByTheirPicture) {
     image.at(0, 0) = Rgb(9.0f);
     const auto file = write_picture_of("wend_load_area.exr", image);
     const std::string text = "AreaLightSource \"diffuse\" \"string filename\" \"" + file.string() + "\" ";
-    const LoadedScene loaded = load_text(text + "\"float scale\" 2 " + two_triangles +
-                                         "\"point2 uv\" [ 0 0  1 0  1 1  0 1 ]");
+    const LoadedScene loaded =
+        load_text(text + "\"float scale\" 2 " + two_triangles + "\"point2 uv\" [ 0 0  1 0  1 1  0 1 ]");
     const Light& light = loaded.scene.lights.at(1);
     // The first row is where v is 1.
     expect_near(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, 1}), Rgb(18.0f));

@@ -240,11 +240,12 @@ TEST(LoadMedia, RgbGridsMissingCoefficientIsOneUpToTheFaces) {
 
 TEST(LoadMedia, TemperaturesWithoutAScaleGlowLessTowardsTheFaces) {
     const auto grid = [](const std::string& scale) {
-        return load_one<GridMedium>("uniformgrid",
-                                    "\"integer nx\" 3 \"float density\" [ 1 1 1 ] \"float temperature\" [ 2000 2000 2000 ] "
-                                    "\"point3 p1\" [ 3 1 1 ]" +
-                                        scale,
-                                    "Translate 1 0 0 ");
+        return load_one<GridMedium>(
+            "uniformgrid",
+            "\"integer nx\" 3 \"float density\" [ 1 1 1 ] \"float temperature\" [ 2000 2000 2000 ] "
+            "\"point3 p1\" [ 3 1 1 ]" +
+                scale,
+            "Translate 1 0 0 ");
     };
     const Vec3 middle(2.5f, 0.5f, 0.5f), quarter(1.75f, 0.5f, 0.5f);
     const Rgb full = grid(" \"float Lescale\" 1").emission()->at(middle);

@@ -144,6 +144,22 @@ TEST(WhiteBalance, IsThatOfABlackBodyWhereDaylightEnds) {
     EXPECT_THROW(white_balance(std::nan("")), InputError);
 }
 
+TEST(SensorBalance, IsCloseToThatOfTheObserverAndContinuous) {
+    const auto ratio = [](double t) { return sensor_balance(t) * Rgb(1.0f) / (white_balance(t) * Rgb(1.0f)); };
+    // Below, the white is that of a black body.
+    for (double t = 4000; t < 12000; t *= 1.01) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(ratio(t)[c], 1, 0.12f) << t;
+            EXPECT_NEAR(ratio(1.01 * t)[c], ratio(t)[c], 5e-3f) << t;
+        }
+    }
+    // Of what is white in the scene.
+    const Rgb white = sensor_balance(5000) * Rgb(1.0f);
+    EXPECT_NEAR(white.r, 0.799f, 2e-3f);
+    EXPECT_NEAR(white.g, 1.011f, 2e-3f);
+    EXPECT_NEAR(white.b, 1.303f, 2e-3f);
+}
+
 TEST(ColourMatrix, TheInverseUndoesIt) {
     const ColourMatrix m = white_balance(4000);
     const Rgb there_and_back = m.inverse() * (m * Rgb(1, 2, 3));

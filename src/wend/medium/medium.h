@@ -21,8 +21,8 @@ namespace wend {
 struct GridEmission {
     /// Emitted radiance where `field` is 1, or what multiplies the black body.
     Rgb radiance;
-    std::shared_ptr<const Grid> field;  ///< scale or temperature; null: emits wherever it absorbs
-    AffineMap field_from_world;  ///< of colours as well
+    std::shared_ptr<const Grid> field;          ///< scale or temperature; null: emits wherever it absorbs
+    AffineMap field_from_world;                 ///< of colours as well
     std::shared_ptr<const ColourGrid> colours;  ///< multiply `radiance`, in place of a field; null: 1
     std::shared_ptr<const Grid> strength;       ///< multiplies all of it; null: 1
     AffineMap strength_from_world;

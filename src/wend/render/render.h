@@ -1,8 +1,8 @@
 // Rendering: passes over the picture, and training between them. A render can be watched, stopped, saved and resumed.
 #pragma once
 
-#include <wend/core/colour_matrix.h>
 #include <wend/core/archive.h>
+#include <wend/core/colour_matrix.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/guide/fit.h>

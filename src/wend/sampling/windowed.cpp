@@ -48,8 +48,8 @@ WindowedPiecewiseConstant2D::WindowedPiecewiseConstant2D(std::span<const float> 
     for (int y = 0; y < height; ++y) {
         double in_row = 0;
         for (int x = 0; x < width; ++x) {
-            in_row += static_cast<double>(weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                                   static_cast<std::size_t>(x)]);
+            in_row += static_cast<double>(
+                weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]);
             sums_[static_cast<std::size_t>(y + 1) * row + static_cast<std::size_t>(x + 1)] = entry(x + 1, y) + in_row;
         }
     }

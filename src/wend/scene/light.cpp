@@ -207,7 +207,8 @@ namespace {
 
 /// What is asked of either kind of area light: nothing of others.
 template <class Ask>
-auto ask_area_light(const Light& light, const Ask& ask) -> std::optional<decltype(ask(std::get<TriangleLight>(light)))> {
+auto ask_area_light(const Light& light, const Ask& ask)
+    -> std::optional<decltype(ask(std::get<TriangleLight>(light)))> {
     if (const auto* triangle = std::get_if<TriangleLight>(&light)) {
         return ask(*triangle);
     }

@@ -114,9 +114,9 @@ struct PortalInfiniteLight {
     std::shared_ptr<const PortalLight> portal;
 };
 
-using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight,
-                           QuadricLight, MediumLight, SpotLight, GoniometricLight, ProjectionLight,
-                           PortalInfiniteLight>;
+using Light =
+    std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight,
+                 MediumLight, SpotLight, GoniometricLight, ProjectionLight, PortalInfiniteLight>;
 
 /// A connection from `p` to the light; none where it cannot shine. `u` places it on the light, `random` in its depth.
 std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random);

@@ -125,8 +125,8 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
 
         /// Of a point that shines up to an outer angle around its own z axis. Who stands within it sees no less than
         /// of one that shines everywhere.
-        static Bounds in_cone(const Vec3& position, const AffineMap& light_from_world, float cos_inner,
-                              float cos_outer, float intensity) {
+        static Bounds in_cone(const Vec3& position, const AffineMap& light_from_world, float cos_inner, float cos_outer,
+                              float intensity) {
             Bounds b{Box3(position), {0, 0, 1}, -1, 0, 4 * pi * intensity, false};
             const auto axis = axis_of(light_from_world);
             if (axis) {
@@ -134,8 +134,8 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
                 constexpr float margin = 1e-3f;
                 b.axis = *axis;
                 b.cos_o = cos_inner;
-                const float width = std::acos(std::clamp(cos_outer, -1.0f, 1.0f)) -
-                                    std::acos(std::clamp(cos_inner, -1.0f, 1.0f));
+                const float width =
+                    std::acos(std::clamp(cos_outer, -1.0f, 1.0f)) - std::acos(std::clamp(cos_inner, -1.0f, 1.0f));
                 b.cos_e = std::cos(std::min(width + margin, pi));
             }
             return b;

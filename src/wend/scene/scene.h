@@ -151,8 +151,8 @@ public:
     const SurfaceElement& flat_element(int light) const { return flat_lights_[static_cast<std::size_t>(light)]; }
     /// Those of the description, and then the media that glow.
     const std::vector<Light>& lights() const { return lights_; }
-    /// The probability that a lamp's surface is there at a point of it; 1 for one that no ray meets, which shines with all
-    /// that it has.
+    /// The probability that a lamp's surface is there at a point of it; 1 for one that no ray meets, which shines with
+    /// all that it has.
     float presence(int light, const Vec2& uv, const Vec3& position) const;
     /// The light that a medium is, as an index of lights(); -1: none.
     int medium_light(MediumId id) const { return medium_lights_[static_cast<std::size_t>(id)]; }

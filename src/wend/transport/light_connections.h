@@ -231,14 +231,13 @@ private:
             return std::nullopt;
         }
         const Vec3 arriving = -way->legs().back().ray.direction;
-        Sight sight{
-            way->direction,
-            infinity,
-            is_far ? environment_radiance(source, way->legs().back().ray.origin, -arriving)
-                   : emitted_radiance(source, way->end.normal, way->end.uv, arriving),
-            chosen.density() * way->density_ratio,
-            towards(directions, way->direction),
-            {}};
+        Sight sight{way->direction,
+                    infinity,
+                    is_far ? environment_radiance(source, way->legs().back().ray.origin, -arriving)
+                           : emitted_radiance(source, way->end.normal, way->end.uv, arriving),
+                    chosen.density() * way->density_ratio,
+                    towards(directions, way->direction),
+                    {}};
         sight.passage = pass(scene_, d_.distance, *way, sight.interior ? &*sight.interior : nullptr, sampler_.random());
         return sight;
     }

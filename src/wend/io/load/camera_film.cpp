@@ -107,16 +107,15 @@ int positive_int(const pbrt::ParameterSet& parameters, std::string_view name, in
     return value;
 }
 
-/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none; beside that it sees
-/// as the standard observer does.
+/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none.
 ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parameters) {
     constexpr float white_of_sensors = 6500;
     const std::string sensor = parameters.get_string("sensor", "cie1931");
     const bool is_measured = sensor != "cie1931";
-    if (is_measured) {
+    if (is_measured && sensor != "nikon_d850") {
         context.warnings.add(parameters.place_of("sensor"),
-                             fmt::format("the colours of the sensor \"{}\" are those of \"cie1931\" with the same white: "
-                                         "pbrt's differ by a few per cent",
+                             fmt::format("the colours of the sensor \"{}\" are not known: those of \"nikon_d850\" "
+                                         "take their place",
                                          sensor));
     }
     const float given = parameters.get_float("whitebalance", 0);
@@ -125,7 +124,7 @@ ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parame
         return {};
     }
     try {
-        return white_balance(double{temperature});
+        return is_measured ? sensor_balance(double{temperature}) : white_balance(double{temperature});
     } catch (const InputError& error) {
         throw InputError(parameters.place_of("whitebalance"), error.what());
     }
@@ -143,8 +142,8 @@ void replace_film(LoadContext& context, const pbrt::Entity& film) {
     } else {
         static_cast<void>(p.get_string("coordinatesystem", "camera"));
     }
-    context.warnings.add(film.place, fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place; {}",
-                                                 film.type, lost));
+    context.warnings.add(film.place,
+                         fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place; {}", film.type, lost));
 }
 
 }  // namespace
@@ -298,8 +297,7 @@ IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& int
                      "simplevolpath", "sppm", "volpath"});
     }
     IntegratorSettings settings;
-    settings.sees_media =
-        std::count(std::begin(surfaces_alone), std::end(surfaces_alone), integrator.type) == 0;
+    settings.sees_media = std::count(std::begin(surfaces_alone), std::end(surfaces_alone), integrator.type) == 0;
     settings.max_depth = p.get_int("maxdepth", 5);
     if (settings.max_depth < 0) {
         throw InputError(p.place_of("maxdepth"),

@@ -43,10 +43,10 @@ Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::En
 
 void require_square(const Image& image, const pbrt::Entity& light) {
     if (image.width != image.height) {
-        throw InputError(light.parameters.place_of("filename"),
-                         fmt::format("the picture of {} light must be square (equal-area mapping), not {} x {}",
-                                     light.type == "infinite" ? "an infinite" : "a goniometric", image.width,
-                                     image.height));
+        throw InputError(
+            light.parameters.place_of("filename"),
+            fmt::format("the picture of {} light must be square (equal-area mapping), not {} x {}",
+                        light.type == "infinite" ? "an infinite" : "a goniometric", image.width, image.height));
     }
 }
 
@@ -124,8 +124,7 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
     const pbrt::ParameterSet& p = light.parameters;
     const float fov = p.get_float("fov", 90);
     if (!(fov > 0 && fov < 180)) {
-        throw InputError(p.place_of("fov"),
-                         fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
+        throw InputError(p.place_of("fov"), fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
     }
     ProjectionLight projector;
     projector.picture = std::make_shared<const LightPicture>(load_picture(context, textures, light));
@@ -309,9 +308,8 @@ namespace {
 
 void attach_to_quadric(const AreaLight& light, Presence presence, const Transform& world_from_object,
                        const Surface& surface, std::vector<Light>& lights) {
-    QuadricLight source =
-        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), world_from_object,
-                           surface.flip_normal, light.radiance, light.two_sided);
+    QuadricLight source = make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)),
+                                             world_from_object, surface.flip_normal, light.radiance, light.two_sided);
     // Exact where the transform keeps shapes similar.
     source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(source.determinant)));
     source.presence = presence;

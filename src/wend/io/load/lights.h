@@ -20,8 +20,8 @@ struct AreaLight {
     Rgb radiance;
     /// Multiplies the radiance; null: 1.
     std::shared_ptr<const LightPicture> picture;
-    /// Where positive, the power that each of pbrt's shapes (of a mesh, each triangle) emits if `radiance` has luminance
-    /// 1, and whatever the picture's is.
+    /// Where positive, the power that each of pbrt's shapes (of a mesh, each triangle) emits if `radiance` has
+    /// luminance 1, and whatever the picture's is.
     float power = 0;
     bool two_sided = false;
 
@@ -31,8 +31,8 @@ struct AreaLight {
 AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light);
 
 /// Makes a surface shine: appends a light for each of its primitives and lets the surface refer to them. Triangles
-/// without area stay dark. `shapes`: how many shapes the surface's triangles are to pbrt, each with the power of one; 0:
-/// as many as triangles.
+/// without area stay dark. `shapes`: how many shapes the surface's triangles are to pbrt, each with the power of one;
+/// 0: as many as triangles.
 void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
             Surface& surface, std::vector<Light>& lights);
 

@@ -135,9 +135,9 @@ private:
             return;
         }
         const Rgb* alpha = surface.alpha >= 0 ? scene_.textures.constant(surface.alpha) : nullptr;
-        const Presence presence = surface.alpha < 0           ? Presence::solid
+        const Presence presence = surface.alpha < 0          ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
-                                                              : Presence::partly;
+                                                             : Presence::partly;
         attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
     }
 

@@ -21,7 +21,7 @@ struct LoadedScene {
     SceneDescription scene;
     Vec2i resolution{0, 0};
     PixelRect crop;
-    float exposure = 1;  ///< multiplies the film's samples: shutter time times ISO / 100
+    float exposure = 1;    ///< multiplies the film's samples: shutter time times ISO / 100
     ColourMatrix balance;  ///< multiplies them as well: what makes the film's white that of the picture
     Filter filter = Filter::box();
     SamplerKind sampler = SamplerKind::sobol;

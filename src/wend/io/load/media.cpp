@@ -144,8 +144,8 @@ std::shared_ptr<GridEmission> make_emission_sampler(const pbrt::ParameterSet& p,
 /// Without "Lescale" pbrt looks up a grid of a single 1, in the middle of the box: half of that is left at its faces.
 void set_default_strength(GridEmission& emission, const Vec3i& size, const Transform& index_from_world) {
     const VoxelBox middle{Vec3i(0), Vec3i(0)};
-    emission.strength = std::make_shared<const Grid>(Vec3i(0), Vec3i(1), std::span(&middle, 1),
-                                                     [](int, int, int) { return 1.0f; });
+    emission.strength =
+        std::make_shared<const Grid>(Vec3i(0), Vec3i(1), std::span(&middle, 1), [](int, int, int) { return 1.0f; });
     // The box is from -1/2 to 1/2 then.
     emission.strength_from_world =
         AffineMap(Transform::scale(1.0 / size.x, 1.0 / size.y, 1.0 / size.z) *
@@ -242,7 +242,8 @@ Grid make_ringed_grid(const Place& place, const Vec3i& size, float outside,
     }
 }
 
-/// One of the parameters of a "rgbgrid": colours of voxels, times a scale, or the scale everywhere where there are none.
+/// One of the parameters of a "rgbgrid": colours of voxels, times a scale, or the scale everywhere where there are
+/// none.
 struct VoxelColours {
     std::vector<Rgb> values;
     float scale = 1;
@@ -305,9 +306,9 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
         }
     }
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
-    auto bound = std::make_shared<const Grid>(make_ringed_grid(
-        entity.place, size, absorption.outside() + scattering.outside(),
-        [&](std::size_t voxel) { return max_value(absorption.at(voxel) + scattering.at(voxel)); }));
+    auto bound = std::make_shared<const Grid>(
+        make_ringed_grid(entity.place, size, absorption.outside() + scattering.outside(),
+                         [&](std::size_t voxel) { return max_value(absorption.at(voxel) + scattering.at(voxel)); }));
     require_trackable(entity, *bound, index_from_world.inverse(), all_cells(size));
     std::shared_ptr<GridEmission> emission;
     if (!emitted.values.empty()) {

@@ -9,8 +9,8 @@ namespace wend {
 /// clamped to 0 (blue below some 1950 K). `temperature` in kelvin. Throws InputError unless it is positive and finite.
 Rgb blackbody_rgb(double temperature);
 
-/// Tristimulus values of a black body whose radiance is 1 where it is largest over all wavelengths. `temperature` must be
-/// positive.
+/// Tristimulus values of a black body whose radiance is 1 where it is largest over all wavelengths. `temperature` must
+/// be positive.
 Xyz blackbody_xyz(double temperature);
 
 /// What pbrt's rgb film shows of an emissive medium of this temperature with LeScale 1. There the emitted radiance is

@@ -50,9 +50,8 @@ Xyz integrate(const Spectrum& spectrum, Xyz (*matching)(double)) {
     return sum;
 }
 
-constexpr ColourMatrix to_rec709{{{{3.2404542, -1.5371385, -0.4985314},
-                                   {-0.9692660, 1.8760108, 0.0415560},
-                                   {0.0556434, -0.2040259, 1.0572252}}}};
+constexpr ColourMatrix to_rec709{
+    {{{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}}}};
 /// The tristimulus values that this matrix maps to (1, 1, 1).
 constexpr Xyz white{0.95047, 1.0, 1.08883};
 

@@ -5,6 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
 namespace wend {
 namespace {
 
@@ -30,7 +35,43 @@ Tristimulus daylight(double temperature) {
     return from_chromaticity(x, (-3 * x + 2.870) * x - 0.275);
 }
 
+/// What a sensor's colours are over those that white_balance() has, at a temperature.
+struct SensorColours {
+    double temperature;
+    ColourMatrix colours;
+};
+
+// Of the Nikon D850, from its responses, the 24 patches of a ColorChecker and the CIE's daylight, at 1 nm.
+constexpr std::array<SensorColours, 4> nikon_d850{{
+    {4000, {{{{0.8686, 0.1465, -0.0526}, {-0.0219, 1.0232, -0.0148}, {-0.0307, 0.0237, 0.9102}}}}},
+    {5000, {{{{0.9343, 0.0692, -0.0334}, {-0.0119, 1.0152, -0.0118}, {-0.0110, 0.0075, 0.9516}}}}},
+    {6500, {{{{0.9982, -0.0026, -0.0127}, {-0.0006, 1.0002, -0.0038}, {-0.0009, -0.0024, 0.9863}}}}},
+    {10000, {{{{1.0669, -0.0756, 0.0130}, {0.0155, 0.9738, 0.0122}, {0.0037, -0.0079, 1.0186}}}}},
+}};
+
+/// Interpolated in the inverse of the temperature, by which the colours of daylight are about evenly spaced.
+ColourMatrix colours_of_sensor(double temperature) {
+    const double t = std::clamp(temperature, nikon_d850.front().temperature, nikon_d850.back().temperature);
+    std::size_t i = 0;
+    while (i + 2 < nikon_d850.size() && t > nikon_d850[i + 1].temperature) {
+        ++i;
+    }
+    const SensorColours &warm = nikon_d850[i], &cool = nikon_d850[i + 1];
+    const double part = (1 / warm.temperature - 1 / t) / (1 / warm.temperature - 1 / cool.temperature);
+    ColourMatrix between;
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t column = 0; column < 3; ++column) {
+            between.m[row][column] = std::lerp(warm.colours.m[row][column], cool.colours.m[row][column], part);
+        }
+    }
+    return between;
+}
+
 }  // namespace
+
+ColourMatrix sensor_balance(double temperature) {
+    return colours_of_sensor(temperature) * white_balance(temperature);
+}
 
 ColourMatrix white_balance(double temperature) {
     constexpr double lowest = 1000, highest = 100000;

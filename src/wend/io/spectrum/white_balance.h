@@ -9,4 +9,9 @@ namespace wend {
 /// the white of a black body. Throws InputError unless the temperature lies in [1000, 100000].
 ColourMatrix white_balance(double temperature);
 
+/// What pbrt's measured sensors make of it: the sensor's responses to the patches of a colour chart in that daylight,
+/// mapped to the patches' colours in the white of Rec. 709 by least squares, for scenes whose light is about white.
+/// This is the matrix of the Nikon D850; other cameras differ from it less than from the standard observer.
+ColourMatrix sensor_balance(double temperature);
+
 }  // namespace wend
