@@ -220,8 +220,7 @@ private:
                     row.values[slots[p]] = static_cast<float>(reader_.next(property.type));
                 }
             }
-            if (!row.finite(VertexRow::x, 3) || (has_normals && !row.finite(VertexRow::nx, 3)) ||
-                (has_uvs && !row.finite(VertexRow::u, 2))) {
+            if (!row.finite(VertexRow::x, 3) || (has_uvs && !row.finite(VertexRow::u, 2))) {
                 throw InputError(reader_.place(), fmt::format("vertex {} is not finite", i));
             }
             const auto& v = row.values;

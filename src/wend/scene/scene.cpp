@@ -13,7 +13,7 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
     if (hit.surface->alpha < 0) {
         return true;
     }
-    const float alpha = textures.evaluate_grey(hit.surface->alpha, {hit.uv, hit.position});
+    const float alpha = textures.evaluate_grey(hit.surface->alpha, texture_point(hit));
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     const std::uint64_t h = hash_of(bits(ray.origin.x), bits(ray.origin.y), bits(ray.origin.z), bits(ray.direction.x),
                                     bits(ray.direction.y), bits(ray.direction.z), bits(hit.distance));
@@ -145,7 +145,7 @@ std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {
     if (!boundary || boundary->relative_albedo < 0) {
         return std::nullopt;
     }
-    return d_.textures.evaluate(boundary->relative_albedo, {hit.uv, hit.position});
+    return d_.textures.evaluate(boundary->relative_albedo, texture_point(hit));
 }
 
 Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {

@@ -84,6 +84,11 @@ struct Hit {
     int light = -1;                ///< area light, if any
 };
 
+/// Where textures are evaluated for a hit.
+inline TexturePoint texture_point(const Hit& hit) {
+    return {hit.uv, hit.position, hit.normal};
+}
+
 /// Embree's structures over the scene's surfaces.
 class RayCaster;
 
@@ -122,7 +127,7 @@ public:
         return d_.materials[static_cast<std::size_t>(hit.surface->material)];
     }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
-    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, {hit.uv, hit.position}); }
+    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, texture_point(hit)); }
     /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
     /// does not say.
     std::optional<Rgb> relative_albedo(const Hit& hit) const;

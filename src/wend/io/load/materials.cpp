@@ -186,7 +186,7 @@ private:
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.
     float load_ior(const pbrt::ParameterSet& p, float fallback) {
         float ior = fallback;
-        if (p.type_of("eta") != pbrt::ParameterType::spectrum) {
+        if (const auto type = p.type_of("eta"); !type || *type == pbrt::ParameterType::real) {
             ior = p.get_float("eta", fallback);
         } else {
             const pbrt::ColourValue value = p.get_colour("eta").value();
