@@ -24,7 +24,8 @@ std::uint32_t flat_primitives(const Shape& shape) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
         return static_cast<std::uint32_t>(mesh->triangle_count());
     }
-    return std::holds_alternative<Disk>(std::get<Quadric>(shape).shape) ? 1 : 0;
+    const auto* quadric = std::get_if<Quadric>(&shape);
+    return quadric && std::holds_alternative<Disk>(quadric->shape) ? 1 : 0;
 }
 
 }  // namespace

@@ -81,6 +81,7 @@ struct Hit {
     SurfaceElement element;
     bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
     float clearance = 0;           ///< by how much rounding may have moved the position
+    float thickness = 0;           ///< of a curve: what leaves it starts so far outside of it; 0: no curve
     int light = -1;                ///< area light, if any
 };
 
