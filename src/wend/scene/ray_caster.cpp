@@ -131,9 +131,14 @@ struct RayCaster::Query : EmbreeContext {
         if (inst >= 0) {
             offset = caster.placements_[static_cast<std::size_t>(inst)].object_from_world.vector(offset);
         }
-        const Vec3 origin = Vec3(bounds.org_x, bounds.org_y, bounds.org_z) + offset;
-        return next_crossing(curves, primitive, origin, {bounds.dir_x, bounds.dir_y, bounds.dir_z}, bounds.tnear,
-                             bounds.tfar, [&](float t) { return is_ahead(surface, primitive, instID[0], t, true); });
+        const Vec3 start(bounds.org_x, bounds.org_y, bounds.org_z), way(bounds.dir_x, bounds.dir_y, bounds.dir_z);
+        // What Embree asks for has the ray itself in its bounds: so has what is found, or the answer would depend on
+        // how far it looks.
+        const bool is_shifted = length_squared(offset) > 0;
+        const Box3 box = is_shifted ? wend::bounds(curves, primitive) : Box3();
+        return next_crossing(curves, primitive, start + offset, way, bounds.tnear, bounds.tfar, [&](float t) {
+            return is_ahead(surface, primitive, instID[0], t, true) && (!is_shifted || box.intersects(start + way * t));
+        });
     }
 
     const RayCaster& caster;
