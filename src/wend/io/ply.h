@@ -19,8 +19,8 @@ struct TriangleMeshData {
 /// Reads a PLY file: ascii or binary of either byte order, compressed by gzip or not. Polygons become fans of
 /// triangles; what is neither a position, normal (nx, ny, nz), uv (u, v or s, t, with or without the prefix `texture_`)
 /// nor a face's vertices is skipped. Throws InputError with the place (the line, in the header and in ascii files) when
-/// the file is missing, malformed or truncated, an index is out of range, or a position or texture coordinate is not
-/// finite.
+/// the file is missing, malformed or truncated, an index is out of range, or a position is not finite; texture
+/// coordinates that are not become 0.
 TriangleMeshData read_ply(const std::filesystem::path& file);
 
 }  // namespace wend

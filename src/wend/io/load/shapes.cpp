@@ -142,19 +142,20 @@ struct Patch {
 /// nothing is twisted.
 int strips_of(const TriangleMeshData& patches, const std::uint32_t* vertices) {
     constexpr int most = 32;
-    // Of the distance to the triangles, over the diameter; of texture coordinates and normals.
-    constexpr float tolerance = 1e-4f;
+    // Of the distance to the triangles, over the diameter; and of texture coordinates and normals.
+    constexpr float tolerance = 1e-4f, tolerance_of_values = 1e-2f;
     const Patch<Vec3> p(patches.positions, vertices);
     const float size = length(p.corners[3] - p.corners[0]) + length(p.corners[2] - p.corners[1]);
     float twist = size > 0 ? length(p.twist()) / size : 0.0f;
+    twist /= tolerance;
     if (!patches.uvs.empty()) {
-        twist = std::max(twist, Patch<Vec2>(patches.uvs, vertices).twist().length());
+        twist = std::max(twist, Patch<Vec2>(patches.uvs, vertices).twist().length() / tolerance_of_values);
     }
     if (!patches.normals.empty()) {
-        twist = std::max(twist, length(Patch<Vec3>(patches.normals, vertices).twist()));
+        twist = std::max(twist, length(Patch<Vec3>(patches.normals, vertices).twist()) / tolerance_of_values);
     }
-    // The error falls with the square of the number of strips.
-    return twist > 1e-5f ? std::clamp(static_cast<int>(std::ceil(std::sqrt(twist / (8 * tolerance)))), 2, most) : 1;
+    // The error is an eighth of the twist, and falls with the square of the number of strips.
+    return twist > 0.1f ? std::clamp(static_cast<int>(std::ceil(std::sqrt(twist / 8))), 2, most) : 1;
 }
 
 /// Appends a patch as a lattice of triangles, with vertices of its own, so that it has texture coordinates of its own.
