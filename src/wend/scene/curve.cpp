@@ -68,7 +68,7 @@ int halvings(const Bezier& c, float width) {
 class Search {
 public:
     Search(const CurveSet& curves, const CurveSegment& segment, const Vec3& direction, float t_min, float t_max,
-           const std::function<bool(float)>& accepted)
+           const CrossingFilter& accepted)
         : curves_(curves),
           segment_(segment),
           way_(direction),
@@ -162,7 +162,7 @@ private:
     Vec3 way_;
     float length_;
     float t_min_, t_max_;
-    const std::function<bool(float)>& accepted_;
+    const CrossingFilter& accepted_;
     std::optional<CurveCrossing> found_;
 };
 
@@ -187,7 +187,7 @@ Vec3 CurveSegment::normal_at(float u) const {
 
 std::optional<CurveCrossing> next_crossing(const CurveSet& curves, std::uint32_t primitive, const Vec3& origin,
                                            const Vec3& direction, float t_min, float t_max,
-                                           const std::function<bool(float t)>& accepted) {
+                                           const CrossingFilter& accepted) {
     const CurveSegment& segment = curves.segment_of(primitive);
     const Range range(curves, primitive);
     return Search(curves, segment, direction, t_min, t_max, accepted)

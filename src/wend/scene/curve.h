@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -49,11 +48,25 @@ struct CurveCrossing {
     float v;  ///< across, in [0, 1]
 };
 
+/// Decides about a crossing by its t: a function of the caller's, which it does not own.
+class CrossingFilter {
+public:
+    template <class Accept>
+    explicit CrossingFilter(const Accept& accept)
+        : accept_(&accept), call_([](const void* f, float t) { return (*static_cast<const Accept*>(f))(t); }) {}
+
+    bool operator()(float t) const { return call_(accept_, t); }
+
+private:
+    const void* accept_;
+    bool (*call_)(const void*, float);
+};
+
 /// Where a line meets a primitive next with t in (t_min, t_max), of those that are `accepted`. A ribbon lies in the
 /// depth of the curve that it is drawn around, as in pbrt (pharr2023, section 6.7).
 std::optional<CurveCrossing> next_crossing(const CurveSet& curves, std::uint32_t primitive, const Vec3& origin,
                                            const Vec3& direction, float t_min, float t_max,
-                                           const std::function<bool(float t)>& accepted);
+                                           const CrossingFilter& accepted);
 
 /// The surface where a ray of this direction has met a primitive.
 struct CurvePoint {

@@ -136,9 +136,10 @@ struct RayCaster::Query : EmbreeContext {
         // how far it looks.
         const bool is_shifted = length_squared(offset) > 0;
         const Box3 box = is_shifted ? wend::bounds(curves, primitive) : Box3();
-        return next_crossing(curves, primitive, start + offset, way, bounds.tnear, bounds.tfar, [&](float t) {
+        const auto accept = [&](float t) {
             return is_ahead(surface, primitive, instID[0], t, true) && (!is_shifted || box.intersects(start + way * t));
-        });
+        };
+        return next_crossing(curves, primitive, start + offset, way, bounds.tnear, bounds.tfar, CrossingFilter(accept));
     }
 
     const RayCaster& caster;
