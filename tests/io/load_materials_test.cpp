@@ -281,6 +281,7 @@ TEST(LoadTextures, Pictures) {
     expect_near(loaded("\"string wrap\" \"octahedralsphere\" \"string filter\" \"point\"").reflectance({1.1f, 0.75f}),
                 Rgb(0.5f), 0.01f);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"sRGB\"", "wend_load_texture.exr").scene, "not PNG"), 1);
+    EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"linear\"", "wend_load_texture.exr").scene, "not PNG"), 0);
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string filter\" \"frob\""); }), "the filter \"frob\"");
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"frob\""); }),
                  "the encoding \"frob\" is unknown");

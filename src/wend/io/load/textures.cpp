@@ -1,3 +1,4 @@
+#include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/textures.h>
@@ -46,6 +47,12 @@ ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::stri
         apply_gamma(picture, *gamma);
     }
     return picture;
+}
+
+/// That of a picture which is not PNG.
+std::string_view implied_encoding(const std::filesystem::path& file) {
+    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
+    return holds_floats ? "linear" : "sRGB";
 }
 
 /// A picture's colours, or one number a pixel in all channels.
@@ -175,7 +182,7 @@ TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
                                                                               : Channels::first;
     const std::filesystem::path file = required_file(context_, texture, "filename");
     image.image = picture(file, p.get_string("encoding", "sRGB"), p.place_of("encoding"), channels);
-    if (p.has("encoding") && !is_png(file)) {
+    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != implied_encoding(file)) {
         context_.warnings.add(p.place_of("encoding"),
                               "the encoding of a picture that is not PNG is not asked for: "
                               "numbers of 8 bits are sRGB, others linear");
