@@ -78,7 +78,11 @@ TEST(BsdfLobes, LobesOfAnotherRoughnessAreToldApart) {
 TEST(BsdfLobes, WhatHasNoAxisIsNotPictured) {
     EXPECT_TRUE(is_pictured_by_lobes(LambertBsdf{Rgb(1.0f)}));
     EXPECT_TRUE(is_pictured_by_lobes(conductor(0.1f)));
-    EXPECT_TRUE(is_pictured_by_lobes(CoatedDiffuseBsdf{Rgb(0.5f)}));
+    CoatedBsdf coated;
+    coated.base = LambertBsdf{Rgb(0.5f)};
+    EXPECT_TRUE(is_pictured_by_lobes(coated));
+    EXPECT_TRUE(is_pictured_by_lobes(DiffuseTransmissionBsdf{Rgb(0.5f), Rgb(0.2f)}));
+    EXPECT_FALSE(is_pictured_by_lobes(ThinDielectricBsdf{}));
     EXPECT_FALSE(is_pictured_by_lobes(conductor(0)));
     EXPECT_FALSE(is_pictured_by_lobes(DielectricBsdf{1.5f, 0.3f, 0.3f}));
     EXPECT_EQ(lobes_of(conductor(0), incident(0)).kappa(0), 0);

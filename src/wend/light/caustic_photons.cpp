@@ -27,7 +27,9 @@ struct Photon {
 
 bool is_smooth(const SceneDescription& scene, const Surface& surface) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    if (std::holds_alternative<InterfaceMaterial>(material)) {
+    // A thin sheet turns no light, and what a mixture is depends on the point.
+    if (std::holds_alternative<InterfaceMaterial>(material) || std::holds_alternative<MixMaterial>(material) ||
+        std::holds_alternative<ThinDielectricMaterial>(material)) {
         return false;
     }
     const TexturePoint anywhere{{0, 0}, {0, 0, 0}};

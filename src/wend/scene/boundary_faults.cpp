@@ -26,7 +26,10 @@ const std::vector<int>& surfaces_of(const SceneDescription& scene, int object) {
 bool is_passable(const SceneDescription& scene, const Surface& surface) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
     return std::holds_alternative<InterfaceMaterial>(material) ||
-           std::holds_alternative<DielectricMaterial>(material) || surface.alpha >= 0;
+           std::holds_alternative<DielectricMaterial>(material) ||
+           std::holds_alternative<ThinDielectricMaterial>(material) ||
+           std::holds_alternative<DiffuseTransmissionMaterial>(material) ||
+           std::holds_alternative<MixMaterial>(material) || surface.alpha >= 0;
 }
 
 /// All that bounds one medium.

@@ -1,7 +1,9 @@
 #include <wend/core/contracts.h>
+#include <wend/core/random.h>
 #include <wend/scene/material.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace wend {
@@ -17,7 +19,7 @@ struct Alpha {
 
 Alpha alpha_at(const Roughness& roughness, const Textures& textures, const TexturePoint& p) {
     const auto one = [&](TextureId id) {
-        const float r = std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f);
+        const float r = std::max(textures.evaluate_grey(id, p), 0.0f);
         return roughness.remap ? std::sqrt(r) : r;
     };
     return {one(roughness.u), one(roughness.v)};
@@ -27,10 +29,16 @@ Bsdf bsdf_of(const DiffuseMaterial& m, const Textures& textures, const TexturePo
     return LambertBsdf{clamp01(textures.evaluate(m.reflectance, p))};
 }
 
-Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p) {
+Bsdf bsdf_of(const DiffuseTransmissionMaterial& m, const Textures& textures, const TexturePoint& p) {
+    return DiffuseTransmissionBsdf{clamp01(textures.evaluate(m.reflectance, p) * m.scale),
+                                   clamp01(textures.evaluate(m.transmittance, p) * m.scale)};
+}
+
+/// `around`: index of what is around the metal.
+ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p, float around) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     if (m.reflectance < 0) {
-        return ConductorBsdf{textures.evaluate(m.eta, p), textures.evaluate(m.k, p), alpha.x, alpha.y};
+        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y};
     }
     // With eta = 1 the normal reflectance is k²/(4 + k²).
     Rgb k;
@@ -38,7 +46,11 @@ Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const Texture
     for (int c = 0; c < 3; ++c) {
         k[c] = 2 * std::sqrt(std::min(r[c], 0.9999f) / (1 - std::min(r[c], 0.9999f)));
     }
-    return ConductorBsdf{Rgb(1.0f), k, alpha.x, alpha.y};
+    return {Rgb(1 / around), k / around, alpha.x, alpha.y};
+}
+
+Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p) {
+    return metal_of(m, textures, p, 1);
 }
 
 Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
@@ -46,10 +58,65 @@ Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const Textur
     return DielectricBsdf{m.ior, alpha.x, alpha.y};
 }
 
-Bsdf bsdf_of(const CoatedDiffuseMaterial& m, const Textures& textures, const TexturePoint& p) {
+Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures&, const TexturePoint&) {
+    return ThinDielectricBsdf{m.ior};
+}
+
+/// Different for different points.
+std::uint64_t key_of(const Vec3& position) {
+    return hash_of(std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
+                   std::bit_cast<std::uint32_t>(position.z));
+}
+
+Bsdf bsdf_of(const CoatedMaterial& m, const Textures& textures, const TexturePoint& p) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
-    return CoatedDiffuseBsdf{clamp01(textures.evaluate(m.reflectance, p)), m.ior, alpha.x, alpha.y,
-                             m.inner_reflectance};
+    CoatedBsdf b;
+    b.coat = {m.ior, alpha.x, alpha.y};
+    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&m.base)) {
+        b.base = LambertBsdf{clamp01(textures.evaluate(diffuse->reflectance, p))};
+    } else {
+        b.base = metal_of(std::get<ConductorMaterial>(m.base), textures, p, m.ior);
+    }
+    b.thickness = std::max(textures.evaluate_grey(m.thickness, p), 1e-6f);
+    b.albedo = clamp01(textures.evaluate(m.albedo, p));
+    b.mean_cosine = std::clamp(textures.evaluate_grey(m.mean_cosine, p), -0.99f, 0.99f);
+    b.max_depth = m.max_depth;
+    b.walks = m.walks;
+    b.returned = m.returned;
+    b.seed = key_of(p.position);
+    return b;
+}
+
+Rgb absorption_of(const HairMaterial& m, const Textures& textures, const TexturePoint& p, float roughness_across) {
+    if (m.given == HairMaterial::Colour::absorption) {
+        return textures.evaluate(m.colour, p);
+    }
+    if (m.given == HairMaterial::Colour::pigments) {
+        // Per unit of concentration (deon2011), as pbrt has it.
+        const auto amount = [&](TextureId id) { return id < 0 ? 0.0f : std::max(textures.evaluate_grey(id, p), 0.0f); };
+        return Rgb(0.419f, 0.697f, 1.37f) * amount(m.eumelanin) + Rgb(0.187f, 0.4f, 1.05f) * amount(m.pheomelanin);
+    }
+    // chiang2016's fit of what the multiple scattering of a head of hair makes of it.
+    const float n = roughness_across;
+    const float fit = 5.969f + n * (-0.215f + n * (2.532f + n * (-10.73f + n * (5.574f + n * 0.245f))));
+    const Rgb colour = clamp01(textures.evaluate(m.colour, p));
+    Rgb absorption;
+    for (int c = 0; c < 3; ++c) {
+        absorption[c] = sqr(std::log(std::max(colour[c], 1e-4f)) / fit);
+    }
+    return absorption;
+}
+
+Bsdf bsdf_of(const HairMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const auto value = [&](TextureId id) { return textures.evaluate_grey(id, p); };
+    const float across = std::clamp(value(m.roughness_across), 0.01f, 1.0f);
+    return HairBsdf(2 * p.uv.y - 1, std::max(value(m.ior), 1.001f), absorption_of(m, textures, p, across),
+                    value(m.roughness_along), across, value(m.tilt) * (pi / 180));
+}
+
+Bsdf bsdf_of(const MixMaterial&, const Textures&, const TexturePoint&) {
+    WEND_EXPECT(false);
+    return LambertBsdf{};
 }
 
 Bsdf bsdf_of(const InterfaceMaterial&, const Textures&, const TexturePoint&) {
@@ -61,6 +128,14 @@ Bsdf bsdf_of(const InterfaceMaterial&, const Textures&, const TexturePoint&) {
 
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p) {
     return std::visit([&](const auto& m) { return bsdf_of(m, textures, p); }, material);
+}
+
+int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p) {
+    while (const auto* mix = std::get_if<MixMaterial>(&materials[static_cast<std::size_t>(index)])) {
+        const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(key_of(p.position), index) >> 32));
+        index = u < textures.evaluate_grey(mix->amount, p) ? mix->second : mix->first;
+    }
+    return index;
 }
 
 }  // namespace wend

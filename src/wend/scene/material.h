@@ -5,6 +5,7 @@
 #include <wend/scene/texture.h>
 
 #include <variant>
+#include <vector>
 
 namespace wend {
 
@@ -36,20 +37,60 @@ struct DielectricMaterial {
     TextureId relative_albedo = -1;
 };
 
-struct CoatedDiffuseMaterial {
+struct DiffuseTransmissionMaterial {
     TextureId reflectance = 0;
+    TextureId transmittance = 0;
+    float scale = 1;  ///< of both
+};
+
+struct ThinDielectricMaterial {
+    float ior = 1.5f;
+};
+
+/// CoatedBsdf by textures.
+struct CoatedMaterial {
+    std::variant<DiffuseMaterial, ConductorMaterial> base;
     float ior = 1.5f;
     Roughness roughness;
-    float inner_reflectance = 0;  ///< fresnel_diffuse_reflectance(1 / ior)
+    TextureId thickness = 0;
+    TextureId albedo = 0;
+    TextureId mean_cosine = 0;
+    int max_depth = 10;
+    int walks = 1;
+    float returned = -1;  ///< CoatedBsdf::returned, where the thickness is the same everywhere
+};
+
+/// HairBsdf by textures: absorption by one of three colours.
+struct HairMaterial {
+    enum class Colour { absorption, reflectance, pigments };
+
+    Colour given = Colour::pigments;
+    TextureId colour = -1;  ///< the absorption, or the reflectance of much hair (chiang2016)
+    TextureId eumelanin = -1;
+    TextureId pheomelanin = -1;
+    TextureId ior = 0;
+    TextureId roughness_along = 0;
+    TextureId roughness_across = 0;
+    TextureId tilt = 0;  ///< degrees
+};
+
+/// At each point one of two others, by chance.
+struct MixMaterial {
+    int first = 0;
+    int second = 0;        ///< index in the scene's materials
+    TextureId amount = 0;  ///< probability of the second
 };
 
 /// No scattering at all: a boundary between media of the same refractive index.
 struct InterfaceMaterial {};
 
-using Material =
-    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial>;
+using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
+                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, MixMaterial, InterfaceMaterial>;
 
-/// The BSDF at a point. The material must not be an interface.
+/// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);
+
+/// Which of the materials is there: `index`, or where that is a mixture, what the point has of it.
+int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p);
 
 }  // namespace wend

@@ -483,6 +483,42 @@ Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
     return (change - unit * dot(unit, change)) * ((dot(unit, hit.shading.n) < 0 ? -1.0f : 1.0f) / size);
 }
 
+SurfaceDerivatives RayCaster::derivatives(const Hit& hit) const {
+    const Placement* const placement =
+        hit.element.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.element.instance)] : nullptr;
+    SurfaceDerivatives d{hit.shading.s, hit.shading.t, {}, {}};
+    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+        const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.element.primitive}];
+        const Vec3 e1 = mesh->positions[i[1]] - mesh->positions[i[0]];
+        const Vec3 e2 = mesh->positions[i[2]] - mesh->positions[i[0]];
+        const bool has_uvs = !mesh->uvs.empty();
+        const Vec2 d1 = has_uvs ? mesh->uvs[i[1]] - mesh->uvs[i[0]] : Vec2(1, 0);
+        const Vec2 d2 = has_uvs ? mesh->uvs[i[2]] - mesh->uvs[i[0]] : Vec2(1, 1);
+        if (const Tangents u = tangents(e1, e2, d1, d2); u.valid) {
+            d.dpdu = u.dpdu;
+            d.dpdv = tangents(e1, e2, Vec2(d1.y, d1.x), Vec2(d2.y, d2.x)).dpdu;
+        }
+    } else if (!std::holds_alternative<CurveSet>(hit.surface->shape)) {
+        const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
+        const auto set = [&](const auto& solid) {
+            const QuadricTangents local = tangents(solid, solid.object_from_world.point(place));
+            d.dpdu = solid.world_from_object.vector(local.dpdu);
+            d.dpdv = solid.world_from_object.vector(local.dpdv);
+        };
+        const auto* quadric = std::get_if<Quadric>(&hit.surface->shape);
+        quadric ? set(*quadric) : set(std::get<CylinderShell>(hit.surface->shape));
+    } else {
+        return d;  // the frame is in the world already, and what a curve is across has no length of its own
+    }
+    if (placement) {
+        d.dpdu = placement->world_from_object.vector(d.dpdu);
+        d.dpdv = placement->world_from_object.vector(d.dpdv);
+    }
+    d.dndu = normal_change(hit, d.dpdu);
+    d.dndv = normal_change(hit, d.dpdv);
+    return d;
+}
+
 Box3 RayCaster::bounds() const {
     RTCBounds b;
     rtcGetSceneBounds(scene_.get(), &b);

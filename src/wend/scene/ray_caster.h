@@ -27,6 +27,8 @@ public:
     Hit complete(const RayHit& raw, const Ray& ray) const;
     /// Of the shading normal (Scene::normal_change).
     Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
+    /// How place and shading normal change with the surface parameters.
+    SurfaceDerivatives derivatives(const Hit& hit) const;
     Box3 bounds() const;
 
 private:

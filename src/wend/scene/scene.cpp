@@ -55,6 +55,10 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
         has_interfaces_ |= std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
     }
+    has_mixtures_ = std::any_of(d_.materials.begin(), d_.materials.end(),
+                                [](const Material& m) { return std::holds_alternative<MixMaterial>(m); });
+    has_details_ =
+        std::any_of(d_.details.begin(), d_.details.end(), [](const SurfaceDetail& d) { return !d.is_none(); });
     bounds_ = caster_->bounds();
     if (!(bounds_.min.x <= bounds_.max.x)) {
         bounds_ = Box3(Vec3(-1), Vec3(1));  // nothing but lights and media
@@ -138,7 +142,15 @@ std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
 }
 
 Hit Scene::complete(const RayHit& found, const Ray& ray) const {
-    return caster_->complete(found, ray);
+    Hit hit = caster_->complete(found, ray);
+    if (has_details_) {
+        const auto material = static_cast<std::size_t>(material_id(hit));
+        if (material < d_.details.size() && !d_.details[material].is_none()) {
+            hit.shading = detailed_frame(d_.details[material], hit.shading, hit.normal, texture_point(hit),
+                                         caster_->derivatives(hit), d_.textures);
+        }
+    }
+    return hit;
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {

@@ -11,6 +11,7 @@
 #include <wend/scene/material.h>
 #include <wend/scene/media_at.h>
 #include <wend/scene/shape.h>
+#include <wend/scene/surface_detail.h>
 #include <wend/scene/texture.h>
 #include <wend/scene/traced_ray.h>
 
@@ -52,6 +53,7 @@ struct SceneDescription {
     MediumId camera_medium = vacuum;
     Textures textures;
     std::vector<Material> materials;
+    std::vector<SurfaceDetail> details;  ///< by material, as far as there are any
     std::vector<Medium> media;
     std::vector<Surface> surfaces;
     std::vector<int> world_surfaces;  ///< those that are not part of an object definition
@@ -124,9 +126,8 @@ public:
     /// Whether intersect_interface() can return anything.
     bool has_interfaces() const { return has_interfaces_; }
 
-    const Material& material(const Hit& hit) const {
-        return d_.materials[static_cast<std::size_t>(hit.surface->material)];
-    }
+    /// What the surface is made of there: no mixture.
+    const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(material_id(hit))]; }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
     Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, texture_point(hit)); }
     /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
@@ -168,6 +169,10 @@ public:
 private:
     void add_emitting_media();
     MediumState medium_of_camera() const;
+    int material_id(const Hit& hit) const {
+        return has_mixtures_ ? material_at(d_.materials, hit.surface->material, d_.textures, texture_point(hit))
+                             : hit.surface->material;
+    }
 
     SceneDescription d_;
     std::unique_ptr<RayCaster> caster_;
@@ -181,6 +186,8 @@ private:
     bool has_point_like_lights_ = false;
     Box3 bounds_;
     bool has_interfaces_ = false;
+    bool has_mixtures_ = false;
+    bool has_details_ = false;
 };
 
 }  // namespace wend

@@ -99,6 +99,10 @@ QuadricPoint project_onto(const Cylinder& s, const Vec3& p) {
     return {{p.x * scale, p.y * scale, p.z}, {p.x, p.y, 0}, {-p.y, p.x, 0}, {1, 1, 0}};
 }
 
+QuadricTangents tangents_of(const Cylinder& s, const Vec3& p) {
+    return {Vec3(-p.y, p.x, 0) * s.phi_max, Vec3(0, 0, s.z_max - s.z_min)};
+}
+
 Box3 object_bounds(const Cylinder& s) {
     return {Vec3(-s.radius, -s.radius, s.z_min), Vec3(s.radius, s.radius, s.z_max)};
 }
@@ -120,6 +124,18 @@ QuadricPoint project_onto(const Sphere& s, const Vec3& p) {
 
 QuadricPoint project_onto(const Disk& s, const Vec3& p) {
     return {{p.x, p.y, s.height}, {0, 0, 1}, {-p.y, p.x, 0}, {0, 0, 0}};
+}
+
+QuadricTangents tangents_of(const Sphere& s, const Vec3& p) {
+    const auto theta = [&](float z) { return std::acos(std::clamp(z / s.radius, -1.0f, 1.0f)); };
+    const float across = std::max(std::hypot(p.x, p.y), 1e-12f);
+    const Vec3 dpdtheta(p.z * p.x / across, p.z * p.y / across, -across);
+    return {Vec3(-p.y, p.x, 0) * s.phi_max, dpdtheta * (theta(s.z_max) - theta(s.z_min))};
+}
+
+QuadricTangents tangents_of(const Disk& s, const Vec3& p) {
+    const float r = std::max(std::hypot(p.x, p.y), 1e-12f);
+    return {Vec3(-p.y, p.x, 0) * s.phi_max, Vec3(p.x, p.y, 0) * ((s.inner_radius - s.radius) / r)};
 }
 
 Box3 object_bounds(const Sphere& s) {
@@ -178,6 +194,14 @@ QuadricPoint project(const Quadric& quadric, const Vec3& p) {
 
 QuadricPoint project(const CylinderShell& cylinder, const Vec3& p) {
     return project_onto(cylinder.shape, p);
+}
+
+QuadricTangents tangents(const Quadric& quadric, const Vec3& p) {
+    return std::visit([&](const auto& s) { return tangents_of(s, p); }, quadric.shape);
+}
+
+QuadricTangents tangents(const CylinderShell& cylinder, const Vec3& p) {
+    return tangents_of(cylinder.shape, p);
 }
 
 Box3 bounds(const Quadric& quadric) {

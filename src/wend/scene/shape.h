@@ -110,6 +110,13 @@ struct QuadricPoint {
 QuadricPoint project(const Quadric& quadric, const Vec3& p);
 QuadricPoint project(const CylinderShell& cylinder, const Vec3& p);
 
+/// How the point moves with each of the surface parameters, object space.
+struct QuadricTangents {
+    Vec3 dpdu, dpdv;
+};
+QuadricTangents tangents(const Quadric& quadric, const Vec3& p);
+QuadricTangents tangents(const CylinderShell& cylinder, const Vec3& p);
+
 /// The largest coordinate of any of its points, at most, in object space.
 float extent(const Quadric& quadric);
 float extent(const CylinderShell& cylinder);

@@ -45,7 +45,7 @@ BoundarySurface surface_of_boundary(const SceneDescription& scene, MediumId medi
     if (!dielectric) {
         return {};
     }
-    const float roughness = scene.textures.evaluate_grey(dielectric->roughness.u, {});
+    const float roughness = std::clamp(scene.textures.evaluate_grey(dielectric->roughness.u, {}), 0.0f, 1.0f);
     return {std::clamp(dielectric->ior, 1.0f, 3.0f), dielectric->roughness.remap ? safe_sqrt(roughness) : roughness};
 }
 

@@ -46,9 +46,10 @@ Rgb to_rec709(const pbrt::RgbColour& colour) {
     }
 }
 
-Rgb reduce(const std::vector<SpectrumSample>& samples, SpectrumKind kind, const Place& place) {
+/// The spectrum that samples stand for, with the place of those that stand for none.
+std::function<double(double)> spectrum_of(const std::vector<SpectrumSample>& samples, const Place& place) {
     try {
-        return rgb_from_pairs(samples, kind);
+        return spectrum_from_pairs(samples);
     } catch (const InputError& error) {
         throw InputError(place, error.what());
     }
@@ -79,10 +80,8 @@ std::vector<SpectrumSample> read_spectrum(const std::filesystem::path& file, con
     return samples;
 }
 
-Rgb reduce_named(const LoadContext& context, const std::string& name, SpectrumKind kind, const pbrt::Location& place) {
-    if (const auto known = find_named_spectrum(name)) {
-        return *known;
-    }
+std::function<double(double)> spectrum_file(const LoadContext& context, const std::string& name,
+                                            const pbrt::Location& place) {
     const std::filesystem::path file = pbrt::find_file(name, place, context.base_directory);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) {
@@ -90,7 +89,15 @@ Rgb reduce_named(const LoadContext& context, const std::string& name, SpectrumKi
                                             fmt::join(spectrum_names(), ", ")));
     }
     context.files->insert(file);
-    return reduce(read_spectrum(file, place), kind, place);
+    return spectrum_of(read_spectrum(file, place), place);
+}
+
+std::vector<SpectrumSample> pairs_of(const pbrt::SampledSpectrum& sampled) {
+    std::vector<SpectrumSample> samples;
+    for (std::size_t i = 0; i < sampled.values.size(); ++i) {
+        samples.push_back({sampled.wavelengths[i], sampled.values[i]});
+    }
+    return samples;
 }
 
 }  // namespace
@@ -101,13 +108,10 @@ Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, Sp
     if (const auto* rgb = std::get_if<pbrt::RgbColour>(&value)) {
         colour = to_rec709(*rgb);
     } else if (const auto* sampled = std::get_if<pbrt::SampledSpectrum>(&value)) {
-        std::vector<SpectrumSample> samples;
-        for (std::size_t i = 0; i < sampled->values.size(); ++i) {
-            samples.push_back({sampled->wavelengths[i], sampled->values[i]});
-        }
-        colour = reduce(samples, kind, place);
+        colour = rgb_from_spectrum(spectrum_of(pairs_of(*sampled), place), kind);
     } else if (const auto* named = std::get_if<pbrt::NamedSpectrum>(&value)) {
-        colour = reduce_named(context, named->name, kind, place);
+        const auto known = find_named_spectrum(named->name);
+        colour = known ? *known : rgb_from_spectrum(spectrum_file(context, named->name, place), kind);
     } else if (kind == SpectrumKind::illuminant) {
         colour = blackbody_rgb(std::get<pbrt::Blackbody>(value).temperature);
     } else {
@@ -124,6 +128,19 @@ std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterS
                               SpectrumKind kind) {
     const auto value = parameters.get_colour(name);
     return value ? std::optional(reduce_colour(context, *value, kind, parameters.place_of(name))) : std::nullopt;
+}
+
+std::function<double(double)> find_spectrum(const LoadContext& context, const pbrt::ParameterSet& parameters,
+                                            std::string_view name) {
+    const pbrt::Location place = parameters.place_of(name);
+    const auto value = parameters.get_colour(name);
+    const auto* named = value ? std::get_if<pbrt::NamedSpectrum>(&*value) : nullptr;
+    if (named) {
+        const auto metal = find_metal_constant(named->name);
+        return metal || find_named_spectrum(named->name) ? metal : spectrum_file(context, named->name, place);
+    }
+    const auto* sampled = value ? std::get_if<pbrt::SampledSpectrum>(&*value) : nullptr;
+    return sampled ? spectrum_of(pairs_of(*sampled), place) : nullptr;
 }
 
 std::vector<Rgb> glow_by_temperature(float step, float hottest) {

@@ -5,6 +5,7 @@
 #include <wend/io/load/context.h>
 #include <wend/io/spectrum/colorimetry.h>
 
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,11 @@ std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterS
 /// The same for a value that was looked up already, at this place.
 Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, SpectrumKind kind,
                   const pbrt::Location& place);
+
+/// A parameter that is given by wavelength, in nanometres: a metal's constant by name, samples or a file of them. Empty
+/// where it is absent or given otherwise.
+std::function<double(double)> find_spectrum(const LoadContext& context, const pbrt::ParameterSet& parameters,
+                                            std::string_view name);
 
 /// What a medium of temperature 0, `step`, 2 `step`, ... kelvin emits, up to `hottest` or 40000 K, above which the
 /// colour hardly changes; at least two values.

@@ -56,13 +56,18 @@ public:
 
 private:
     void add_materials() {
-        for (LoadedMaterial& material : load_materials(context_, textures_, description_.materials)) {
+        std::vector<LoadedMaterial> materials = load_materials(context_, textures_, description_.materials);
+        if (description_.options.get_bool("forcediffuse", false)) {
+            force_diffuse(materials, scene_.textures);
+        }
+        for (LoadedMaterial& material : materials) {
             std::optional<MediumId> inside;
             if (material.inside) {
                 inside = static_cast<MediumId>(scene_.media.size());
                 scene_.media.push_back(*material.inside);
             }
             scene_.materials.push_back(std::move(material.material));
+            scene_.details.push_back(std::move(material.detail));
             inside_.push_back(inside);
         }
     }
@@ -160,8 +165,8 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.scene.light_tree = integrator.light_tree;
     loaded.scene.camera = load_camera(context, description.camera, film.resolution);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
-    context.warnings.add_unused("Option", description.options);
     SceneBuilder(context, description, loaded.scene).build();
+    context.warnings.add_unused("Option", description.options);
     loaded.files.assign(context.files->begin(), context.files->end());
     loaded.warnings = std::move(description.warnings);
     loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());

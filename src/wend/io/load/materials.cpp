@@ -1,53 +1,51 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/spectrum/metal.h>
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
+#include <wend/sampling/warp.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace wend {
 namespace {
 
 class MaterialLoader {
 public:
-    MaterialLoader(LoadContext& context, TextureLoader& textures) : context_(context), textures_(textures) {}
+    MaterialLoader(LoadContext& context, TextureLoader& textures, const std::vector<pbrt::MaterialEntity>& all)
+        : context_(context), textures_(textures), all_(all) {}
 
     LoadedMaterial load(const pbrt::MaterialEntity& entity) {
-        struct Stand {
-            std::string_view type;
-            std::string_view nearest;  ///< what a type that Wend does not have becomes; empty where it has it
-            LoadedMaterial (MaterialLoader::*load)(const pbrt::MaterialEntity&);
+        using Loader = LoadedMaterial (MaterialLoader::*)(const pbrt::MaterialEntity&);
+        static constexpr std::pair<std::string_view, Loader> known[] = {
+            {"", &MaterialLoader::load_interface},
+            {"none", &MaterialLoader::load_interface},
+            {"interface", &MaterialLoader::load_interface},
+            {"diffuse", &MaterialLoader::load_diffuse},
+            {"diffusetransmission", &MaterialLoader::load_diffuse_transmission},
+            {"coateddiffuse", &MaterialLoader::load_coated_diffuse},
+            {"coatedconductor", &MaterialLoader::load_coated_conductor},
+            {"conductor", &MaterialLoader::load_conductor},
+            {"dielectric", &MaterialLoader::load_dielectric},
+            {"thindielectric", &MaterialLoader::load_thin_dielectric},
+            {"subsurface", &MaterialLoader::load_subsurface},
+            {"hair", &MaterialLoader::load_hair},
+            {"mix", &MaterialLoader::load_mix},
+            {"measured", &MaterialLoader::replace_measured},
         };
-        static constexpr Stand known[] = {
-            {"", "", &MaterialLoader::load_interface},
-            {"none", "", &MaterialLoader::load_interface},
-            {"interface", "", &MaterialLoader::load_interface},
-            {"diffuse", "", &MaterialLoader::load_diffuse},
-            {"coateddiffuse", "", &MaterialLoader::load_coated_diffuse},
-            {"conductor", "", &MaterialLoader::load_conductor},
-            {"dielectric", "", &MaterialLoader::load_dielectric},
-            {"subsurface", "", &MaterialLoader::load_subsurface},
-            {"coatedconductor", "conductor", &MaterialLoader::load_coated_conductor},
-            {"diffusetransmission", "diffuse", &MaterialLoader::load_diffuse},
-            {"hair", "diffuse", &MaterialLoader::load_diffuse},
-            {"measured", "diffuse", &MaterialLoader::load_diffuse},
-            {"thindielectric", "interface", &MaterialLoader::load_interface},
-        };
-        for (const Stand& stand : known) {
-            if (stand.type != entity.type) {
+        for (const auto& [type, loader] : known) {
+            if (type != entity.type) {
                 continue;
             }
-            if (!stand.nearest.empty()) {
-                context_.warnings.add(
-                    entity.place, fmt::format("Material \"{}\" is not implemented: \"{}\" takes its place", stand.type,
-                                              stand.nearest));
-            }
-            LoadedMaterial material = (this->*stand.load)(entity);
+            LoadedMaterial material = (this->*loader)(entity);
+            material.detail = load_detail(entity);
             context_.warnings.add_unused("Material", entity);
             return material;
         }
@@ -57,37 +55,149 @@ public:
     }
 
 private:
-    LoadedMaterial load_interface(const pbrt::MaterialEntity&) { return {InterfaceMaterial{}, {}}; }
+    LoadedMaterial load_interface(const pbrt::MaterialEntity&) { return {InterfaceMaterial{}}; }
 
     LoadedMaterial load_diffuse(const pbrt::MaterialEntity& entity) {
-        return {DiffuseMaterial{textures_.colour(entity.parameters, "reflectance", Rgb(0.5f))}, {}};
+        return {DiffuseMaterial{textures_.colour(entity.parameters, "reflectance", Rgb(0.5f))}};
+    }
+
+    LoadedMaterial replace_measured(const pbrt::MaterialEntity& entity) {
+        context_.warnings.add(entity.place, "Material \"measured\" is not implemented: \"diffuse\" takes its place");
+        static_cast<void>(entity.parameters.get_string("filename", ""));
+        return load_diffuse(entity);
+    }
+
+    LoadedMaterial load_diffuse_transmission(const pbrt::MaterialEntity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        return {DiffuseTransmissionMaterial{textures_.colour(p, "reflectance", Rgb(0.25f)),
+                                            textures_.colour(p, "transmittance", Rgb(0.25f)),
+                                            non_negative_float(p, "scale", 1)}};
+    }
+
+    LoadedMaterial load_thin_dielectric(const pbrt::MaterialEntity& entity) {
+        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f)}};
     }
 
     LoadedMaterial load_coated_diffuse(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
-        CoatedDiffuseMaterial material;
-        material.reflectance = textures_.colour(p, "reflectance", Rgb(0.5f));
-        material.ior = load_ior(p, 1.5f);
-        material.roughness = load_roughness(p, "");
-        material.inner_reflectance = fresnel_diffuse_reflectance(1 / material.ior);
-        ignore_coat_medium(p);
-        return {material, {}};
-    }
-
-    LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) {
-        return {load_metal(entity.parameters, ""), {}};
+        CoatedMaterial material = load_coat(p, "");
+        material.base = DiffuseMaterial{textures_.colour(p, "reflectance", Rgb(0.5f))};
+        return {material};
     }
 
     LoadedMaterial load_coated_conductor(const pbrt::MaterialEntity& entity) {
-        return {load_metal(entity.parameters, "conductor."), {}};
+        CoatedMaterial material = load_coat(entity.parameters, "interface.");
+        material.base = load_metal(entity.parameters, "conductor.", material.ior);
+        return {material};
     }
 
+    CoatedMaterial load_coat(const pbrt::ParameterSet& p, const std::string& prefix) {
+        CoatedMaterial material;
+        material.ior = load_ior(p, prefix + "eta", 1.5f);
+        material.roughness = load_roughness(p, prefix);
+        material.thickness = textures_.real(p, "thickness", 0.01f);
+        material.albedo = textures_.colour(p, "albedo", Rgb(0.0f));
+        material.mean_cosine = textures_.real(p, "g", 0);
+        material.max_depth = load_count(p, "maxdepth", 10);
+        material.walks = load_count(p, "nsamples", 1);
+        if (!textures_.varies(material.thickness)) {
+            material.returned = coat_return(material.ior, std::max(textures_.mean(material.thickness).r, 0.0f));
+        }
+        return material;
+    }
+
+    /// Of walks and of their steps, each of which costs time for every value.
+    int load_count(const pbrt::ParameterSet& p, std::string_view name, int fallback) {
+        constexpr int most = 100000;
+        const int count = p.get_int(name, fallback);
+        if (count < 1 || count > most) {
+            throw InputError(p.place_of(name), fmt::format("\"{}\" must be from 1 to {}, not {}", name, most, count));
+        }
+        return count;
+    }
+
+    LoadedMaterial load_hair(const pbrt::MaterialEntity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        HairMaterial hair;
+        const auto colour = [&](const char* name, SpectrumKind kind, HairMaterial::Colour given) {
+            const auto found = textures_.find_colour(p, name, kind);
+            if (found && hair.colour >= 0) {
+                context_.warnings.add(p.place_of(name), fmt::format("\"{}\" of a hair is ignored: its colour is given "
+                                                                    "otherwise",
+                                                                    name));
+            } else if (found) {
+                hair.colour = *found;
+                hair.given = given;
+            }
+        };
+        colour("sigma_a", SpectrumKind::unbounded, HairMaterial::Colour::absorption);
+        colour("reflectance", SpectrumKind::reflectance, HairMaterial::Colour::reflectance);
+        colour("color", SpectrumKind::reflectance, HairMaterial::Colour::reflectance);
+        hair.eumelanin = textures_.find_real(p, "eumelanin").value_or(-1);
+        hair.pheomelanin = textures_.find_real(p, "pheomelanin").value_or(-1);
+        if (hair.colour < 0 && hair.eumelanin < 0 && hair.pheomelanin < 0) {
+            hair.eumelanin = textures_.constant(Rgb(1.3f));
+        }
+        hair.ior = textures_.real(p, "eta", 1.55f);
+        hair.roughness_along = textures_.real(p, "beta_m", 0.3f);
+        hair.roughness_across = textures_.real(p, "beta_n", 0.3f);
+        hair.tilt = textures_.real(p, "alpha", 2);
+        return {hair};
+    }
+
+    LoadedMaterial load_mix(const pbrt::MaterialEntity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        const std::vector<std::string> names = p.get_strings("materials");
+        if (names.size() != 2) {
+            throw InputError(p.place_of("materials"), "\"mix\" needs the names of two \"materials\"");
+        }
+        MixMaterial mix{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f)};
+        if (is_interface(mix.first) || is_interface(mix.second)) {
+            context_.warnings.add(
+                p.place_of("materials"),
+                "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
+                "shape leaves a share of it out)");
+            (is_interface(mix.first) ? mix.first : mix.second) = is_interface(mix.first) ? mix.second : mix.first;
+        }
+        return {mix};
+    }
+
+    bool is_interface(int index) const {
+        const std::string& type = all_[static_cast<std::size_t>(index)].type;
+        return type.empty() || type == "none" || type == "interface";
+    }
+
+    int index_of(const std::string& name, const pbrt::ParameterSet& p) const {
+        const auto found = std::find_if(all_.begin(), all_.end(), [&](const auto& m) { return m.name == name; });
+        if (found == all_.end() || name.empty()) {
+            throw InputError(p.place_of("materials"), fmt::format("the material \"{}\" is not defined", name));
+        }
+        return static_cast<int>(found - all_.begin());
+    }
+
+    SurfaceDetail load_detail(const pbrt::MaterialEntity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        SurfaceDetail detail;
+        const auto displacement = textures_.find_real(p, "displacement");
+        if (!p.get_string("normalmap", "").empty()) {
+            if (displacement) {
+                context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
+            }
+            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
+        } else if (displacement && textures_.varies(*displacement)) {
+            detail.displacement = *displacement;
+        }
+        return detail;
+    }
+
+    LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) { return {load_metal(entity.parameters, "", 1)}; }
+
     LoadedMaterial load_dielectric(const pbrt::MaterialEntity& entity) {
-        return {DielectricMaterial{load_ior(entity.parameters, 1.5f), load_roughness(entity.parameters, "")}, {}};
+        return {DielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")}};
     }
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
-        DielectricMaterial boundary{load_ior(entity.parameters, 1.33f), load_roughness(entity.parameters, "")};
+        DielectricMaterial boundary{load_ior(entity.parameters, "eta", 1.33f), load_roughness(entity.parameters, "")};
         const HomogeneousMedium inside = load_inside(entity, boundary);
         return {boundary, inside};
     }
@@ -153,7 +263,8 @@ private:
         return textures_.mean(texture);
     }
 
-    ConductorMaterial load_metal(const pbrt::ParameterSet& p, const std::string& prefix) {
+    /// `around`: index of what is before the metal.
+    ConductorMaterial load_metal(const pbrt::ParameterSet& p, const std::string& prefix, float around) {
         ConductorMaterial material;
         material.roughness = load_roughness(p, prefix);
         if (const auto found = textures_.find_colour(p, "reflectance", SpectrumKind::reflectance)) {
@@ -164,18 +275,27 @@ private:
             material.reflectance = *found;
             return material;
         }
-        material.eta = textures_.find_colour(p, prefix + "eta", SpectrumKind::unbounded).value_or(-1);
-        material.k = textures_.find_colour(p, prefix + "k", SpectrumKind::unbounded).value_or(-1);
-        if (material.eta < 0) {
-            material.eta = copper("metal-Cu-eta");
+        // Copper where nothing is given. What is known by wavelength is averaged by what it reflects.
+        const auto by_wavelength = [&](const std::string& name, const char* copper) {
+            return p.has(name)
+                       ? (p.type_of(name) == pbrt::ParameterType::spectrum ? find_spectrum(context_, p, name) : nullptr)
+                       : find_metal_constant(copper);
+        };
+        const auto eta = by_wavelength(prefix + "eta", "metal-Cu-eta"), k = by_wavelength(prefix + "k", "metal-Cu-k");
+        if (eta && k) {
+            const MetalConstants constants = reduce_metal(eta, k, around);
+            material.eta = textures_.constant(constants.eta);
+            material.k = textures_.constant(constants.k);
+            return material;
         }
-        if (material.k < 0) {
-            material.k = copper("metal-Cu-k");
-        }
+        const auto constant = [&](const std::string& name, const char* copper) {
+            const auto found = textures_.find_colour(p, name, SpectrumKind::unbounded);
+            return found ? *found : textures_.constant(named_spectrum(copper));
+        };
+        material.eta = constant(prefix + "eta", "metal-Cu-eta");
+        material.k = constant(prefix + "k", "metal-Cu-k");
         return material;
     }
-
-    TextureId copper(const char* name) { return textures_.constant(named_spectrum(name)); }
 
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
         const TextureId both = textures_.real(p, prefix + "roughness", 0);
@@ -184,76 +304,94 @@ private:
     }
 
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.
-    float load_ior(const pbrt::ParameterSet& p, float fallback) {
+    float load_ior(const pbrt::ParameterSet& p, const std::string& name, float fallback) {
         float ior = fallback;
-        if (const auto type = p.type_of("eta"); !type || *type == pbrt::ParameterType::real) {
-            ior = p.get_float("eta", fallback);
+        if (const auto type = p.type_of(name); !type || *type == pbrt::ParameterType::real) {
+            ior = p.get_float(name, fallback);
         } else {
-            const pbrt::ColourValue value = p.get_colour("eta").value();
+            const pbrt::ColourValue value = p.get_colour(name).value();
             const auto* named = std::get_if<pbrt::NamedSpectrum>(&value);
             const auto glass = named ? glass_index(named->name) : std::nullopt;
-            ior = glass ? *glass : mean(reduce_colour(context_, value, SpectrumKind::unbounded, p.place_of("eta")));
+            ior = glass ? *glass : mean(reduce_colour(context_, value, SpectrumKind::unbounded, p.place_of(name)));
         }
         if (!(ior > 0) || !std::isfinite(ior)) {
-            throw InputError(p.place_of("eta"), fmt::format("a refractive index must be above 0, not {}", ior));
+            throw InputError(p.place_of(name), fmt::format("a refractive index must be above 0, not {}", ior));
         }
         return ior;
     }
 
-    void ignore_coat_medium(const pbrt::ParameterSet& p) {
-        // Without scattering inside, the coat's thickness has no effect, and it is not sampled at random here.
-        static_cast<void>(textures_.real(p, "thickness", 0.01f));
-        static_cast<void>(textures_.real(p, "g", 0));
-        static_cast<void>(p.get_int("maxdepth", 0));
-        static_cast<void>(p.get_int("nsamples", 0));
-        if (const auto albedo = textures_.find_colour(p, "albedo", SpectrumKind::reflectance);
-            albedo && !is_black(textures_.mean(*albedo))) {
-            context_.warnings.add(p.place_of("albedo"),
-                                  "the coat of \"coateddiffuse\" does not scatter: \"albedo\" is ignored");
-        }
-    }
-
     LoadContext& context_;
     TextureLoader& textures_;
+    const std::vector<pbrt::MaterialEntity>& all_;
 };
 
-/// What stands for a mixture: the first of its materials that is none.
-const pbrt::MaterialEntity& unmixed(LoadContext& context, const std::vector<pbrt::MaterialEntity>& materials,
-                                    const pbrt::MaterialEntity& entity) {
-    const pbrt::MaterialEntity* current = &entity;
-    for (std::size_t step = 0; current->type == "mix"; ++step) {
-        const pbrt::ParameterSet& p = current->parameters;
-        const std::vector<std::string> names = p.get_strings("materials");
-        static_cast<void>(p.get_float_or_texture("amount", 0.5f));
-        context.warnings.add(current->place, "Material \"mix\" is not implemented: its first material takes its place");
-        context.warnings.add_unused("Material", *current);
-        if (names.size() != 2) {
-            throw InputError(p.place_of("materials"), "\"mix\" needs the names of two \"materials\"");
+/// Throws InputError where a mixture is made of itself; what fills a part of a mixture fills it all.
+void check_mixtures(std::vector<LoadedMaterial>& loaded, const std::vector<pbrt::MaterialEntity>& materials) {
+    enum class State : char { unseen, open, done };
+    std::vector<State> states(loaded.size(), State::unseen);
+    const std::function<void(std::size_t)> visit = [&](std::size_t index) {
+        const auto* mix = std::get_if<MixMaterial>(&loaded[index].material);
+        if (!mix || states[index] == State::done) {
+            return;
         }
-        const auto found =
-            std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == names[0]; });
-        if (found == materials.end() || names[0].empty()) {
-            throw InputError(p.place_of("materials"), fmt::format("the material \"{}\" is not defined", names[0]));
+        if (states[index] == State::open) {
+            throw InputError(materials[index].parameters.place_of("materials"), "\"mix\" is made of itself");
         }
-        if (step > materials.size()) {
-            throw InputError(p.place_of("materials"), "\"mix\" is made of itself");
+        states[index] = State::open;
+        for (const int part : {mix->first, mix->second}) {
+            visit(static_cast<std::size_t>(part));
+            if (!loaded[index].inside) {
+                loaded[index].inside = loaded[static_cast<std::size_t>(part)].inside;
+            }
         }
-        current = &*found;
+        states[index] = State::done;
+    };
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        visit(i);
     }
-    return *current;
+}
+
+/// The share of light, even from above, that is scattered.
+Rgb hemispherical_albedo(const Bsdf& bsdf) {
+    constexpr int samples = 4096;
+    Pcg32 random(1);
+    Rgb sum(0.0f);
+    for (int i = 0; i < samples; ++i) {
+        const Vec3 wo = to_cosine_hemisphere(random.uniform2());
+        const float u = random.uniform();
+        const Vec2 u2 = random.uniform2();
+        if (const auto s = std::visit([&](const auto& b) { return b.sample(wo, u, u2); }, bsdf)) {
+            sum += s->value / s->density;
+        }
+    }
+    return sum / samples;
 }
 
 }  // namespace
 
 std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& textures,
                                            const std::vector<pbrt::MaterialEntity>& materials) {
-    MaterialLoader loader(context, textures);
+    MaterialLoader loader(context, textures, materials);
     std::vector<LoadedMaterial> loaded;
     loaded.reserve(materials.size());
     for (const pbrt::MaterialEntity& material : materials) {
-        loaded.push_back(loader.load(unmixed(context, materials, material)));
+        loaded.push_back(loader.load(material));
     }
+    check_mixtures(loaded, materials);
     return loaded;
+}
+
+void force_diffuse(std::vector<LoadedMaterial>& materials, Textures& textures) {
+    for (LoadedMaterial& loaded : materials) {
+        loaded.inside.reset();
+        loaded.detail = {};
+        const Material& material = loaded.material;
+        if (!std::holds_alternative<InterfaceMaterial>(material) && !std::holds_alternative<MixMaterial>(material) &&
+            !std::holds_alternative<DiffuseMaterial>(material)) {
+            loaded.material = DiffuseMaterial{
+                textures.add_constant(hemispherical_albedo(make_bsdf(material, textures, {{0.5f, 0.5f}, {0, 0, 0}})))};
+        }
+    }
 }
 
 }  // namespace wend

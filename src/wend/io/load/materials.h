@@ -3,6 +3,7 @@
 #include <wend/io/load/textures.h>
 #include <wend/medium/medium.h>
 #include <wend/scene/material.h>
+#include <wend/scene/surface_detail.h>
 
 #include <optional>
 #include <vector>
@@ -12,12 +13,17 @@ namespace wend {
 /// A material, and what fills the objects made of it where that is part of the material (subsurface).
 struct LoadedMaterial {
     Material material;
-    std::optional<HomogeneousMedium> inside;
+    std::optional<HomogeneousMedium> inside{};
+    SurfaceDetail detail{};
 };
 
 /// The materials of a scene file, in its order. Throws InputError for an unknown type or name and for values out of
 /// range.
 std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& textures,
                                            const std::vector<pbrt::MaterialEntity>& materials);
+
+/// pbrt's option "forcediffuse": all that scatters reflects diffusely, as much as it does of light from above. Of what
+/// is no diffuse material the textures are taken at one point.
+void force_diffuse(std::vector<LoadedMaterial>& materials, Textures& textures);
 
 }  // namespace wend

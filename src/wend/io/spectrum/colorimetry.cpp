@@ -114,7 +114,7 @@ Rgb rgb_from_spectrum(const std::function<double(double)>& spectrum, SpectrumKin
                                            : Rgb(std::min(rgb.r, 1.0f), std::min(rgb.g, 1.0f), std::min(rgb.b, 1.0f));
 }
 
-Rgb rgb_from_pairs(std::span<const SpectrumSample> samples, SpectrumKind kind) {
+std::function<double(double)> spectrum_from_pairs(std::vector<SpectrumSample> samples) {
     if (samples.empty()) {
         throw InputError("a spectrum needs at least one pair of a wavelength and a value");
     }
@@ -128,7 +128,11 @@ Rgb rgb_from_pairs(std::span<const SpectrumSample> samples, SpectrumKind kind) {
                                          samples[i].value, samples[i].wavelength));
         }
     }
-    return rgb_from_spectrum([samples](double w) { return interpolate(samples, w); }, kind);
+    return [samples = std::move(samples)](double w) { return interpolate(samples, w); };
+}
+
+Rgb rgb_from_pairs(std::span<const SpectrumSample> samples, SpectrumKind kind) {
+    return rgb_from_spectrum(spectrum_from_pairs({samples.begin(), samples.end()}), kind);
 }
 
 }  // namespace wend

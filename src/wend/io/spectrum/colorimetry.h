@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace wend {
 
@@ -30,6 +31,9 @@ Rgb rgb_from_pairs(std::span<const SpectrumSample> samples, SpectrumKind kind);
 
 /// The same for a spectrum as a function of the wavelength in nanometres.
 Rgb rgb_from_spectrum(const std::function<double(double)>& spectrum, SpectrumKind kind);
+
+/// The spectrum that samples stand for. Throws InputError as rgb_from_pairs().
+std::function<double(double)> spectrum_from_pairs(std::vector<SpectrumSample> samples);
 
 /// Tristimulus values.
 struct Xyz {

@@ -183,8 +183,9 @@ const Row* find(std::span<const Row> rows, std::string_view name) {
 }
 
 /// One of the two constants, constant beyond the ends of the table.
-Rgb average(std::span<const OpticalConstants> table, double OpticalConstants::*constant) {
-    const auto value = [&](double w) {
+std::function<double(double)> interpolated(std::span<const OpticalConstants> table,
+                                           double OpticalConstants::*constant) {
+    return [table, constant](double w) {
         const auto above = std::upper_bound(table.begin(), table.end(), w,
                                             [](double at, const OpticalConstants& row) { return at < row.wavelength; });
         if (above == table.begin() || above == table.end()) {
@@ -194,7 +195,6 @@ Rgb average(std::span<const OpticalConstants> table, double OpticalConstants::*c
         const double t = (w - low.wavelength) / (above->wavelength - low.wavelength);
         return std::lerp(low.*constant, (*above).*constant, t);
     };
-    return rgb_from_spectrum(value, SpectrumKind::unbounded);
 }
 
 double refractive_index(const Glass& glass, double wavelength) {
@@ -208,7 +208,20 @@ double refractive_index(const Glass& glass, double wavelength) {
 
 constexpr std::string_view metal_prefix = "metal-";
 
-std::optional<Rgb> find_metal(std::string_view name) {
+}  // namespace
+
+std::optional<Rgb> find_named_spectrum(std::string_view name) {
+    if (const Glass* glass = find(std::span<const Glass>(glasses), name)) {
+        return rgb_from_spectrum([glass](double w) { return refractive_index(*glass, w); }, SpectrumKind::unbounded);
+    }
+    if (const Illuminant* light = find(std::span<const Illuminant>(illuminants), name)) {
+        return rgb_from_chromaticity(light->x, light->y);
+    }
+    const auto metal = find_metal_constant(name);
+    return metal ? std::optional(rgb_from_spectrum(metal, SpectrumKind::unbounded)) : std::nullopt;
+}
+
+std::function<double(double)> find_metal_constant(std::string_view name) {
     if (!name.starts_with(metal_prefix)) {
         return {};
     }
@@ -219,19 +232,7 @@ std::optional<Rgb> find_metal(std::string_view name) {
     if (!metal || (constant != "-eta" && constant != "-k")) {
         return {};
     }
-    return average(metal->constants, constant == "-k" ? &OpticalConstants::k : &OpticalConstants::eta);
-}
-
-}  // namespace
-
-std::optional<Rgb> find_named_spectrum(std::string_view name) {
-    if (const Glass* glass = find(std::span<const Glass>(glasses), name)) {
-        return rgb_from_spectrum([glass](double w) { return refractive_index(*glass, w); }, SpectrumKind::unbounded);
-    }
-    if (const Illuminant* light = find(std::span<const Illuminant>(illuminants), name)) {
-        return rgb_from_chromaticity(light->x, light->y);
-    }
-    return find_metal(name);
+    return interpolated(metal->constants, constant == "-k" ? &OpticalConstants::k : &OpticalConstants::eta);
 }
 
 Rgb named_spectrum(std::string_view name) {

@@ -3,6 +3,7 @@
 
 #include <wend/core/colour.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ std::optional<Rgb> find_named_spectrum(std::string_view name);
 
 /// The same; throws InputError listing the names that are known.
 Rgb named_spectrum(std::string_view name);
+
+/// metal-M-eta or metal-M-k by wavelength, in nanometres; empty for other names.
+std::function<double(double)> find_metal_constant(std::string_view name);
 
 /// Index of refraction of a named glass at the d line, 587.6 nm: for a dielectric without dispersion. Nothing if there
 /// is no such glass.

@@ -17,9 +17,17 @@ Rgb albedo(const ConductorBsdf& b, const Vec3& wo) {
 Rgb albedo(const DielectricBsdf&, const Vec3&) {
     return Rgb(1.0f);
 }
-Rgb albedo(const CoatedDiffuseBsdf& b, const Vec3& wo) {
-    const float f = fresnel_dielectric(std::abs(wo.z), b.ior);
-    return Rgb(f) + b.reflectance * (1 - f);
+Rgb albedo(const ThinDielectricBsdf&, const Vec3&) {
+    return Rgb(1.0f);
+}
+Rgb albedo(const DiffuseTransmissionBsdf& b, const Vec3&) {
+    return b.reflectance + b.transmittance;
+}
+Rgb albedo(const CoatedBsdf& b, const Vec3& wo) {
+    return b.reflectance_estimate(wo);
+}
+Rgb albedo(const HairBsdf& b, const Vec3& wo) {
+    return b.albedo(wo);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <wend/core/vector.h>
 #include <wend/sampling/axial_lobes.h>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -29,6 +31,19 @@ struct LambertBsdf {
     float density(const Vec3& wo, const Vec3& wi) const;
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const { return false; }
+};
+
+/// Ideal diffuse reflection and transmission, alike from either side.
+struct DiffuseTransmissionBsdf {
+    Rgb reflectance;
+    Rgb transmittance;
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+    /// Probability that a reflection is drawn.
+    float reflection_probability() const;
 };
 
 /// Smooth or rough conductor.
@@ -60,32 +75,110 @@ struct DielectricBsdf {
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const;
 
+    /// Reflections alone, or refractions alone: densities are those given that.
+    std::optional<BsdfSample> sample_reflection(const Vec3& wo, const Vec2& u2) const;
+    std::optional<BsdfSample> sample_refraction(const Vec3& wo, const Vec2& u2) const;
+    float refraction_density(const Vec3& wo, const Vec3& wi) const;
+
 private:
+    Vec3 sample_facet(const Vec3& wo, const Vec2& u2) const;
+    std::optional<BsdfSample> reflected(const Vec3& wo, const Vec3& m) const;
+    std::optional<BsdfSample> refracted(const Vec3& wo, const Vec3& m) const;
     /// With which a reflection is drawn where that is Fresnel's.
     float reflection_probability(float fresnel) const;
 };
 
-/// A diffuse base under a dielectric coat, smooth or rough. Light that enters is refracted in and out and reflected
-/// inside any number of times, in closed form for a smooth coat; a rough coat keeps the smooth one's transmission, and
-/// its reflection is a GGX lobe. Seen from below it is like from above.
-struct CoatedDiffuseBsdf {
-    Rgb reflectance;
+/// A sheet of glass so thin that light goes on straight, reflected inside any number of times; `ior` of the glass.
+struct ThinDielectricBsdf {
     float ior = 1.5f;
-    float alpha_x = 0;
-    float alpha_y = 0;
-    float inner_reflectance = 0;  ///< hemispherical reflectance of the coat from inside
+
+    Rgb evaluate(const Vec3&, const Vec3&) const { return Rgb(0.0f); }
+    float density(const Vec3&, const Vec3&) const { return 0; }
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return true; }
+    /// Share of light from wo that is reflected.
+    float reflectance(const Vec3& wo) const;
+};
+
+/// A diffuse or metal base under a dielectric coat, smooth or rough, which is filled with a medium of extinction 1.
+/// What comes in through the coat is reflected between coat and base, and scattered by the medium, up to `max_depth`
+/// times. Seen from below it is like from above.
+///
+/// In closed form where the coat is smooth, does not scatter, and the base is diffuse or a smooth metal. Otherwise
+/// evaluate() is the outcome of `walks` random walks inside (guo2018): a function of the directions and of `seed` whose
+/// mean is the BSDF. The density is always exact.
+struct CoatedBsdf {
+    using Base = std::variant<LambertBsdf, ConductorBsdf>;
+
+    DielectricBsdf coat;
+    Base base;
+    float thickness = 0;     ///< optical
+    Rgb albedo{0.0f};        ///< of the medium
+    float mean_cosine = 0;   ///< of the medium's phase function (Henyey and Greenstein's)
+    int max_depth = 10;      ///< crossings of the coat, collisions included
+    int walks = 1;           ///< for one value
+    std::uint64_t seed = 0;  ///< of the walks
+    /// Of light that leaves a diffuse base, the share that a smooth coat returns to it; negative: not known, and walks
+    /// find out.
+    float returned = -1;
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const;
+    /// Rough estimate of what comes back from wo.
+    Rgb reflectance_estimate(const Vec3& wo) const;
+    /// What stands for a metal base seen through the coat: as rough as both together.
+    ConductorBsdf seen_base() const;
+
+private:
+    /// How a direction is drawn: by reflection at the coat, as the base has it, or evenly by projected area.
+    struct Shares {
+        float coat, base, diffuse;
+    };
+    Shares shares(const Vec3& wo) const;
+    bool has_smooth_metal() const;
+    Rgb mirrored(const Vec3& wo) const;
+    Rgb diffuse_value(const Vec3& wo, const Vec3& wi) const;
+    Rgb walked_value(const Vec3& wo, const Vec3& wi) const;
+    float base_density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<Vec3> sample_base(const Vec3& wo, float u, const Vec2& u2) const;
+};
+
+/// Of light that leaves a diffuse base evenly, the share that a smooth coat reflects back to it, the way through the
+/// coat (optical thickness) twice included. `ior`: of the coat over outside.
+float coat_return(float ior, float thickness);
+
+/// Light scattered by a hair or fibre (chiang2016, after marschner2003): x is along the fibre.
+class HairBsdf {
+public:
+    /// `offset` across the fibre, in [-1, 1]; `absorption` inside, per radius; roughness along and across, in (0, 1];
+    /// `tilt` of the scales, radians.
+    HairBsdf(float offset, float ior, const Rgb& absorption, float roughness_along, float roughness_across, float tilt);
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const { return false; }
+    /// What is scattered of light from wo.
+    Rgb albedo(const Vec3& wo) const;
 
 private:
-    float coat_probability(float cosine) const;
+    /// Reflection, through, one reflection inside, and all the rest.
+    static constexpr int orders = 4;
+    struct Fibre;
+
+    float offset_;
+    float ior_;
+    Rgb absorption_;
+    std::array<float, orders> variance_{};          ///< along
+    float scale_ = 0;                               ///< of the logistic distribution across
+    std::array<float, 3> sin_tilt_{}, cos_tilt_{};  ///< of 1, 2 and 4 tilts
 };
 
 /// The closed set of BSDFs.
-using Bsdf = std::variant<LambertBsdf, ConductorBsdf, DielectricBsdf, CoatedDiffuseBsdf>;
+using Bsdf = std::variant<LambertBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
+                          CoatedBsdf, HairBsdf>;
 
 /// Refractive index beyond over before for light going from wo to wi; 1 unless refracted.
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);

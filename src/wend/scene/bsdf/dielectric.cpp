@@ -86,40 +86,65 @@ float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
     return (1 - reflection) * facets.visible_density(wo, m) * abs_dot(wi, m) / denominator;
 }
 
-std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const Vec2& u2) const {
-    if (wo.z == 0) {
-        return std::nullopt;
+float DielectricBsdf::refraction_density(const Vec3& wo, const Vec3& wi) const {
+    const auto facet = is_specular() ? std::nullopt : facet_between(*this, wo, wi);
+    if (!facet || facet->reflects) {
+        return 0;
     }
-    const bool specular = is_specular();
-    const Vec3 m = specular ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
-    const float f = fresnel_dielectric(dot(wo, m), ior);
-    const float reflection = reflection_probability(f);
-    if (u < reflection) {
-        const float density_ratio = reflection / f;
-        const Vec3 wi = m * (2 * dot(wo, m)) - wo;
-        if (specular) {
-            return BsdfSample{wi, Rgb(f), reflection, true, density_ratio};
-        }
-        const float p = density(wo, wi);
-        if (!(wo.z * wi.z > 0) || !(p > 0)) {
-            return std::nullopt;
-        }
-        return BsdfSample{wi, evaluate(wo, wi), p, false, density_ratio};
+    const Vec3& m = facet->normal;
+    const float denominator = sqr(dot(wi, m) + dot(wo, m) / facet->index_ratio);
+    return Microfacets(alpha_x, alpha_y).visible_density(wo, m) * abs_dot(wi, m) / denominator;
+}
+
+Vec3 DielectricBsdf::sample_facet(const Vec3& wo, const Vec2& u2) const {
+    return is_specular() ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
+}
+
+std::optional<BsdfSample> DielectricBsdf::reflected(const Vec3& wo, const Vec3& m) const {
+    const Vec3 wi = m * (2 * dot(wo, m)) - wo;
+    if (is_specular()) {
+        return BsdfSample{wi, Rgb(fresnel_dielectric(dot(wo, m), ior)), 1, true};
     }
+    const float p = Microfacets(alpha_x, alpha_y).visible_density(wo, m) / (4 * abs_dot(wo, m));
+    return wo.z * wi.z > 0 && p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
+}
+
+std::optional<BsdfSample> DielectricBsdf::refracted(const Vec3& wo, const Vec3& m) const {
     const auto refraction = refract(wo, m, ior);
     if (!refraction || wo.z * refraction->direction.z > 0 || refraction->direction.z == 0) {
         return std::nullopt;
     }
     const Vec3& wi = refraction->direction;
-    const float density_ratio = (1 - reflection) / (1 - f);
-    if (specular) {
-        return BsdfSample{wi, Rgb((1 - f) / sqr(refraction->ior)), 1 - reflection, true, density_ratio};
+    if (is_specular()) {
+        return BsdfSample{wi, Rgb((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1, true};
     }
-    const float p = density(wo, wi);
-    if (!(p > 0)) {
+    const float p = refraction_density(wo, wi);
+    return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
+}
+
+std::optional<BsdfSample> DielectricBsdf::sample_reflection(const Vec3& wo, const Vec2& u2) const {
+    return wo.z == 0 ? std::nullopt : reflected(wo, sample_facet(wo, u2));
+}
+
+std::optional<BsdfSample> DielectricBsdf::sample_refraction(const Vec3& wo, const Vec2& u2) const {
+    return wo.z == 0 ? std::nullopt : refracted(wo, sample_facet(wo, u2));
+}
+
+std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const Vec2& u2) const {
+    if (wo.z == 0) {
         return std::nullopt;
     }
-    return BsdfSample{wi, evaluate(wo, wi), p, false, density_ratio};
+    const Vec3 m = sample_facet(wo, u2);
+    const float f = fresnel_dielectric(dot(wo, m), ior);
+    const float reflection = reflection_probability(f);
+    const bool reflects = u < reflection;
+    auto s = reflects ? reflected(wo, m) : refracted(wo, m);
+    if (s) {
+        const float chosen = reflects ? reflection : 1 - reflection;
+        s->density_ratio = chosen / (reflects ? f : 1 - f);
+        s->density = s->specular ? chosen : density(wo, s->direction);
+    }
+    return s;
 }
 
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {

@@ -14,6 +14,13 @@ AxialLobes cosine_lobes(const Vec3& wo) {
     return AxialLobes::cosine().around({0, 0, wo.z < 0 ? -1.0f : 1.0f});
 }
 
+/// On both sides, by the shares that are drawn.
+AxialLobes two_sided_lobes(const DiffuseTransmissionBsdf& b, const Vec3& wo) {
+    const float kappa = AxialLobes::cosine().kappa(0), reflected = b.reflection_probability();
+    const std::array<AxialLobe, 2> lobes = {AxialLobe{reflected, kappa}, AxialLobe{1 - reflected, -kappa}};
+    return AxialLobes(lobes).around({0, 0, wo.z < 0 ? -1.0f : 1.0f});
+}
+
 /// GGX facets tilted by an angle t have the density (1 + x)^(-2) with x = tan² t / alpha². They reflect by twice the
 /// angle, in the plane of incidence; across it by less, as the cosine of incidence. So around the mirror direction, at
 /// an angle of cosine c, x is about (1 - c) / (2 alpha² cosine), and
@@ -37,10 +44,17 @@ struct LobesOf {
     const Vec3& wo;
 
     AxialLobes operator()(const LambertBsdf&) const { return cosine_lobes(wo); }
-    // The coat is left to the BSDF's own sampling.
-    AxialLobes operator()(const CoatedDiffuseBsdf&) const { return cosine_lobes(wo); }
+    AxialLobes operator()(const DiffuseTransmissionBsdf& b) const { return two_sided_lobes(b, wo); }
+    // The coat of a diffuse base is left to the BSDF's own sampling.
+    AxialLobes operator()(const CoatedBsdf& b) const {
+        return std::holds_alternative<LambertBsdf>(b.base) ? cosine_lobes(wo)
+               : b.is_specular()                           ? AxialLobes()
+                                                           : mirror_lobes(b.seen_base(), wo);
+    }
     AxialLobes operator()(const ConductorBsdf& b) const { return b.is_specular() ? AxialLobes() : mirror_lobes(b, wo); }
     AxialLobes operator()(const DielectricBsdf&) const { return {}; }
+    AxialLobes operator()(const ThinDielectricBsdf&) const { return {}; }
+    AxialLobes operator()(const HairBsdf&) const { return {}; }
 };
 
 }  // namespace
@@ -50,8 +64,16 @@ AxialLobes lobes_of(const Bsdf& bsdf, const Vec3& wo) {
 }
 
 bool is_pictured_by_lobes(const Bsdf& bsdf) {
-    const auto* conductor = std::get_if<ConductorBsdf>(&bsdf);
-    return conductor ? !conductor->is_specular() : !std::holds_alternative<DielectricBsdf>(bsdf);
+    struct Pictured {
+        bool operator()(const LambertBsdf&) const { return true; }
+        bool operator()(const DiffuseTransmissionBsdf&) const { return true; }
+        bool operator()(const ConductorBsdf& b) const { return !b.is_specular(); }
+        bool operator()(const DielectricBsdf&) const { return false; }
+        bool operator()(const ThinDielectricBsdf&) const { return false; }
+        bool operator()(const CoatedBsdf& b) const { return !b.is_specular(); }
+        bool operator()(const HairBsdf&) const { return false; }
+    };
+    return std::visit(Pictured{}, bsdf);
 }
 
 }  // namespace wend
