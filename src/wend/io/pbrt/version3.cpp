@@ -120,6 +120,9 @@ void Version3::pixel_filter(const std::string& type, ParameterSet& parameters, c
     }
     if (const auto alpha = parameters.remove("alpha"); alpha && alpha->type == ParameterType::real) {
         const float value = std::get<std::vector<float>>(alpha->values).front();
+        if (!(value > 0)) {
+            throw InputError(alpha->place, "a part of pbrt-v3: the \"alpha\" of a filter must be above 0");
+        }
         say(alpha->place, "\"alpha\" is read as \"sigma\", 1 / sqrt(2 alpha)");
         parameters.add(number_at(*alpha, "sigma", 1 / std::sqrt(2 * value)));
     }
