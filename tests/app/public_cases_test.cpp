@@ -62,6 +62,7 @@ void expect_right_mean(const std::filesystem::path& file) {
     settings.max_depth = loaded.max_depth;
     settings.filter = loaded.filter;
     settings.exposure = loaded.exposure;
+    settings.balance = loaded.balance;
     const Scene scene(std::move(loaded.scene));
     test::ChannelMeans means;
     for (settings.seed = 1; settings.seed <= renders; ++settings.seed) {

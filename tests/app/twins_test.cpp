@@ -163,7 +163,7 @@ const std::vector<Twin> twins = {
     Twin{"candles",
          64,
          {{"WorldBegin\n", "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 0.4 0.4 0.4 ]\n"},
-          {"\"float Lescale\" [ 260 ]", "\"float Lescale\" [ 20 ]"}},
+          {"\"rgb Le\" [ 1 0.5 0.16 ]", "\"rgb Le\" [ 0.07692308 0.03846154 0.01230769 ]"}},
          {{0.1212676, 6.9e-05},
           {{0.0999872, 0.00014},
            {0.103818, 0.00016},

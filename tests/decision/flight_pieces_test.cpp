@@ -32,6 +32,12 @@ struct Lamp {
     float strength;
 };
 
+/// A lamp whose beam the ray crosses.
+struct Crossed {
+    float t_in, t_out, x, y;
+    float strength;
+};
+
 struct Coefficients {
     Rgb extinction, scattering, channels;
 };
@@ -43,6 +49,7 @@ struct Case {
     float ahead;
     bool level = false;
     std::vector<Lamp> lamps{};
+    std::vector<Crossed> beams{};
 
     float length() const { return stretches.back().t_out; }
 
@@ -104,6 +111,10 @@ const std::vector<Case>& cases() {
         {"lamp, chromatic", chromatic, uneven, 2, false, {{3, 1.5f, 0.1f, 1}}},
         {"lamp, level", chromatic, uneven, 2, true, {{3, 1.5f, 0.1f, 1}}},
         {"lamps, dark pieces", chromatic, {{1, 0}, {2, 0}}, 0, false, {{0, 1.1f, 0.3f, 2}, {1, 1.1f, 0.3f, 1}}},
+        {"beam", grey, uneven, 2, false, {}, {{0.9f, 2.7f, 1.2f, 0.3f, 0.4f}}},
+        {"beam, level", chromatic, uneven, 2, true, {}, {{0.9f, 2.7f, 1.2f, 0.3f, 0.4f}}},
+        {"beams, lamp", chromatic, uneven, 2, false, {{3, 1.5f, 0.1f, 1}}, {{0.9f, 2, 1, 0.3f, 2}, {1, 4, 5, 1, 30}}},
+        {"beam, dark pieces", grey, {{1, 0}, {2, 0.01f}}, 1, false, {}, {{0, 2, 1, 0.3f, 5}}},
         {"lamp in the last piece", with_clear_channel, uneven, 0.5f, false, {{5, 2.9f, 0.1f, 3}}},
     };
     return all;
@@ -111,6 +122,11 @@ const std::vector<Case>& cases() {
 
 FlightPieces pieces_of(const Case& c) {
     FlightPieces pieces(c.coefficients.extinction, c.coefficients.scattering, c.coefficients.channels);
+    for (const Crossed& beam : c.beams) {
+        pieces.add_beam(
+            Equiangular(ClosestApproach({{0, 0, 0}, {1, 0, 0}}, {beam.x, beam.y, 0}, 0), beam.t_in, beam.t_out),
+            beam.strength);
+    }
     float t_in = 0;
     for (std::size_t i = 0; i < c.stretches.size(); ++i) {
         const Stretch& s = c.stretches[i];
@@ -144,7 +160,7 @@ struct Claimed {
         const auto density = [&](double t) {
             return static_cast<double>(pieces.collision(static_cast<float>(t), static_cast<float>(share)).density);
         };
-        const int parts = c.lamps.empty() ? 1 : 32;
+        const int parts = c.lamps.empty() && c.beams.empty() ? 1 : 32;
         const auto add = [&](double from, double to) {
             double sum = 0;
             for (int part = 0; part < parts; ++part) {
@@ -314,6 +330,18 @@ TEST(FlightPieces, ThereIsRoomForAFewLamps) {
     }
     EXPECT_GE(lamps, 4);
     EXPECT_LE(lamps, 64);
+}
+
+TEST(FlightPieces, ABeamTakesNoMoreThanAllPieces) {
+    const Case c{"", grey, {{1, 2}, {2, 2}}, 0, false, {}, {{0.5f, 1.5f, 1, 0.01f, 1e6f}}};
+    const FlightPieces pieces = pieces_of(c);
+    Pcg32 random(5);
+    int beside = 0;
+    constexpr int samples = 20000;
+    for (int i = 0; i < samples; ++i) {
+        beside += std::abs(pieces.sample(0, random.uniform()).distance - 1) > 0.2f ? 1 : 0;
+    }
+    EXPECT_GT(beside, samples / 3);
 }
 
 TEST(FlightPieces, AFalseEstimateLeavesSome) {

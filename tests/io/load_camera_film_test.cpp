@@ -1,6 +1,8 @@
 #include "load_support.h"
 #include "pbrt_support.h"
 
+#include <wend/io/spectrum/white_balance.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -157,11 +159,29 @@ TEST(LoadFilm, NamesWhatItIgnores) {
         load_text("",
                   "Film \"gbuffer\" \"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 5000 "
                   "\"float maxcomponentvalue\" 10 \"bool savefp16\" false \"float frob\" 3");
-    EXPECT_EQ(loaded.warnings.size(), 5u);
-    for (const char* text :
-         {"\"gbuffer\" is not implemented", "sensors", "\"whitebalance\"", "\"maxcomponentvalue\"", "\"frob\""}) {
+    EXPECT_EQ(loaded.warnings.size(), 4u);
+    for (const char* text : {"\"gbuffer\" is not implemented", "\"canon_eos_5d\"", "\"maxcomponentvalue\"", "\"frob\""}) {
         EXPECT_EQ(warnings_with(loaded, text), 1) << text;
     }
+}
+
+TEST(LoadFilm, BalancesWhite) {
+    const auto balance = [](const std::string& film) { return load_text("", "Film \"rgb\" " + film).balance; };
+    EXPECT_TRUE(balance("").is_identity());
+    EXPECT_TRUE(balance("\"float whitebalance\" 0").is_identity());
+    EXPECT_EQ(balance("\"float whitebalance\" 4000").m, white_balance(4000).m);
+    // A measured sensor has a white of its own.
+    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\"").m, white_balance(6500).m);
+    EXPECT_EQ(balance("\"string sensor\" \"nikon_d850\" \"float whitebalance\" 5000").m, white_balance(5000).m);
+    EXPECT_PRED2(contains, message_of([&] { balance("\"float whitebalance\" -5"); }),
+                 "test.pbrt:1:12: error: the white of -5 K");
+}
+
+TEST(LoadFilm, SpectralFilmsNameWhatTheyLose) {
+    const LoadedScene loaded =
+        load_text("", "Film \"spectral\" \"integer nbuckets\" 8 \"float lambdamin\" 400 \"float lambdamax\" 700");
+    EXPECT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_EQ(warnings_with(loaded, "no layers by wavelength"), 1);
 }
 
 TEST(LoadFilm, RefusesAbsurdSizes) {
@@ -218,6 +238,29 @@ TEST(LoadSampler, KindsSamplesAndSeeds) {
     EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"randomly\""); }), "known are halton");
     EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"halton\" \"integer pixelsamples\" 0"); }),
                  "at least 1");
+}
+
+TEST(LoadIntegrator, OfSurfacesAloneLeavesOutMedia) {
+    const std::string world =
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MediumInterface \"fog\" \"\" "
+        "Material \"dielectric\" Shape \"sphere\" Material \"subsurface\" Shape \"sphere\"";
+    const std::string camera =
+        "MakeNamedMedium \"air\" \"string type\" \"homogeneous\" MediumInterface \"\" \"air\" "
+        "Camera \"perspective\" ";
+    const LoadedScene seen = load_text(world, camera + "Integrator \"volpath\"");
+    EXPECT_NE(seen.scene.camera_medium, vacuum);
+    EXPECT_NE(seen.scene.surfaces.at(0).interior, vacuum);
+    EXPECT_NE(seen.scene.surfaces.at(1).interior, vacuum);
+    for (const char* integrator : {"path", "simplepath", "randomwalk"}) {
+        const LoadedScene loaded = load_text(world, camera + "Integrator \"" + integrator + "\"");
+        EXPECT_EQ(warnings_with(loaded, "leaves out all media"), 1);
+        EXPECT_EQ(loaded.scene.camera_medium, vacuum);
+        ASSERT_EQ(loaded.scene.surfaces.size(), 2u);
+        for (const Surface& surface : loaded.scene.surfaces) {
+            EXPECT_FALSE(surface.bounds_medium());
+        }
+    }
+    EXPECT_EQ(load_text("Shape \"sphere\"", "Integrator \"path\"").warnings.size(), 0u);
 }
 
 TEST(LoadIntegrator, DepthLightsAndSubstitutes) {

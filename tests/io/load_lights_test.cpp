@@ -38,6 +38,9 @@ std::filesystem::path write_sky(const char* name, int width, int height, const R
     return file;
 }
 
+const std::string two_triangles =
+    "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ] \"integer indices\" [ 0 1 2  0 2 3 ] ";
+
 TEST(LoadLights, PointLight) {
     const auto light = only_light<PointLight>(
         "Translate 1 2 3 LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 \"point3 from\" [ 0 0 1 ]");
@@ -78,8 +81,25 @@ TEST(LoadLights, InfiniteLights) {
     expect_near(only_light<UniformInfiniteLight>("LightSource \"infinite\" \"float illuminance\" 3.14159265").radiance,
                 Rgb(1.0f));
     EXPECT_TRUE(load_text("LightSource \"infinite\" \"rgb L\" [ 0 0 0 ]").scene.lights.empty());
-    const LoadedScene portal = load_text("LightSource \"infinite\" \"point3 portal\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ]");
-    EXPECT_EQ(warnings_with(portal, "portals are ignored"), 1);
+}
+
+TEST(LoadLights, PortalsAreInTheWorld) {
+    // Seen from below: against the clock, and not where the light is translated to.
+    const auto light = only_light<PortalInfiniteLight>(
+        "Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 "
+        "\"point3 portal\" [ 0 0 1  1 0 1  1 1 1  0 1 1 ]");
+    EXPECT_TRUE(is_black(light.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1})));
+    const auto turned = only_light<PortalInfiniteLight>(
+        "Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 "
+        "\"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
+    expect_near(turned.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}), {2, 4, 6});
+    EXPECT_TRUE(is_black(turned.portal->radiance({1.5f, 0.5f, 0}, {0, 0, 1})));
+    const auto message = [](const std::string& corners) {
+        return message_of([&] { load_text("LightSource \"infinite\" \"point3 portal\" [ " + corners + " ]"); });
+    };
+    EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0"), "4 corners, not 3");
+    EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0  0 2 0"), "rectangle");
+    EXPECT_PRED2(contains, message("0 0 0  0 0 0  1 1 0  0 1 0"), "rectangle");
 }
 
 TEST(LoadLights, SkyPictures) {
@@ -103,18 +123,80 @@ TEST(LoadLights, SkyPictures) {
         "either");
 }
 
-TEST(LoadLights, SubstitutesShineAsPoints) {
-    const LoadedScene loaded = load_text(
-        "LightSource \"spot\" \"rgb I\" [ 3 3 3 ] \"point3 from\" [ 1 0 0 ] \"point3 to\" [ 0 0 0 ] \"float "
-        "coneangle\" 20");
-    EXPECT_EQ(loaded.warnings.size(), 1u);
-    expect_near(std::get<PointLight>(loaded.scene.lights.at(0)).intensity, Rgb(3.0f));
+/// Intensity of a light at a point towards a direction of any length.
+template <class Kind>
+Rgb shines(const Kind& light, const Vec3& w) {
+    return intensity_towards(light, normalize(w));
+}
+
+TEST(LoadLights, SpotsShineFromAPointToAPoint) {
+    const auto spot = only_light<SpotLight>(
+        "Translate 0 0 5 LightSource \"spot\" \"rgb I\" [ 3 6 9 ] \"point3 from\" [ 1 0 0 ] \"point3 to\" [ 0 0 0 ] "
+        "\"float coneangle\" 45 \"float conedeltaangle\" 15");
+    EXPECT_EQ(spot.position, Vec3(1, 0, 5));
+    expect_near(shines(spot, {-1, 0, 0}), {3, 6, 9});
+    expect_near(shines(spot, {-1, 0.5f, 0}), {3, 6, 9});
+    EXPECT_TRUE(is_black(shines(spot, {-1, 1.01f, 0})));
+    EXPECT_TRUE(is_black(shines(spot, {1, 0, 0})));
+    const auto powered = only_light<SpotLight>("LightSource \"spot\" \"float power\" 7 \"float coneangle\" 60");
+    EXPECT_NEAR(light_power(powered, 0), 7, 1e-4f);
+    const auto message = [](const std::string& parameters) {
+        return message_of([&] { load_text("LightSource \"spot\" " + parameters); });
+    };
+    EXPECT_PRED2(contains, message("\"float coneangle\" 0"), "between 0 and 180");
+    EXPECT_PRED2(contains, message("\"float conedeltaangle\" -1"), "not negative");
+    EXPECT_PRED2(contains, message("\"point3 to\" [ 0 0 0 ]"), "must differ");
+}
+
+std::filesystem::path write_picture_of(const char* name, const Image& image) {
+    const auto file = std::filesystem::temp_directory_path() / name;
+    Picture picture;
+    picture.image = image;
+    picture.full_size = {image.width, image.height};
+    write_picture(file, picture);
+    return file;
+}
+
+TEST(LoadLights, GoniometricLightsHaveTheirPoleAlongY) {
+    Image image(16, 16, Rgb(0.0f));
+    for (int i = 6; i < 10; ++i) {
+        for (int j = 6; j < 10; ++j) {
+            image.at(i, j) = {1, 2, 3};
+        }
+    }
+    const auto file = write_picture_of("wend_load_goniometric.exr", image);
+    const std::string text = "LightSource \"goniometric\" \"string filename\" \"" + file.string() + "\"";
+    const auto light = only_light<GoniometricLight>("Translate 1 2 3 " + text + " \"rgb I\" [ 2 1 0 ] \"float scale\" 5");
+    EXPECT_EQ(light.position, Vec3(1, 2, 3));
+    expect_near(shines(light, {0, 1, 0}), {20, 10, 0});
+    EXPECT_TRUE(is_black(shines(light, {0, -1, 0})));
+    EXPECT_NEAR(light_power(only_light<GoniometricLight>(text + " \"float power\" 3"), 0), 3, 1e-4f);
+    EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"goniometric\""); }), "filename");
+}
+
+TEST(LoadLights, ProjectorsThrowTheirPictureUpright) {
+    Image image(4, 2, Rgb(0.0f));
+    image.at(0, 0) = {8, 0, 0};
+    image.at(3, 1) = {0, 0, 8};
+    const auto file = write_picture_of("wend_load_projection.exr", image);
+    const std::string text = "LightSource \"projection\" \"string filename\" \"" + file.string() + "\"";
+    const auto light = only_light<ProjectionLight>(text + " \"float scale\" 2");
+    // 90 degrees of the shorter side: the window is from (-2, -1) to (2, 1), its first row on top.
+    expect_near(shines(light, {-1.9f, 0.9f, 1}), {16, 0, 0});
+    expect_near(shines(light, {1.9f, -0.9f, 1}), {0, 0, 16});
+    EXPECT_TRUE(is_black(shines(light, {-1.9f, -0.9f, 1})));
+    EXPECT_TRUE(is_black(shines(light, {-1.9f, 1.1f, 1})));
+    EXPECT_TRUE(is_black(shines(light, {1.9f, -0.9f, -1})));
+    const auto powered = only_light<ProjectionLight>(text + " \"float power\" 3 \"float fov\" 40");
+    EXPECT_NEAR(luminance(powered.intensity * spread(powered)), 3, 1e-3f);
+    EXPECT_PRED2(contains, message_of([&] { load_text(text + " \"float fov\" 180"); }), "between 0 and 180");
+}
+
+TEST(LoadLights, UnknownLightsAreRefused) {
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"laser\""); }), "known are distant");
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"point\" \"rgb I\" [ 1 -1 1 ]"); }), "not negative");
 }
 
-const std::string two_triangles =
-    "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ] \"integer indices\" [ 0 1 2  0 2 3 ] ";
 
 TEST(LoadLights, EachTriangleIsALight) {
     const LoadedScene loaded = load_text("AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ 5 6 7 ] " +
@@ -156,7 +238,7 @@ TEST(LoadLights, EmissionFollowsTheOrientation) {
             const auto hit = scene.intersect({{0.3f, 0.2f, side * 5}, {0, 0, -side}});
             EXPECT_TRUE(hit);
             const Rgb radiance =
-                emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal, {0, 0, side});
+                emitted_radiance(scene.lights()[static_cast<std::size_t>(hit->light)], hit->normal, hit->uv, {0, 0, side});
             (side > 0 ? above_and_below.first : above_and_below.second) = radiance.g;
         }
         return above_and_below;
@@ -190,12 +272,63 @@ TEST(LoadLights, ShapesOfObjectsDoNotShine) {
     EXPECT_EQ(warnings_with(loaded, "cannot be area lights"), 1);
 }
 
-TEST(LoadLights, AreaLightPicturesBecomeTheirMean) {
-    const auto picture = write_sky("wend_load_area.exr", 4, 2, {1, 2, 3});
+TEST(LoadLights, AreaLightsShineByTheirPicture) {
+    Image image(2, 2, Rgb(1.0f));
+    image.at(0, 0) = Rgb(9.0f);
+    const auto file = write_picture_of("wend_load_area.exr", image);
+    const std::string text = "AreaLightSource \"diffuse\" \"string filename\" \"" + file.string() + "\" ";
+    const LoadedScene loaded = load_text(text + "\"float scale\" 2 " + two_triangles +
+                                         "\"point2 uv\" [ 0 0  1 0  1 1  0 1 ]");
+    const Light& light = loaded.scene.lights.at(1);
+    // The first row is where v is 1.
+    expect_near(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, 1}), Rgb(18.0f));
+    expect_near(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.1f}, {0, 0, 1}), Rgb(2.0f));
+    EXPECT_TRUE(is_black(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, -1})));
+    Pcg32 random(1);
+    for (int i = 0; i < 100; ++i) {
+        const auto s = sample_light(light, {0.5f, 0.5f, 1}, random.uniform2(), random);
+        ASSERT_TRUE(s);
+        const Vec3 hit = Vec3(0.5f, 0.5f, 1) + s->direction * s->distance;
+        expect_near(Rgb(s->uv.x, s->uv.y, 0), Rgb(hit.x, hit.y, 0), 1e-4f);
+    }
+    const LoadedScene disk = load_text(text + "\"float power\" 5 \"bool twosided\" true Shape \"disk\"");
+    EXPECT_NEAR(light_power(disk.scene.lights.at(0), 0), 5, 1e-3f);
+}
+
+TEST(LoadLights, AllOfAPatchOrCylinderHasOnePower) {
+    const auto power_of = [](const std::string& shape) {
+        float sum = 0;
+        for (const Light& light :
+             load_text("AreaLightSource \"diffuse\" \"float power\" 3 Shape " + shape).scene.lights) {
+            sum += light_power(light, 0);
+        }
+        return sum;
+    };
+    EXPECT_NEAR(power_of("\"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ]"), 3, 1e-3f);
+    EXPECT_NEAR(power_of("\"cylinder\""), 3, 1e-2f);
+}
+
+TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
+    const auto presence = [](const std::string& alpha) {
+        return presence_of(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" " + alpha).scene.lights.at(0));
+    };
+    EXPECT_EQ(presence(""), Presence::solid);
+    EXPECT_EQ(presence("\"float alpha\" 1"), Presence::solid);
+    EXPECT_EQ(presence("\"float alpha\" 0.5"), Presence::partly);
+    EXPECT_EQ(presence("\"float alpha\" 0"), Presence::unseen);
+    const Scene unseen(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0").scene);
+    EXPECT_TRUE(unseen.has_point_like_lights());
+    EXPECT_EQ(unseen.presence(0, {0, 0}, {0, 0, 1}), 1);
+    const Scene partly(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0.25").scene);
+    EXPECT_FALSE(partly.has_point_like_lights());
+    EXPECT_EQ(partly.presence(0, {0, 0}, {0, 0, 1}), 0.25f);
+}
+
+TEST(LoadLights, InterfacesDoNotShine) {
     const LoadedScene loaded =
-        load_text("AreaLightSource \"diffuse\" \"string filename\" \"" + picture.string() + "\" Shape \"disk\"");
-    expect_near(std::get<QuadricLight>(loaded.scene.lights.at(0)).radiance, {1, 2, 3});
-    EXPECT_EQ(warnings_with(loaded, "mean colour"), 1);
+        load_text("Material \"interface\" AreaLightSource \"diffuse\" Shape \"sphere\" Shape \"disk\"");
+    EXPECT_TRUE(loaded.scene.lights.empty());
+    EXPECT_EQ(warnings_with(loaded, "warning: an AreaLightSource on a shape of \"interface\""), 1);
 }
 
 }  // namespace

@@ -396,7 +396,7 @@ TEST(LoadTextures, MappingsAreInTheSpaceOfTheTexture) {
                    mapping + " Material \"diffuse\" \"texture reflectance\" \"t\"")
             .reflectance({0.1f, 0.2f}, p);
     };
-    expect_near(value("uv\" \"float uscale\" 2 \"float vdelta\" .5", {}), {0.2f, 0.7f, 0});
+    expect_near(value("uv\" \"float uscale\" 2 \"float vdelta\" .5", {0, 0, 0}), {0.2f, 0.7f, 0});
     expect_near(value("spherical\"", {1, 3, 3}), {0.5f, 0.25f, 0});
     expect_near(value("spherical\"", {1, 1, 4}), {0.25f, 0.75f, 0});
     expect_near(value("spherical\"", {1, 2, 3}), {0, 0, 0});  // its very centre
@@ -412,14 +412,16 @@ TEST(LoadTextures, PatternsOfNoise) {
                       "Material \"diffuse\" \"texture reflectance\" \"" + (kind == "float" ? "u" : "t") + "\"");
     };
     const Vec3 p(0.6f, 1.1f, -0.3f), q = p * 0.5f;
-    const Rgb fractal = texture("float", "\"fbm\" \"integer octaves\" 2 \"float roughness\" .25").reflectance({}, p);
+    const Rgb fractal =
+        texture("float", "\"fbm\" \"integer octaves\" 2 \"float roughness\" .25").reflectance({0, 0}, p);
     expect_near(fractal, Rgb(perlin_noise(q) + 0.25f * perlin_noise(q * 1.99f)));
     const Rgb wrinkled =
-        texture("float", "\"wrinkled\" \"integer octaves\" 1 \"float roughness\" .5").reflectance({}, p);
+        texture("float", "\"wrinkled\" \"integer octaves\" 1 \"float roughness\" .5").reflectance({0, 0}, p);
     expect_near(wrinkled, Rgb(std::abs(perlin_noise(q)) + 0.1f));
-    EXPECT_TRUE(is_finite(texture("float", "\"windy\"").reflectance({}, p)));
+    EXPECT_TRUE(is_finite(texture("float", "\"windy\"").reflectance({0, 0}, p)));
     // Without displacement: half way along the wave.
-    const Rgb marble = texture("spectrum", "\"marble\" \"float variation\" 0 \"float scale\" 3").reflectance({}, {});
+    const Rgb marble =
+        texture("spectrum", "\"marble\" \"float variation\" 0 \"float scale\" 3").reflectance({0, 0}, {0, 0, 0});
     expect_near(marble, Rgb(0.75f), 0.2f);
     EXPECT_PRED2(contains, message_of([&] { texture("float", "\"fbm\" \"integer octaves\" 100"); }), "from 0 to 64");
 }
@@ -443,8 +445,8 @@ TEST(LoadTextures, DotsAndMixturesByDirection) {
         "Rotate 90 1 0 0 Texture \"m\" \"spectrum\" \"directionmix\" \"rgb tex1\" [1 0 0] \"rgb tex2\" "
         "[0 0 1] Material \"diffuse\" \"texture reflectance\" \"m\"");
     const TextureId id = mix.as<DiffuseMaterial>().reflectance;
-    expect_near(mix.scene.scene.textures.evaluate(id, {{}, {}, {0, 0, -1}}), {1, 0, 0});
-    expect_near(mix.scene.scene.textures.evaluate(id, {{}, {}, {0, 0.8f, 0.6f}}), {0.6f, 0, 0.4f});
+    expect_near(mix.scene.scene.textures.evaluate(id, {{0, 0}, {0, 0, 0}, {0, 0, -1}}), {1, 0, 0});
+    expect_near(mix.scene.scene.textures.evaluate(id, {{0, 0}, {0, 0, 0}, {0, 0.8f, 0.6f}}), {0.6f, 0, 0.4f});
 }
 
 TEST(LoadTextures, SubstitutesAreNamedOnce) {

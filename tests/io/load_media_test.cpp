@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace wend {
@@ -86,8 +88,9 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
                  "test.pbrt:3:49: error: a colour must be finite and not negative");
     EXPECT_PRED2(contains, message("homogeneous", "\"float g\" 1"),
                  "test.pbrt:3:49: error: \"g\" must lie between -1 and 1");
-    EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"mie\""),
-                 "test.pbrt:3:49: error: the phase function \"mie\" is unknown; known are draine, henyeygreenstein");
+    EXPECT_PRED2(
+        contains, message("homogeneous", "\"string phase\" \"mie\""),
+        "test.pbrt:3:49: error: the phase function \"mie\" is unknown; known are cornetteshanks, draine, fog, ");
     EXPECT_PRED2(contains, message("homogeneous", "\"string phase\" \"draine\" \"float alpha\" -1"),
                  "\"alpha\" must lie between 0 and");
     EXPECT_PRED2(contains, message("homogeneous", "\"float scale\" -1"), "\"scale\" must not be below 0");
@@ -111,6 +114,45 @@ TEST(LoadMedia, RefusesWhatIsWrongWithItsPlace) {
     EXPECT_PRED2(contains, message("rgbgrid", ""), "needs the parameter");
     EXPECT_PRED2(contains, message("nanovdb", "\"string filename\" \"none-such.nvdb\""), "there is no file");
     EXPECT_PRED2(contains, message("nanovdb", ""), "\"string filename\"");
+}
+
+TEST(LoadMedia, PhaseFunctionsByNameAndByTable) {
+    const auto phase = [](const std::string& parameters) {
+        return load_one<HomogeneousMedium>("homogeneous", "\"string phase\" " + parameters).phase;
+    };
+    for (const float c : {-0.9f, 0.1f, 0.8f}) {
+        EXPECT_FLOAT_EQ(phase("\"rayleigh\"").evaluate(c), Draine(0, 1).evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"cornetteshanks\" \"float g\" 0.6").evaluate(c), Draine(0.6f, 1).evaluate(c));
+        HenyeyGreensteinMixture mixture;
+        mixture.add(3, 0.8f);
+        mixture.add(1, -0.4f);
+        EXPECT_FLOAT_EQ(
+            phase("\"henyeygreensteinmixture\" \"float g\" [ 0.8 -0.4 ] \"float weights\" [ 3 1 ]").evaluate(c),
+            mixture.evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"fog\" \"float diameter\" 9").evaluate(c), fog_droplets(9).evaluate(c));
+        EXPECT_FLOAT_EQ(phase("\"fournierforand\" \"float index\" 1.15").evaluate(c),
+                        fournier_forand(1.15f, 3.5835f).evaluate(c));
+    }
+    const std::string table = "\"float angles\" [ 0 60 180 ] \"float values\" [ 4 1 2 ]";
+    const PhaseFunction listed = phase("\"tabulated\" " + table);
+    EXPECT_FLOAT_EQ(listed.evaluate(1) / listed.evaluate(0.5f), 4);
+    EXPECT_FLOAT_EQ(listed.evaluate(-0.25f) / listed.evaluate(0.5f), 1.5f);
+    std::ofstream(std::filesystem::temp_directory_path() / "wend_phase.txt") << "# Mie\n0 4\n60 1 # middle\n\n180 2\n";
+    EXPECT_FLOAT_EQ(phase("\"tabulated\" \"string file\" \"wend_phase.txt\"").evaluate(0.2f), listed.evaluate(0.2f));
+    std::ofstream(std::filesystem::temp_directory_path() / "wend_phase_bad.txt") << "0 4\n60\n";
+
+    const auto refused = [&](const std::string& parameters, const std::string& message) {
+        EXPECT_PRED2(contains, message_of([&] { phase(parameters); }), message);
+    };
+    refused("\"fog\" \"float diameter\" 3", "the diameter of fog droplets must be from 5 to 50");
+    refused("\"fournierforand\" \"float slope\" 6", "the slope must be");
+    refused("\"tabulated\"", "two at least");
+    refused("\"tabulated\" \"float angles\" [ 0 180 ] \"float values\" [ 1 ]", "2 \"angles\", but 1 \"values\"");
+    refused("\"tabulated\" \"float angles\" [ 0 90 ] \"float values\" [ 1 1 ]", "must reach from straight on");
+    refused("\"tabulated\" \"string file\" \"wend_phase_bad.txt\"", "wend_phase_bad.txt:2:1: error: expected an angle");
+    refused("\"tabulated\" \"string file\" \"no_such_phase.txt\"", "no_such_phase.txt");
+    refused("\"henyeygreensteinmixture\" \"float g\" [ 1 ] \"float weights\" [ 1 ]", "\"g\" must lie within");
+    refused("\"henyeygreensteinmixture\" \"float g\" [ 0 0.1 ] \"float weights\" [ 1 ]", "as many numbers");
 }
 
 TEST(LoadMedia, UniformGridSamplesAreInTheMiddleOfTheirCells) {
@@ -156,18 +198,63 @@ TEST(LoadMedia, GridEmission) {
     expect_near(hot.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
 }
 
-TEST(LoadMedia, RgbGridKeepsItsMeanColour) {
-    const LoadedScene loaded = load_text(medium_text(
+/// Coefficients at a point of the world.
+Rgb look_up(const ColourGrid& grid, const GridMedium& medium, const Vec3& p) {
+    return grid.interpolate(medium.to_index({p, Vec3(0, 0, 1)}).origin);
+}
+
+TEST(LoadMedia, RgbGridHasAColourAtEachVoxel) {
+    const auto medium = load_one<GridMedium>(
         "rgbgrid",
-        "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 0 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2"));
-    EXPECT_EQ(warnings_with(loaded, "rgbgrid"), 1);
-    const auto& medium = std::get<GridMedium>(loaded.scene.media[0]);
-    expect_near(medium.scattering() * density_at(medium, {0.25f, 0.5f, 0.5f}), Rgb(4.0f));
+        "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 1 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2");
+    ASSERT_TRUE(medium.voxels());
+    const Vec3 first(0.25f, 0.5f, 0.5f), between(0.5f, 0.5f, 0.5f), face(1, 0.5f, 0.5f);
+    expect_near(look_up(medium.voxels()->scattering, medium, first), {2, 4, 6});
+    expect_near(look_up(medium.voxels()->scattering, medium, between), Rgb(4.0f));
+    expect_near(look_up(medium.voxels()->scattering, medium, face), {3, 2, 1});
+    expect_near(look_up(medium.voxels()->absorption, medium, between), {0, 1, 0});
+    EXPECT_EQ(density_at(medium, first), 6);
+    EXPECT_GE(density_at(medium, between), 5);
+    expect_near(medium.scattering(), Rgb(4.0f));
+    expect_near(extinction_at(medium, between), {4, 5, 4});
+}
+
+TEST(LoadMedia, RgbGridsEmissionIsNotNormalized) {
     const auto red = load_one<GridMedium>(
         "rgbgrid", "\"rgb sigma_a\" [ 1 0 0 ] \"rgb sigma_s\" [ 2 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");
-    expect_near(red.absorption() * density_at(red, {0.5f, 0.5f, 0.5f}), {1, 0, 0});
-    expect_near(red.scattering() * density_at(red, {0.5f, 0.5f, 0.5f}), {2, 1, 1});
-    expect_near(red.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
+    const Vec3 middle(0.5f, 0.5f, 0.5f);
+    expect_near(red.emission()->at(middle), Rgb(1, 2, 3) * 213.71379f, 1e-2f);
+    expect_near(red.emitted_at(middle), {213.71379f, 0, 0}, 1e-2f);
+    const auto message = [](const std::string& parameters) {
+        return message_of([&] { load_one<GridMedium>("rgbgrid", parameters); });
+    };
+    EXPECT_PRED2(contains, message("\"rgb sigma_s\" [ 1 1 1 ] \"rgb Le\" [ 1 1 1 ]"), "beside \"rgb Le\"");
+    EXPECT_PRED2(contains, message("\"rgb sigma_s\" [ 1 1 1 ] \"float scale\" 1e7"), "mean free paths");
+}
+
+TEST(LoadMedia, RgbGridsMissingCoefficientIsOneUpToTheFaces) {
+    const auto medium = load_one<GridMedium>("rgbgrid", "\"rgb sigma_s\" [ 2 2 2 ] \"float scale\" 3");
+    const Vec3 face(1, 0.5f, 0.5f);
+    expect_near(look_up(medium.voxels()->absorption, medium, face), Rgb(3.0f));
+    expect_near(look_up(medium.voxels()->scattering, medium, face), Rgb(3.0f));
+}
+
+TEST(LoadMedia, TemperaturesWithoutAScaleGlowLessTowardsTheFaces) {
+    const auto grid = [](const std::string& scale) {
+        return load_one<GridMedium>("uniformgrid",
+                                    "\"integer nx\" 3 \"float density\" [ 1 1 1 ] \"float temperature\" [ 2000 2000 2000 ] "
+                                    "\"point3 p1\" [ 3 1 1 ]" +
+                                        scale,
+                                    "Translate 1 0 0 ");
+    };
+    const Vec3 middle(2.5f, 0.5f, 0.5f), quarter(1.75f, 0.5f, 0.5f);
+    const Rgb full = grid(" \"float Lescale\" 1").emission()->at(middle);
+    const auto falling = grid("");
+    expect_near(falling.emission()->at(middle), full);
+    expect_near(falling.emission()->at(quarter), full * 0.75f);
+    const auto scaled = grid(" \"float Lescale\" [ 0 4 0 ]");
+    expect_near(scaled.emission()->at(middle), full * 4.0f);
+    expect_near(scaled.emission()->at({2, 0.5f, 0.5f}), full * 2.0f);
 }
 
 TEST(LoadMedia, CloudFillsItsBoxFromBelow) {

@@ -147,7 +147,7 @@ TEST(LoadShapes, CylindersAreExact) {
     EXPECT_FALSE(scene.intersect({{-5, 1.1f, 0}, {1, 0, 0}}));
     // What shines is a mesh, as lights are made of triangles.
     const LoadedScene light = load_text("AreaLightSource \"diffuse\" Shape \"cylinder\"");
-    EXPECT_EQ(std::get<TriangleMesh>(light.scene.surfaces[0].shape).triangles_per_shape, 512u);
+    EXPECT_EQ(std::get<TriangleMesh>(light.scene.surfaces[0].shape).triangle_count(), 512u);
     EXPECT_EQ(light.scene.lights.size(), 512u);
     EXPECT_EQ(warnings_with(light, "a prism of 256 sides"), 1);
 }
@@ -159,7 +159,7 @@ TEST(LoadShapes, CurvedPatches) {
     EXPECT_TRUE(loaded.warnings.empty());
     EXPECT_EQ(std::get<TriangleMesh>(loaded.scene.surfaces[1].shape).triangle_count(), 2u);
     const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
-    EXPECT_EQ(mesh.triangles_per_shape, mesh.triangle_count());
+    EXPECT_GT(mesh.triangle_count(), 100u);
     const Scene scene(loaded.scene);
     for (const float x : {0.13f, 0.5f, 0.77f}) {
         for (const float y : {0.21f, 0.64f, 0.98f}) {

@@ -4,6 +4,7 @@
 #include <wend/io/spectrum/colorimetry.h>
 #include <wend/io/spectrum/medium_presets.h>
 #include <wend/io/spectrum/named_spectra.h>
+#include <wend/io/spectrum/white_balance.h>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,39 @@ TEST(Blackbody, EmissionHasAPeakOfOne) {
     EXPECT_EQ(blackbody_emission(0), Rgb());
     EXPECT_EQ(blackbody_emission(-5), Rgb());
     EXPECT_TRUE(is_finite(blackbody_emission(1)));
+}
+
+TEST(WhiteBalance, MakesDaylightWhite) {
+    // Of the CIE's tables: chromaticities of D50, D55 and D75, whose temperatures are by the older constant.
+    const struct {
+        double temperature, x, y;
+    } daylights[] = {{5000, 0.34567, 0.35850}, {5500, 0.33242, 0.34743}, {7500, 0.29902, 0.31485}};
+    for (const auto& [temperature, x, y] : daylights) {
+        const Rgb white = white_balance(temperature) * rgb_from_xyz({x / y, 1, (1 - x - y) / y});
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(white[c], 1, 3e-3f) << temperature;
+        }
+    }
+    const Rgb white = white_balance(6504) * Rgb(1.0f);
+    EXPECT_LT(max_value(white) / min_value(white), 1.003f);
+}
+
+TEST(WhiteBalance, IsThatOfABlackBodyWhereDaylightEnds) {
+    const Xyz xyz = blackbody_xyz(3000);
+    const Rgb white = white_balance(3000) * rgb_from_xyz({xyz.x / xyz.y, 1, xyz.z / xyz.y});
+    EXPECT_LT(max_value(white) / min_value(white), 1.005f);
+    EXPECT_THROW(white_balance(999), InputError);
+    EXPECT_THROW(white_balance(1e9), InputError);
+    EXPECT_THROW(white_balance(std::nan("")), InputError);
+}
+
+TEST(ColourMatrix, TheInverseUndoesIt) {
+    const ColourMatrix m = white_balance(4000);
+    const Rgb there_and_back = m.inverse() * (m * Rgb(1, 2, 3));
+    EXPECT_NEAR(there_and_back.r, 1, 1e-5f);
+    EXPECT_NEAR(there_and_back.g, 2, 1e-5f);
+    EXPECT_NEAR(there_and_back.b, 3, 1e-5f);
+    EXPECT_EQ(ColourMatrix() * Rgb(0.1f, 1e30f, 3), Rgb(0.1f, 1e30f, 3));
 }
 
 TEST(NamedSpectrum, GoldLooksGold) {

@@ -13,7 +13,7 @@ from pathlib import Path
 # What names it, its own files, and where else it may be named in how many lines.
 EXTENSIONS = {
     "a phase function": (r"\bDraine\b|\bdraine\b", ["medium/draine.h", "medium/draine.cpp"],
-                         {"medium/phase.h": 3, "io/load/media.cpp": 5}),
+                         {"medium/phase.h": 3, "medium/tabulated_phase.cpp": 1, "io/load/phase_functions.cpp": 6}),
     "a technique": (r"\bInteriorTechnique\b|\binterior_technique\b", ["transport/interior_technique.h"],
                     {"transport/path_technique.h": 5}),
     "a recorder": (r"\bLightRecorder\b|\blight_recorder\b", ["transport/light_recorder.h", "render/light_learner.h"],

@@ -115,7 +115,8 @@ class Public(Tree):
 class Extensions(Tree):
     def test_a_file_that_begins_to_know_one_is_refused(self):
         for name, lines in {"medium/draine.h": "", "medium/draine.cpp": "", "medium/phase.h": "Draine\n" * 3,
-                            "io/load/media.cpp": "// Draine\n" + "Draine\n" * 5}.items():
+                            "medium/tabulated_phase.cpp": "Draine\n",
+                            "io/load/phase_functions.cpp": "// Draine\n" + "Draine\n" * 6}.items():
             self.write(f"src/wend/{name}", lines)
         known = {"a phase function": check_extensions.EXTENSIONS["a phase function"]}
         with unittest.mock.patch.object(check_extensions, "EXTENSIONS", known):

@@ -127,6 +127,7 @@ TEST_P(PbrtReference, AgreesBlockByBlock) {
     settings.max_depth = loaded.max_depth;
     settings.filter = loaded.filter;
     settings.exposure = loaded.exposure;
+    settings.balance = loaded.balance;
     ASSERT_EQ(settings.sampler, SamplerKind::independent) << "or else the variance layer is an overestimate";
     const Scene scene(std::move(loaded.scene));
     render(scene, film, settings);

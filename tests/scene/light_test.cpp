@@ -171,7 +171,7 @@ std::vector<SurfacePoint> shining_hits(const Light& light, const Vec3& p, const 
         }
         const auto point = project(*l.quadric, origin + direction * crossing.t);
         const Vec3 normal = normalize(l.quadric->object_from_world.transposed_vector(point.normal)) * l.flip;
-        if (!is_black(emitted_radiance(light, normal, -w))) {
+        if (!is_black(emitted_radiance(light, normal, {0, 0}, -w))) {
             points.push_back({l.quadric->world_from_object.point(point.position), normal});
         }
     }
@@ -393,7 +393,7 @@ TEST(ImageInfiniteLights, SamplesAgreeWithTheRadianceOfTheirDirection) {
     for (int i = 0; i < 1500000; ++i) {
         const auto s = sample_light(light, Vec3(0), random.uniform2(), random);
         ASSERT_TRUE(s);
-        EXPECT_EQ(s->radiance, environment_radiance(light, s->direction));
+        EXPECT_EQ(s->radiance, environment_radiance(light, Vec3(0), s->direction));
         EXPECT_EQ(s->density, light_density(light, Vec3(0), s->direction, Vec3(0), Vec3(0)));
         fluence.add(s->radiance.r / s->density);
     }

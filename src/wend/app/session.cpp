@@ -94,6 +94,7 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, const
         options.max_depth ? (*options.max_depth == 0 ? 1 << 30 : *options.max_depth) : loaded.max_depth;
     settings_.filter = loaded.filter;
     settings_.exposure = loaded.exposure;
+    settings_.balance = loaded.balance;
 }
 
 nlohmann::json Session::describe(const RenderSettings& settings) const {

@@ -107,6 +107,46 @@ void track(const GridMedium& medium, const FlightStart& start, Flight& flight, P
     medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length, cross);
 }
 
+/// The same where voxels have coefficients of their own, below a bound: which tentative collisions are real is decided
+/// by the extinction of a voxel near them, for the mixture of channels.
+void track_voxels(const GridMedium& medium, const FlightStart& start, Flight& flight, Pcg32& random) {
+    const VoxelCoefficients& voxels = *medium.voxels();
+    const GridEmission* emission = medium.emission();
+    const auto index_ray = medium.to_index(start.ray);
+    const float looks = medium.looks(index_ray, start.length);
+    Rgb probability = channel_probabilities(start.throughput);
+    TentativeCollisions collisions(random);
+    const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        if (!(cell.maximum > 0)) {
+            return true;
+        }
+        const float rate = std::max(cell.maximum, looks);
+        for (double t_exact = t_in; collisions.next(t_exact, t_out, rate);) {
+            const auto t = static_cast<float>(t_exact);
+            const Vec3 p = index_ray.at(t);
+            const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+            const Rgb absorption = voxels.absorption.sample_nearest(p, corner);
+            const Rgb scattering = voxels.scattering.sample_nearest(p, corner);
+            if (emission) {
+                const Vec3 here = start.ray.at(t);
+                pick_up(flight, flight.weight * absorption * emission->at(here) * (start.keeps(here) / rate), t);
+            }
+            const Rgb extinction = absorption + scattering;
+            const float real = dot(probability, extinction);
+            if (random.uniform() * rate < real) {
+                flight.scatters = true;
+                flight.distance = t;
+                flight.weight *= scattering / real;
+                return false;
+            }
+            flight.weight *= (Rgb(rate) - extinction) / (rate - real);
+            probability = channel_probabilities(start.throughput * flight.weight);
+        }
+        return true;
+    };
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, start.length, cross);
+}
+
 }  // namespace
 
 Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const {
@@ -121,7 +161,7 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
         flight.weight = estimate_transmittance(medium, start.ray, start.length, random);
         return flight;
     }
-    track(medium, start, flight, random);
+    medium.voxels() ? track_voxels(medium, start, flight, random) : track(medium, start, flight, random);
     return flight;
 }
 

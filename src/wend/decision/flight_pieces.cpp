@@ -66,6 +66,12 @@ void FlightPieces::add_near(const Equiangular& along, float strength) {
     near_[near_count_++] = {count_, along, strength * along.integral(), 0};
 }
 
+void FlightPieces::add_beam(const Equiangular& along, float strength) {
+    WEND_EXPECT(has_room_for_beam() && count_ == 0);
+    near_[near_count_++] = {Near::anywhere, along, strength * along.integral(), 0};
+    ++beam_count_;
+}
+
 void FlightPieces::finish(float length, float ahead, bool level) {
     WEND_EXPECT(count_ > 0);
     pieces_[count_ - 1].t_out = length;
@@ -81,27 +87,32 @@ void FlightPieces::finish(float length, float ahead, bool level) {
         lit += or_nothing(piece.in_scattered * part);
         piece.cumulative = lit;
     }
+    const float most_of_beam = lit;
     for (int i = 0; i < near_count_; ++i) {
         Near& near = *near_[i];
         near.part = or_nothing(near.part * dot(scattering_rate_, transmitted(near.along.closest())));
+        if (near.piece == Near::anywhere) {
+            near.part = std::min(near.part, most_of_beam);
+        }
         lit += near.part;
         near.cumulative = lit;
     }
     if (level && lit > 0) {
         pieces_[0] = {length, lit / scattered, lit};
         count_ = 1;
-        near_count_ = 0;
+        near_count_ = beam_count_ = 0;
     }
     total_ = or_nothing(lit + ahead * dot(channels_, passed));
 }
 
 float FlightPieces::near_at(const Piece& piece, float distance) const {
+    float sum = 0;
     for (int i = 0; i < near_count_; ++i) {
-        if (near_[i]->piece == &piece - pieces_) {
-            return near_[i]->part * near_[i]->along.density(distance);
+        if (near_[i]->piece == &piece - pieces_ || near_[i]->piece == Near::anywhere) {
+            sum += near_[i]->part * near_[i]->along.density(distance);
         }
     }
-    return 0;
+    return sum;
 }
 
 FlightPieces::Outcome FlightPieces::collision_in(const Piece& piece, float distance, float defensive_fraction) const {
@@ -147,7 +158,9 @@ FlightPieces::Outcome FlightPieces::sample(float defensive_fraction, float u) co
             return end(defensive_fraction);
         }
         u = into_unit((u - ((*near)->cumulative - (*near)->part)) / (*near)->part);
-        return collision_in(pieces_[(*near)->piece], (*near)->along.sample(u), defensive_fraction);
+        const float distance = (*near)->along.sample(u);
+        return (*near)->piece == Near::anywhere ? collision(distance, defensive_fraction)
+                                                : collision_in(pieces_[(*near)->piece], distance, defensive_fraction);
     }
     const float below = piece == pieces_ ? 0.0f : (piece - 1)->cumulative;
     u = into_unit((u - below) / (piece->cumulative - below));

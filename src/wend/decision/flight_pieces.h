@@ -17,7 +17,7 @@ namespace wend {
 ///     (α + (1 - α) A / Z) · Σ_c w_c e^{-σ_c d},
 /// where α is the classical share, w_c are the weights of the colour channels and Z makes the second terms add up to 1.
 /// A light close to a piece adds what its light brings there, drawn by angle (kulla2012), to the second term of the
-/// density.
+/// density; so does one whose beam the ray crosses.
 /// A value of fixed size without heap memory.
 class FlightPieces {
 public:
@@ -39,7 +39,12 @@ public:
 
     /// The next piece has a light close by, of this in-scattered radiance times squared distance. There must be room.
     void add_near(const Equiangular& along, float strength);
-    bool has_room_for_near() const { return near_count_ < most_near; }
+    bool has_room_for_near() const { return near_count_ - beam_count_ < most_near; }
+
+    /// A light whose beam the ray crosses there, of this in-scattered radiance times squared distance. Before the first
+    /// piece, and as long as there is room. No beam is taken to bring more than all pieces: something may stand in it.
+    void add_beam(const Equiangular& along, float strength);
+    bool has_room_for_beam() const { return beam_count_ < most_beams; }
 
     /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
     /// There must be a piece. `level`: only whether to scatter follows the light, and where does not.
@@ -65,7 +70,9 @@ private:
     };
 
     struct Near {
-        std::ptrdiff_t piece;
+        static constexpr std::ptrdiff_t anywhere = -1;
+
+        std::ptrdiff_t piece;  ///< that it is close to; a beam crosses several
         Equiangular along;
         /// The contribution, and the sum of all up to this one, those of the pieces included.
         float part, cumulative;
@@ -81,22 +88,22 @@ private:
     float t_in(const Piece& piece) const { return &piece == pieces_ ? 0.0f : (&piece - 1)->t_out; }
     Shares shares_in(const Piece& piece) const;
     Outcome collision_in(const Piece& piece, float distance, float defensive_fraction) const;
-    /// The contributions of the piece's near light, per unit of distance.
+    /// The contributions of the piece's near light and of beams, per unit of distance.
     float near_at(const Piece& piece, float distance) const;
 
     static constexpr int capacity = 128;
-    static constexpr int most_near = 8;
+    static constexpr int most_near = 8, most_beams = 4;
 
     Rgb extinction_;
     /// The weights of the channels times 1, σ, σs, and σs / σ.
     Rgb channels_, rate_, scattering_rate_, albedo_;
     bool grey_;
     float farthest_;
-    int count_ = 0, near_count_ = 0;
+    int count_ = 0, near_count_ = 0, beam_count_ = 0;
     float ahead_ = 0;
     float total_ = 0;
     Piece pieces_[capacity];
-    std::optional<Near> near_[most_near];
+    std::optional<Near> near_[most_near + most_beams];  ///< beams first
 };
 
 }  // namespace wend

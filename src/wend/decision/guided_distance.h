@@ -1,12 +1,14 @@
 // Decision 1, guided: scatter or reach the end, and where, in proportion to the light that comes from there.
 #pragma once
 
+#include <wend/decision/beam.h>
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
 #include <wend/decision/weight_window.h>
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace wend {
@@ -33,10 +35,15 @@ enum class DistanceGuiding { scatter_alone, scatter_and_distance };
 template <AdjointAlongRays Field>
 class GuidedDistance {
 public:
-    /// The fields are not owned. `defensive_fraction` in (0,1] bounds the weight by 1/defensive_fraction times the
-    /// classical one.
-    GuidedDistance(const Field* surface, const Field* volume, float defensive_fraction, DistanceGuiding guiding)
-        : surface_(surface), volume_(volume), defensive_fraction_(defensive_fraction), guiding_(guiding) {}
+    /// Neither the fields nor the beams are owned. `defensive_fraction` in (0,1] bounds the weight by
+    /// 1/defensive_fraction times the classical one.
+    GuidedDistance(const Field* surface, const Field* volume, float defensive_fraction, DistanceGuiding guiding,
+                   std::span<const Beam> beams = {})
+        : surface_(surface),
+          volume_(volume),
+          defensive_fraction_(defensive_fraction),
+          guiding_(guiding),
+          beams_(beams) {}
 
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
@@ -90,6 +97,13 @@ private:
     float look_along(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
         const Vec3& before = start.ray.direction;
         float confidence = 0;
+        for (const Beam& beam : beams_) {
+            const auto part = pieces.has_room_for_beam() ? crossing(beam, start.ray, start.length) : std::nullopt;
+            if (part) {
+                const Equiangular along(ClosestApproach(start.ray, beam.position, 0), part->t_in, part->t_out);
+                pieces.add_beam(along, beam.intensity * phase.evaluate(along.cosine()));
+            }
+        }
         const auto look = [&](const auto& light, float t_in, float t_out) {
             if (!(t_in > 0)) {
                 confidence = light.confidence;
@@ -133,6 +147,7 @@ private:
     const Field* volume_;
     float defensive_fraction_;
     DistanceGuiding guiding_;
+    std::span<const Beam> beams_;
     ClassicalDistance classical_;
 };
 

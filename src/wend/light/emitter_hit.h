@@ -52,19 +52,23 @@ public:
     /// Of a surface that shines.
     EmitterHit at(const Hit& hit, const LastVertex& last, const Vec3& direction) const {
         EmitterHit arriving;
-        const Rgb emitted =
-            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, -direction);
+        Rgb emitted =
+            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, hit.uv, -direction);
+        if (last.unconnected) {
+            // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark.
+            emitted *= scene_.presence(hit.light, hit.uv, hit.position);
+        }
         if (!is_black(emitted)) {
             arriving.add(emitted, weight(hit.light, last, direction, hit.position, hit.normal));
         }
         return arriving;
     }
 
-    /// From beyond the scene.
-    EmitterHit beyond(const LastVertex& last, const Vec3& direction) const {
+    /// From beyond the scene, where the walk leaves it from a point.
+    EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction) const {
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {
-            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], direction);
+            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], from, direction);
             if (!is_black(emitted)) {
                 arriving.add(emitted, weight(light, last, direction, {}, {}));
             }
@@ -107,7 +111,7 @@ private:
         const Light& source = scene_.lights()[static_cast<std::size_t>(light)];
         const bool is_far = is_at_infinity(source);
         const Vec3 straight = is_far ? direction : normalize(hit - last.receiver.position);
-        if (!is_seen_through_boundaries(source) || (!is_far && is_black(emitted_radiance(source, normal, -straight)))) {
+        if (!is_seen_through_boundaries(source) || (!is_far && !emits_towards(source, normal, -straight))) {
             return 0;
         }
         const float distance = is_far ? infinity : length(hit - last.receiver.position);

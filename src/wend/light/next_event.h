@@ -33,8 +33,11 @@ inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightS
     if (chosen.index < 0) {
         return std::nullopt;
     }
-    const auto light =
-        sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
+    auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
+    if (light && light->distance < infinity) {
+        light->radiance *=
+            scene.presence(chosen.index, light->uv, receiver.position + light->direction * light->distance);
+    }
     return light ? std::optional(ChosenSample{chosen.index, *light, chosen.probability}) : std::nullopt;
 }
 

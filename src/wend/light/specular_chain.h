@@ -54,10 +54,11 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
                                                  const MediumState& medium);
 
 /// Whether connections look for a light behind boundaries: one that rays can meet, and that is not the same from
-/// everywhere, which any ray meets as well.
+/// everywhere, which any ray meets as well. Whether a lamp that is partly there is met differs from ray to ray, and what
+/// a portal sends from place to place.
 inline bool is_seen_through_boundaries(const Light& light) {
-    return std::holds_alternative<TriangleLight>(light) || std::holds_alternative<QuadricLight>(light) ||
-           std::holds_alternative<ImageInfiniteLight>(light);
+    const bool is_lamp = std::holds_alternative<TriangleLight>(light) || std::holds_alternative<QuadricLight>(light);
+    return (is_lamp && presence_of(light) == Presence::solid) || std::holds_alternative<ImageInfiniteLight>(light);
 }
 
 }  // namespace wend

@@ -14,12 +14,16 @@ constexpr float majorant_cell_voxels = 4;
 }  // namespace
 
 Rgb GridEmission::at(const Vec3& p) const {
+    const Rgb full = strength ? radiance * strength->interpolate(strength_from_world.point(p)) : radiance;
+    if (colours) {
+        return full * colours->interpolate(field_from_world.point(p));
+    }
     if (!field) {
-        return radiance;
+        return full;
     }
     const float value = field->interpolate(field_from_world.point(p));
     if (black_body.empty()) {
-        return radiance * value;
+        return full * value;
     }
     const float kelvin = (value - temperature_offset) * temperature_scale;
     // Cooler than 100 K nothing is visible.
@@ -29,7 +33,7 @@ Rgb GridEmission::at(const Vec3& p) const {
     const float position = std::min(kelvin / black_body_step, static_cast<float>(black_body.size()) - 1.001f);
     const auto i = static_cast<std::size_t>(position);
     const float f = position - static_cast<float>(i);
-    return radiance * (black_body[i] * (1 - f) + black_body[i + 1] * f);
+    return full * (black_body[i] * (1 - f) + black_body[i + 1] * f);
 }
 
 GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box,
@@ -44,6 +48,26 @@ GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& ind
       phase_(phase),
       emission_(std::move(emission)) {
     WEND_EXPECT(min_value(absorption) >= 0 && min_value(scattering) >= 0);
+    find_glow(box, index_from_world);
+}
+
+GridMedium::GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box,
+                       std::shared_ptr<const VoxelCoefficients> voxels, const Rgb& absorption, const Rgb& scattering,
+                       const PhaseFunction& phase, std::shared_ptr<const GridEmission> emission)
+    : density_(std::move(density)),
+      voxels_(std::move(voxels)),
+      index_from_world_(index_from_world),
+      majorants_(*density_, box, majorant_cell_voxels),
+      absorption_(absorption),
+      scattering_(scattering),
+      extinction_(1.0f),
+      phase_(phase),
+      emission_(std::move(emission)) {
+    WEND_EXPECT(voxels_ && min_value(absorption) >= 0 && min_value(scattering) >= 0);
+    find_glow(box, index_from_world);
+}
+
+void GridMedium::find_glow(const Box3& box, const Transform& index_from_world) {
     if (emission_) {
         const auto glow = std::make_shared<const EmissionSampler>(
             box, index_from_world.inverse(), [this](const Vec3& p) { return mean_value(emitted_at(p)); });
@@ -65,6 +89,10 @@ Rgb extinction_at(const Medium& medium, const Vec3& position) {
         return homogeneous->extinction();
     }
     const auto& grid = std::get<GridMedium>(medium);
+    if (const VoxelCoefficients* voxels = grid.voxels()) {
+        const Vec3 p = grid.to_index({position, Vec3(0, 0, 0)}).origin;
+        return voxels->absorption.interpolate(p) + voxels->scattering.interpolate(p);
+    }
     return grid.extinction() * grid.density().interpolate(grid.to_index({position, Vec3(0, 0, 0)}).origin);
 }
 

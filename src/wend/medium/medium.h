@@ -4,6 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/ray.h>
 #include <wend/core/transform.h>
+#include <wend/medium/colour_grid.h>
 #include <wend/medium/emission_sampler.h>
 #include <wend/medium/grid.h>
 #include <wend/medium/homogeneous.h>
@@ -21,7 +22,10 @@ struct GridEmission {
     /// Emitted radiance where `field` is 1, or what multiplies the black body.
     Rgb radiance;
     std::shared_ptr<const Grid> field;  ///< scale or temperature; null: emits wherever it absorbs
-    AffineMap field_from_world;
+    AffineMap field_from_world;  ///< of colours as well
+    std::shared_ptr<const ColourGrid> colours;  ///< multiply `radiance`, in place of a field; null: 1
+    std::shared_ptr<const Grid> strength;       ///< multiplies all of it; null: 1
+    AffineMap strength_from_world;
     /// Radiance of a black body at 0, step, 2 step, ... kelvin; empty if `field` is a plain scale.
     std::vector<Rgb> black_body;
     float black_body_step = 10;
@@ -32,7 +36,14 @@ struct GridEmission {
     Rgb at(const Vec3& p) const;
 };
 
-/// A medium whose coefficients vary in proportion to a density grid.
+/// Coefficients of their own at each voxel, per scene unit.
+struct VoxelCoefficients {
+    ColourGrid absorption;
+    ColourGrid scattering;
+};
+
+/// A medium whose coefficients vary in proportion to a density grid, or from voxel to voxel below the bound that such a
+/// grid gives.
 class GridMedium {
 public:
     /// Coefficients are per scene unit at density 1. `box` (index space) is where the medium is; density outside is not
@@ -41,9 +52,17 @@ public:
                const Rgb& absorption, const Rgb& scattering, const PhaseFunction& phase,
                std::shared_ptr<const GridEmission> emission = nullptr);
 
+    /// The same with coefficients of each voxel; none may have an extinction above `density` there, which has the same
+    /// voxels. `absorption` and `scattering`, a mean over the medium, tell its albedo where one is asked for.
+    GridMedium(std::shared_ptr<const Grid> density, const Transform& index_from_world, const Box3& box,
+               std::shared_ptr<const VoxelCoefficients> voxels, const Rgb& absorption, const Rgb& scattering,
+               const PhaseFunction& phase, std::shared_ptr<const GridEmission> emission = nullptr);
+
+    /// Not null where voxels have coefficients of their own: density is a bound of their extinction then.
+    const VoxelCoefficients* voxels() const { return voxels_.get(); }
     const Rgb& absorption() const { return absorption_; }
     const Rgb& scattering() const { return scattering_; }
-    /// Extinction at density 1.
+    /// Extinction at density 1; 1 where that is a bound.
     const Rgb& extinction() const { return extinction_; }
     const PhaseFunction& phase() const { return phase_; }
     const GridEmission* emission() const { return emission_.get(); }
@@ -51,7 +70,9 @@ public:
     const EmissionSampler* glow() const { return glow_.get(); }
     /// Radiance emitted per unit length at a point in the world; the medium must have an emission.
     Rgb emitted_at(const Vec3& p) const {
-        return absorption_ * emission_->at(p) * density_->interpolate(index_from_world_.point(p));
+        const Vec3 q = index_from_world_.point(p);
+        return voxels_ ? voxels_->absorption.interpolate(q) * emission_->at(p)
+                       : absorption_ * emission_->at(p) * density_->interpolate(q);
     }
     const Grid& density() const { return *density_; }
     const MajorantGrid& majorants() const { return majorants_; }
@@ -70,7 +91,10 @@ public:
     float looks(const IndexRay& ray, float length) const;
 
 private:
+    void find_glow(const Box3& box, const Transform& index_from_world);
+
     std::shared_ptr<const Grid> density_;
+    std::shared_ptr<const VoxelCoefficients> voxels_;
     AffineMap index_from_world_;
     MajorantGrid majorants_;
     Rgb absorption_;
@@ -97,7 +121,7 @@ Rgb extinction_at(const Medium& medium, const Vec3& position);
 /// Whether a collision can be anything but absorption.
 bool scatters(const Medium& medium);
 
-/// Single-scattering albedo (the same at every density).
+/// Single-scattering albedo: the same at every density, or a mean where voxels have albedos of their own.
 Rgb albedo(const Medium& medium);
 
 }  // namespace wend

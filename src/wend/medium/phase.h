@@ -4,6 +4,7 @@
 
 #include <wend/core/frame.h>
 #include <wend/medium/draine.h>
+#include <wend/medium/tabulated_phase.h>
 #include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/warp.h>
 
@@ -119,7 +120,7 @@ concept PhaseFunctionKind = requires(const P& phase, float number, int degree, c
 class PhaseFunction {
 public:
     /// Any of the kinds.
-    using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture, Draine>;
+    using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture, Draine, TabulatedPhase>;
 
     /// Isotropic.
     PhaseFunction() = default;
@@ -166,6 +167,6 @@ private:
 };
 
 static_assert(PhaseFunctionKind<HenyeyGreenstein> && PhaseFunctionKind<HenyeyGreensteinMixture> &&
-              PhaseFunctionKind<Draine>);
+              PhaseFunctionKind<Draine> && PhaseFunctionKind<TabulatedPhase>);
 
 }  // namespace wend

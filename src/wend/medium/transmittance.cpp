@@ -18,9 +18,40 @@ double depth_of(const GridMedium& medium, const GridMedium::IndexRay& ray, float
     return depth;
 }
 
+/// Ratio tracking against the bound of a medium whose voxels have coefficients of their own.
+Rgb estimate_by_voxels(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random) {
+    const VoxelCoefficients& voxels = *medium.voxels();
+    const auto index_ray = medium.to_index(ray);
+    Rgb estimate(1.0f);
+    TentativeCollisions collisions(random);
+    const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
+        for (double t = t_in; collisions.next(t, t_out, cell.maximum);) {
+            const Vec3 p = index_ray.at(static_cast<float>(t));
+            const Vec3 corner(random.uniform(), random.uniform(), random.uniform());
+            const Rgb extinction =
+                voxels.absorption.sample_nearest(p, corner) + voxels.scattering.sample_nearest(p, corner);
+            estimate *= Rgb(1.0f) - extinction / cell.maximum;
+            const float size = max_value(estimate);
+            if (size < roulette_threshold) {
+                if (!(random.uniform() * roulette_threshold < size)) {
+                    estimate = Rgb(0.0f);
+                    return false;
+                }
+                estimate *= roulette_threshold / size;
+            }
+        }
+        return true;
+    };
+    medium.majorants().walk(index_ray.origin, index_ray.direction, 0, distance, cross);
+    return estimate;
+}
+
 }  // namespace
 
 Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random) {
+    if (medium.voxels()) {
+        return estimate_by_voxels(medium, ray, distance, random);
+    }
     const auto index_ray = medium.to_index(ray);
     const Rgb& extinction = medium.extinction();
     const float largest = max_value(extinction);

@@ -161,7 +161,7 @@ private:
             place.weight * mean_value(result.sample.radiance),
             cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
         result.sample.guided = is_guided_;
-        result.sample.radiance *= place.weight * settings_.exposure;
+        result.sample.radiance = settings_.balance * (result.sample.radiance * (place.weight * settings_.exposure));
         film_.add(pixel, result.sample);
         return true;
     }

@@ -1,6 +1,7 @@
 #include <wend/core/parallel.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/film/pixel_estimate.h>
+#include <wend/light/beams.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/pass.h>
 #include <wend/render/render.h>
@@ -33,6 +34,17 @@ using Clock = Rest::Clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A picture before its white was balanced.
+Image as_in_scene(Image picture, const ColourMatrix& balance) {
+    if (!balance.is_identity()) {
+        const ColourMatrix back = balance.inverse();
+        for (Rgb& pixel : picture.pixels) {
+            pixel = back * pixel;
+        }
+    }
+    return picture;
 }
 
 // A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
@@ -367,7 +379,7 @@ private:
         plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
                                        std::max(choice_.recorded_share(samples), fewest_recorded / walks));
         if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
-            plan.estimates = pixel_estimates(film_.beauty(), samples);
+            plan.estimates = pixel_estimates(as_in_scene(film_.beauty(), settings_.balance), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
                 plan.mean_estimate += static_cast<double>(estimate) / context_.pixels;
@@ -418,7 +430,7 @@ private:
         const guide::Fields& fields = learned.fields();
         const GuidedDistance distance(
             &fields.surface, &fields.volume, classical_flights,
-            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone);
+            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone, beams_);
         const GuidedDirection direction(&fields.surface, &fields.volume,
                                         preset.direction ? std::nullopt : std::optional(1.0f),
                                         preset.direction ? &learned.surface_caustics() : nullptr,
@@ -442,6 +454,7 @@ private:
     const RenderSettings settings_;
     Schedule schedule_;
     LearningContext context_;
+    const std::vector<Beam> beams_ = beams_of(scene_.lights());
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
     Learners learners_;

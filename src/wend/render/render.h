@@ -1,6 +1,7 @@
 // Rendering: passes over the picture, and training between them. A render can be watched, stopped, saved and resumed.
 #pragma once
 
+#include <wend/core/colour_matrix.h>
 #include <wend/core/archive.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
@@ -50,7 +51,8 @@ struct RenderSettings {
     int threads = 0;  ///< 0: all
     int max_depth = 5;
     Filter filter = Filter::box();
-    float exposure = 1;  ///< multiplies all radiances
+    float exposure = 1;    ///< multiplies all radiances
+    ColourMatrix balance;  ///< multiplies them as well, once they are on the film; not singular
     /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;
     /// Not null: this is one of several processes that render the same picture together, and all of them get it. They

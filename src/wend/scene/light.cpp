@@ -10,7 +10,7 @@ namespace wend {
 namespace {
 
 /// Connection to a point on an area light, given the density of the point per world area.
-std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& normal, float area_density,
+std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& normal, const Vec2& uv, float area_density,
                                    const Light& light) {
     const Vec3 d = q - p;
     const float d2 = length_squared(d);
@@ -20,11 +20,25 @@ std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& nor
     const float distance = std::sqrt(d2);
     const Vec3 w = d / distance;
     const float cosine = abs_dot(normal, w);
-    const Rgb radiance = emitted_radiance(light, normal, -w);
+    const Rgb radiance = emitted_radiance(light, normal, uv, -w);
     if (is_black(radiance) || !(cosine > 1e-7f)) {
         return std::nullopt;
     }
-    return LightSample{w, distance, radiance, area_density * d2 / cosine, false};
+    return LightSample{w, distance, radiance, area_density * d2 / cosine, is_point_like(light), -1, uv};
+}
+
+/// To a point whose intensity towards p is `intensity(w)`, w pointing away from it.
+template <class Intensity>
+std::optional<LightSample> connect_to_point(const Vec3& position, const Vec3& p, const Intensity& intensity) {
+    const Vec3 d = position - p;
+    const float d2 = length_squared(d);
+    if (!(d2 > 0)) {
+        return std::nullopt;
+    }
+    const float distance = std::sqrt(d2);
+    const Vec3 w = d / distance;
+    const Rgb radiance = intensity(-w) / d2;
+    return is_black(radiance) ? std::nullopt : std::optional(LightSample{w, distance, radiance, 1, true});
 }
 
 /// The part of a full sphere that a point (object space) outside it can see: a cap around the direction to the point.
@@ -86,13 +100,24 @@ float area_stretch(const QuadricLight& light, const Vec3& n) {
 }
 
 std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
-    const Vec3 d = l.position - p;
-    const float d2 = length_squared(d);
-    if (!(d2 > 0)) {
-        return std::nullopt;
-    }
-    const float distance = std::sqrt(d2);
-    return LightSample{d / distance, distance, l.intensity / d2, 1, true};
+    return connect_to_point(l.position, p, [&](const Vec3&) { return l.intensity; });
+}
+template <class Directional>
+std::optional<LightSample> sample_directional(const Directional& l, const Vec3& p) {
+    return connect_to_point(l.position, p, [&](const Vec3& w) { return intensity_towards(l, w); });
+}
+std::optional<LightSample> sample(const SpotLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
+    return sample_directional(l, p);
+}
+std::optional<LightSample> sample(const GoniometricLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
+    return sample_directional(l, p);
+}
+std::optional<LightSample> sample(const ProjectionLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
+    return sample_directional(l, p);
+}
+std::optional<LightSample> sample(const PortalInfiniteLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32&) {
+    const auto s = l.portal->sample(p, u);
+    return s ? std::optional(LightSample{s->direction, infinity, s->radiance, s->density, false}) : std::nullopt;
 }
 std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&, Pcg32&) {
     return LightSample{l.direction, infinity, l.radiance, 1, true};
@@ -106,7 +131,9 @@ std::optional<LightSample> sample(const ImageInfiniteLight& l, const Vec3&, cons
 }
 std::optional<LightSample> sample(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
     const Vec2 b = to_triangle(u);
-    return connect(p, l.p0 * (1 - b.x - b.y) + l.p1 * b.x + l.p2 * b.y, l.normal, 1 / l.area, light);
+    const float w = 1 - b.x - b.y;
+    return connect(p, l.p0 * w + l.p1 * b.x + l.p2 * b.y, l.normal, l.uv0 * w + l.uv1 * b.x + l.uv2 * b.y, 1 / l.area,
+                   light);
 }
 std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
     const Quadric& quadric = *l.quadric;
@@ -115,8 +142,8 @@ std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Ve
         std::visit([&](const auto& s) { return sample_shape(s, from, l.object_area, u); }, quadric.shape);
     const Vec3 n = normalize(point.normal);
     const Vec3 world_normal = normalize(quadric.object_from_world.transposed_vector(n)) * l.flip;
-    return connect(p, quadric.world_from_object.point(point.position), world_normal, point.density / area_stretch(l, n),
-                   light);
+    return connect(p, quadric.world_from_object.point(point.position), world_normal,
+                   parameters(quadric, point.position), point.density / area_stretch(l, n), light);
 }
 
 std::optional<LightSample> sample(const MediumLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32& random) {
@@ -166,6 +193,9 @@ float light_density(const Light& light, const Vec3& p, const Vec3& direction, co
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->density(direction);
     }
+    if (const auto* window = std::get_if<PortalInfiniteLight>(&light)) {
+        return window->portal->density(p, direction);
+    }
     if (const auto* glowing = std::get_if<MediumLight>(&light)) {
         const EmissionSampler& glow = *glowing->grid->glow();
         return glow.seen_from(p, hit, glow.density(hit));
@@ -173,32 +203,67 @@ float light_density(const Light& light, const Vec3& p, const Vec3& direction, co
     return 0;
 }
 
-Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec3& w) {
-    const auto from_side = [&](const Rgb& radiance, bool two_sided) {
-        return two_sided || dot(normal, w) > 0 ? radiance : Rgb(0.0f);
-    };
+namespace {
+
+/// What is asked of either kind of area light: nothing of others.
+template <class Ask>
+auto ask_area_light(const Light& light, const Ask& ask) -> std::optional<decltype(ask(std::get<TriangleLight>(light)))> {
     if (const auto* triangle = std::get_if<TriangleLight>(&light)) {
-        return from_side(triangle->radiance, triangle->two_sided);
+        return ask(*triangle);
     }
     if (const auto* quadric = std::get_if<QuadricLight>(&light)) {
-        return from_side(quadric->radiance, quadric->two_sided);
+        return ask(*quadric);
     }
-    return Rgb(0.0f);
+    return std::nullopt;
 }
 
-Rgb environment_radiance(const Light& light, const Vec3& direction) {
+/// Averaged over the picture, if any.
+template <class AreaLight>
+float mean_radiance(const AreaLight& light) {
+    return mean(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance);
+}
+
+}  // namespace
+
+bool emits_towards(const Light& light, const Vec3& normal, const Vec3& w) {
+    return ask_area_light(light, [&](const auto& l) { return l.two_sided || dot(normal, w) > 0; }).value_or(false);
+}
+
+Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec2& uv, const Vec3& w) {
+    if (!emits_towards(light, normal, w)) {
+        return Rgb(0.0f);
+    }
+    return *ask_area_light(light, [&](const auto& l) {
+        return l.picture ? l.radiance * l.picture->bilinear({uv.x, 1 - uv.y}) : l.radiance;
+    });
+}
+
+Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& direction) {
     if (const auto* uniform = std::get_if<UniformInfiniteLight>(&light)) {
         return uniform->radiance;
     }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->radiance(direction);
     }
+    if (const auto* window = std::get_if<PortalInfiniteLight>(&light)) {
+        return window->portal->radiance(p, direction);
+    }
     return Rgb(0.0f);
 }
 
 bool is_at_infinity(const Light& light) {
     return std::holds_alternative<UniformInfiniteLight>(light) || std::holds_alternative<ImageInfiniteLight>(light) ||
-           std::holds_alternative<DistantLight>(light);
+           std::holds_alternative<DistantLight>(light) || std::holds_alternative<PortalInfiniteLight>(light);
+}
+
+Presence presence_of(const Light& light) {
+    return ask_area_light(light, [](const auto& l) { return l.presence; }).value_or(Presence::solid);
+}
+
+bool is_point_like(const Light& light) {
+    return std::holds_alternative<PointLight>(light) || std::holds_alternative<DistantLight>(light) ||
+           std::holds_alternative<SpotLight>(light) || std::holds_alternative<GoniometricLight>(light) ||
+           std::holds_alternative<ProjectionLight>(light) || presence_of(light) == Presence::unseen;
 }
 
 float light_power(const Light& light, float scene_radius) {
@@ -209,11 +274,15 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const UniformInfiniteLight& l) const { return 4 * pi * disk * mean(l.radiance); }
         float operator()(const ImageInfiniteLight& l) const { return 4 * pi * disk * mean(l.mean_radiance()); }
         float operator()(const TriangleLight& l) const {
-            return (l.two_sided ? 2 : 1) * pi * l.area * mean(l.radiance);
+            return (l.two_sided ? 2 : 1) * pi * l.area * mean_radiance(l);
         }
         float operator()(const QuadricLight& l) const {
-            return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean(l.radiance);
+            return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean_radiance(l);
         }
+        float operator()(const SpotLight& l) const { return spread(l) * mean(l.intensity); }
+        float operator()(const GoniometricLight& l) const { return mean(l.intensity * spread(l)); }
+        float operator()(const ProjectionLight& l) const { return mean(l.intensity * spread(l)); }
+        float operator()(const PortalInfiniteLight& l) const { return mean(l.portal->power()); }
         float operator()(const MediumLight& l) const { return 4 * pi * l.grid->glow()->power(); }
     };
     return std::visit(Power{pi * scene_radius * scene_radius}, light);

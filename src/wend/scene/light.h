@@ -7,6 +7,9 @@
 #include <wend/core/transform.h>
 #include <wend/medium/medium.h>
 #include <wend/sampling/discrete.h>
+#include <wend/scene/directional_light.h>
+#include <wend/scene/light_picture.h>
+#include <wend/scene/portal_light.h>
 #include <wend/scene/shape.h>
 
 #include <memory>
@@ -20,9 +23,10 @@ struct LightSample {
     Vec3 direction;           ///< towards the light, unit length
     float distance = 0;       ///< infinity for lights at infinity
     Rgb radiance;             ///< arriving without any loss; for point-like lights irradiance on a facing surface
-    float density = 0;        ///< per steradian; 1 for point-like lights
+    float density = 0;        ///< per steradian; 1 for lights at a point or of one direction
     bool point_like = false;  ///< cannot be hit by a ray
     int medium = -1;          ///< of a medium that glows, its index: the light is where that medium is
+    Vec2 uv{0, 0};            ///< surface parameters, on a lamp
 };
 
 /// An isotropic point source; intensity in power per steradian.
@@ -64,6 +68,13 @@ private:
     Rgb mean_;
 };
 
+/// Whether rays meet a lamp.
+enum class Presence {
+    solid,
+    partly,  ///< with the probability that its surface has
+    unseen   ///< never: it shines, and only connections find it
+};
+
 /// A triangle that emits from the side its normal points to, or from both.
 struct TriangleLight {
     Vec3 p0, p1, p2;
@@ -71,6 +82,10 @@ struct TriangleLight {
     float area = 0;
     Rgb radiance;
     bool two_sided = false;
+    Presence presence = Presence::solid;
+    /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
+    std::shared_ptr<const LightPicture> picture = nullptr;
+    Vec2 uv0{0, 0}, uv1{1, 0}, uv2{1, 1};
 };
 
 /// An emitting sphere or disk, sampled uniformly by area in its own space, a sphere from outside only on the side that
@@ -82,6 +97,9 @@ struct QuadricLight {
     bool two_sided = false;
     float object_area = 0;
     float determinant = 1;  ///< absolute volume factor of the map to the world
+    Presence presence = Presence::solid;
+    /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
+    std::shared_ptr<const LightPicture> picture = nullptr;
 };
 
 /// A heterogeneous medium that glows. Connections lead to points in it, whose radiance is that of a line as long as
@@ -91,8 +109,14 @@ struct MediumLight {
     const GridMedium* grid;  ///< the same; its glow() is not null
 };
 
+/// Radiance from infinity through a window.
+struct PortalInfiniteLight {
+    std::shared_ptr<const PortalLight> portal;
+};
+
 using Light = std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight,
-                           QuadricLight, MediumLight>;
+                           QuadricLight, MediumLight, SpotLight, GoniometricLight, ProjectionLight,
+                           PortalInfiniteLight>;
 
 /// A connection from `p` to the light; none where it cannot shine. `u` places it on the light, `random` in its depth.
 std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random);
@@ -101,13 +125,20 @@ std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const
 /// with unit normal `hit_normal` (both ignored for lights at infinity), or passes `hit` in a medium that glows.
 float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal);
 
-/// Radiance that leaves an area light at a point with the given unit geometric normal towards w.
-Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec3& w);
+/// Radiance that leaves an area light at a point with the given unit geometric normal and surface parameters towards w,
+/// where the light's surface is there at all.
+Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec2& uv, const Vec3& w);
+/// Whether an area light emits on the side of the normal that w points to.
+bool emits_towards(const Light& light, const Vec3& normal, const Vec3& w);
 
-/// Radiance that arrives from infinity along -direction; black for other lights.
-Rgb environment_radiance(const Light& light, const Vec3& direction);
+/// Radiance that arrives from infinity along -direction at a point; black for other lights.
+Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& direction);
 
 bool is_at_infinity(const Light& light);
+/// Whether no ray can meet it, so that only connections find it.
+bool is_point_like(const Light& light);
+/// Solid, but for an area light whose surface is not.
+Presence presence_of(const Light& light);
 
 /// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at
 /// infinity reach.

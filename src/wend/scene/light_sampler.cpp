@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace wend {
 
@@ -71,10 +72,34 @@ float TreeLightSampler::Bounds::importance(const LightReceiver& receiver) const 
     return value;
 }
 
+namespace {
+
+/// Where the z axis of a light's own space points to in the world, if directions keep their angles.
+std::optional<Vec3> axis_of(const AffineMap& light_from_world) {
+    const Vec3 x = light_from_world.transposed_vector({1, 0, 0}), y = light_from_world.transposed_vector({0, 1, 0}),
+               z = light_from_world.transposed_vector({0, 0, 1});
+    const float size = length_squared(z), same = 1e-4f * size;
+    const bool keeps_angles = std::abs(length_squared(x) - size) < same && std::abs(length_squared(y) - size) < same &&
+                              std::abs(dot(x, y)) < same && std::abs(dot(y, z)) < same && std::abs(dot(z, x)) < same;
+    return keeps_angles ? std::optional(normalize(z)) : std::nullopt;
+}
+
+}  // namespace
+
 TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
     struct Make {
         Bounds operator()(const PointLight& l) const {
             return {Box3(l.position), {0, 0, 1}, -1, 0, 4 * pi * mean(l.intensity), false};
+        }
+        Bounds operator()(const SpotLight& l) const {
+            return in_cone(l.position, l.light_from_world, l.cos_inner, l.cos_outer, mean(l.intensity));
+        }
+        Bounds operator()(const ProjectionLight& l) const {
+            return in_cone(l.position, l.light_from_world, corner_cosine(l), corner_cosine(l),
+                           mean(l.intensity * l.picture->mean_colour()));
+        }
+        Bounds operator()(const GoniometricLight& l) const {
+            return {Box3(l.position), {0, 0, 1}, -1, 0, light_power(l, 0), false};
         }
         Bounds operator()(const TriangleLight& l) const {
             Box3 box(l.p0);
@@ -96,6 +121,25 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
         Bounds operator()(const DistantLight&) const { return {}; }
         Bounds operator()(const UniformInfiniteLight&) const { return {}; }
         Bounds operator()(const ImageInfiniteLight&) const { return {}; }
+        Bounds operator()(const PortalInfiniteLight&) const { return {}; }
+
+        /// Of a point that shines up to an outer angle around its own z axis. Who stands within it sees no less than
+        /// of one that shines everywhere.
+        static Bounds in_cone(const Vec3& position, const AffineMap& light_from_world, float cos_inner,
+                              float cos_outer, float intensity) {
+            Bounds b{Box3(position), {0, 0, 1}, -1, 0, 4 * pi * intensity, false};
+            const auto axis = axis_of(light_from_world);
+            if (axis) {
+                // Rounding must not leave the edge of the cone without light.
+                constexpr float margin = 1e-3f;
+                b.axis = *axis;
+                b.cos_o = cos_inner;
+                const float width = std::acos(std::clamp(cos_outer, -1.0f, 1.0f)) -
+                                    std::acos(std::clamp(cos_inner, -1.0f, 1.0f));
+                b.cos_e = std::cos(std::min(width + margin, pi));
+            }
+            return b;
+        }
     };
     return std::visit(Make{}, light);
 }

@@ -20,6 +20,12 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
     return to_unit_float(static_cast<std::uint32_t>(h)) < alpha;
 }
 
+/// Primitives of a surface, each of which is a light if the surface shines.
+std::size_t lights_on(const Surface& surface) {
+    const auto* mesh = std::get_if<TriangleMesh>(&surface.shape);
+    return mesh ? mesh->triangle_count() : 1;
+}
+
 std::uint32_t flat_primitives(const Shape& shape) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
         return static_cast<std::uint32_t>(mesh->triangle_count());
@@ -40,10 +46,10 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         if (is_at_infinity(lights_[i])) {
             infinite_lights_.push_back(static_cast<int>(i));
         }
-        has_point_like_lights_ = has_point_like_lights_ || std::holds_alternative<PointLight>(lights_[i]) ||
-                                 std::holds_alternative<DistantLight>(lights_[i]);
+        has_point_like_lights_ = has_point_like_lights_ || is_point_like(lights_[i]);
     }
     flat_lights_.resize(lights_.size());
+    light_alpha_.assign(lights_.size(), -1);
     for (std::size_t i = 0; i < d_.surfaces.size(); ++i) {
         const Surface& surface = d_.surfaces[i];
         const std::uint32_t flat = surface.first_light >= 0 ? flat_primitives(surface.shape) : 0;
@@ -51,6 +57,10 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
         flat_lights_.resize(std::max(flat_lights_.size(), first + flat));
         for (std::uint32_t k = 0; k < flat; ++k) {
             flat_lights_[first + k] = {static_cast<std::uint32_t>(i), k};
+        }
+        for (std::size_t k = first; surface.first_light >= 0 && k < lights_.size() && k < first + lights_on(surface);
+             ++k) {
+            light_alpha_[k] = presence_of(lights_[k]) == Presence::partly ? surface.alpha : -1;
         }
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
         has_interfaces_ |= std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
@@ -151,6 +161,11 @@ Hit Scene::complete(const RayHit& found, const Ray& ray) const {
         }
     }
     return hit;
+}
+
+float Scene::presence(int light, const Vec2& uv, const Vec3& position) const {
+    const TextureId alpha = light_alpha_[static_cast<std::size_t>(light)];
+    return alpha < 0 ? 1.0f : std::clamp(d_.textures.evaluate_grey(alpha, {uv, position}), 0.0f, 1.0f);
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {

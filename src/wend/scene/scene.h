@@ -157,6 +157,9 @@ public:
     const SurfaceElement& flat_element(int light) const { return flat_lights_[static_cast<std::size_t>(light)]; }
     /// Those of the description, and then the media that glow.
     const std::vector<Light>& lights() const { return lights_; }
+    /// The probability that a lamp's surface is there at a point of it; 1 for one that no ray meets, which shines with all
+    /// that it has.
+    float presence(int light, const Vec2& uv, const Vec3& position) const;
     /// The light that a medium is, as an index of lights(); -1: none.
     int medium_light(MediumId id) const { return medium_lights_[static_cast<std::size_t>(id)]; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }
@@ -181,6 +184,7 @@ private:
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<Light> lights_;
     std::vector<SurfaceElement> flat_lights_;  ///< by light
+    std::vector<TextureId> light_alpha_;       ///< by light, of lamps that are there with a probability; -1: none
     std::vector<int> medium_lights_;           ///< by medium
     std::vector<int> infinite_lights_;
     bool has_point_like_lights_ = false;

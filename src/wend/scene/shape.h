@@ -21,8 +21,6 @@ struct TriangleMesh {
     std::vector<Vec3> normals;
     std::vector<Vec2> uvs;
     std::vector<std::uint32_t> indices;  ///< three a triangle
-    /// So many triangles, one after the other, stand for one shape of the scene file: a curved patch, for example.
-    std::uint32_t triangles_per_shape = 1;
 
     std::size_t triangle_count() const { return indices.size() / 3; }
     Vec3 vertex(std::size_t triangle, int corner) const {

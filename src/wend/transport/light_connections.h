@@ -234,7 +234,8 @@ private:
         Sight sight{
             way->direction,
             infinity,
-            is_far ? environment_radiance(source, -arriving) : emitted_radiance(source, way->end.normal, arriving),
+            is_far ? environment_radiance(source, way->legs().back().ray.origin, -arriving)
+                   : emitted_radiance(source, way->end.normal, way->end.uv, arriving),
             chosen.density() * way->density_ratio,
             towards(directions, way->direction),
             {}};

@@ -1,5 +1,6 @@
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/reach.h>
+#include <wend/io/spectrum/white_balance.h>
 
 #include <fmt/format.h>
 
@@ -106,13 +107,52 @@ int positive_int(const pbrt::ParameterSet& parameters, std::string_view name, in
     return value;
 }
 
+/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none; beside that it sees
+/// as the standard observer does.
+ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parameters) {
+    constexpr float white_of_sensors = 6500;
+    const std::string sensor = parameters.get_string("sensor", "cie1931");
+    const bool is_measured = sensor != "cie1931";
+    if (is_measured) {
+        context.warnings.add(parameters.place_of("sensor"),
+                             fmt::format("the colours of the sensor \"{}\" are those of \"cie1931\" with the same white: "
+                                         "pbrt's differ by a few per cent",
+                                         sensor));
+    }
+    const float given = parameters.get_float("whitebalance", 0);
+    const float temperature = given == 0 && is_measured ? white_of_sensors : given;
+    if (temperature == 0) {
+        return {};
+    }
+    try {
+        return white_balance(double{temperature});
+    } catch (const InputError& error) {
+        throw InputError(parameters.place_of("whitebalance"), error.what());
+    }
+}
+
+/// Says what a film of pbrt's holds that ours does not, and asks for what only it has.
+void replace_film(LoadContext& context, const pbrt::Entity& film) {
+    const pbrt::ParameterSet& p = film.parameters;
+    std::string_view lost = "albedo, normals and variance are in layers of other names, positions and slopes in none";
+    if (film.type == "spectral") {
+        lost = "the picture has colours, and no layers by wavelength";
+        static_cast<void>(p.get_int("nbuckets", 16));
+        static_cast<void>(p.get_float("lambdamin", 360));
+        static_cast<void>(p.get_float("lambdamax", 830));
+    } else {
+        static_cast<void>(p.get_string("coordinatesystem", "camera"));
+    }
+    context.warnings.add(film.place, fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place; {}",
+                                                 film.type, lost));
+}
+
 }  // namespace
 
 FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std::optional<Vec2i>& resolution) {
     const pbrt::ParameterSet& p = film.parameters;
     if (film.type == "gbuffer" || film.type == "spectral") {
-        context.warnings.add(film.place,
-                             fmt::format("Film \"{}\" is not implemented: \"rgb\" takes its place", film.type));
+        replace_film(context, film);
     } else if (film.type != "rgb") {
         refuse_type("Film", film, {"rgb", "gbuffer", "spectral"});
     }
@@ -134,13 +174,7 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
     }
     settings.file = p.get_string("filename", "pbrt.exr");
     settings.sensitivity = positive_float(p, "iso", 100) / 100;
-    const std::string sensor = p.get_string("sensor", "cie1931");
-    if (sensor != "cie1931") {
-        context.warnings.add(p.place_of("sensor"), "camera sensors are not imitated: \"cie1931\" takes their place");
-    }
-    if (p.get_float("whitebalance", 0) != 0) {
-        context.warnings.add(p.place_of("whitebalance"), "\"whitebalance\" is ignored: white stays what it is");
-    }
+    settings.balance = load_balance(context, p);
     if (p.has("maxcomponentvalue")) {
         static_cast<void>(p.get_float("maxcomponentvalue", 0));
         context.warnings.add(p.place_of("maxcomponentvalue"),
@@ -252,6 +286,7 @@ SamplerSettings load_sampler(LoadContext& context, const pbrt::Entity& sampler, 
 IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& integrator) {
     const pbrt::ParameterSet& p = integrator.parameters;
     constexpr std::string_view walks[] = {"path", "randomwalk", "simplepath", "simplevolpath", "volpath"};
+    constexpr std::string_view surfaces_alone[] = {"path", "randomwalk", "simplepath"};
     constexpr std::string_view others[] = {"ambientocclusion", "bdpt", "function", "lightpath", "mlt", "sppm"};
     if (std::count(std::begin(others), std::end(others), integrator.type) > 0) {
         context.warnings.add(
@@ -263,6 +298,8 @@ IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& int
                      "simplevolpath", "sppm", "volpath"});
     }
     IntegratorSettings settings;
+    settings.sees_media =
+        std::count(std::begin(surfaces_alone), std::end(surfaces_alone), integrator.type) == 0;
     settings.max_depth = p.get_int("maxdepth", 5);
     if (settings.max_depth < 0) {
         throw InputError(p.place_of("maxdepth"),

@@ -1,6 +1,7 @@
 // Camera, Film, PixelFilter, Sampler and Integrator: how a scene is looked at, rather than what it consists of.
 #pragma once
 
+#include <wend/core/colour_matrix.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/io/load/context.h>
@@ -19,6 +20,8 @@ struct FilmSettings {
     std::string file;
     /// ISO over 100; the shutter time is the camera's.
     float sensitivity = 1;
+    /// From colours of the scene to those of the picture.
+    ColourMatrix balance;
 };
 /// With another resolution, crop windows given in pixels are scaled with it.
 FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std::optional<Vec2i>& resolution);
@@ -41,6 +44,8 @@ SamplerSettings load_sampler(LoadContext& context, const pbrt::Entity& sampler, 
 struct IntegratorSettings {
     int max_depth = 5;
     bool light_tree = true;
+    /// Not with pbrt's integrators of surfaces alone: they leave out all media.
+    bool sees_media = true;
 };
 IntegratorSettings load_integrator(LoadContext& context, const pbrt::Entity& integrator);
 

@@ -1,3 +1,4 @@
+#include <wend/core/frame.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
@@ -5,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -26,41 +28,115 @@ Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_v
            non_negative_float(p, "scale", 1);
 }
 
-Rgb mean_colour(const Image& image) {
-    Rgb sum;
-    for (const Rgb& pixel : image.pixels) {
-        sum += pixel;
+/// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
+Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
+    Image image = *textures.picture(required_file(context, light, "filename"), "sRGB", light.place);
+    for (Rgb& pixel : image.pixels) {
+        if (!is_finite(pixel)) {
+            throw InputError(light.parameters.place_of("filename"),
+                             fmt::format("the picture of the {} light has a pixel that is not finite", light.type));
+        }
+        pixel = {std::max(pixel.r, 0.0f), std::max(pixel.g, 0.0f), std::max(pixel.b, 0.0f)};
     }
-    return sum / static_cast<float>(image.pixels.size());
+    return image;
 }
 
-std::shared_ptr<const Image> load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
-    return textures.picture(required_file(context, light, "filename"), "sRGB", light.place);
+void require_square(const Image& image, const pbrt::Entity& light) {
+    if (image.width != image.height) {
+        throw InputError(light.parameters.place_of("filename"),
+                         fmt::format("the picture of {} light must be square (equal-area mapping), not {} x {}",
+                                     light.type == "infinite" ? "an infinite" : "a goniometric", image.width,
+                                     image.height));
+    }
 }
 
-PointLight load_point(LoadContext& context, const pbrt::LightEntity& light, const Rgb& tint = Rgb(1.0f)) {
-    const pbrt::ParameterSet& p = light.parameters;
-    Rgb intensity = load_scaled(context, p, "I") * tint;
-    if (const float power = load_target(p, "power"); power > 0) {
-        intensity *= power * inv_4pi;
-    }
-    const Vec3 position = light.world_from_light.point(p.get_point3("from", {0, 0, 0}));
+/// What "power" multiplies an intensity by that has the given power without it.
+float power_factor(const pbrt::ParameterSet& p, float unscaled) {
+    const float power = load_target(p, "power");
+    return !(power > 0) ? 1.0f : unscaled > 0 ? power / unscaled : 0.0f;
+}
+
+/// Where a light at a point stands.
+Vec3 load_position(const pbrt::LightEntity& light, const Vec3& from) {
+    const Vec3 position = light.world_from_light.point(from);
     require_near(light.place, fmt::format("LightSource \"{}\" stands", light.type), position);
-    return {position, intensity};
+    return position;
 }
 
-/// Lights whose intensity depends on the direction shine as on their axis, or on average, into all directions.
-PointLight replace_by_point(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
-    context.warnings.add(light.place,
-                         fmt::format("LightSource \"{}\" is not implemented: \"point\" takes its place", light.type));
-    const Rgb tint =
-        light.parameters.has("filename") ? mean_colour(*load_picture(context, textures, light)) : Rgb(1.0f);
-    // The cone that is left out.
-    static_cast<void>(light.parameters.get_point3("to", {0, 0, 1}));
-    static_cast<void>(light.parameters.get_float("coneangle", 30));
-    static_cast<void>(light.parameters.get_float("conedeltaangle", 5));
-    static_cast<void>(light.parameters.get_float("fov", 90));
-    return load_point(context, light, tint);
+PointLight load_point(LoadContext& context, const pbrt::LightEntity& light) {
+    const pbrt::ParameterSet& p = light.parameters;
+    const Rgb intensity = load_scaled(context, p, "I") * power_factor(p, 4 * pi);
+    return {load_position(light, p.get_point3("from", {0, 0, 0})), intensity};
+}
+
+/// From a space whose z axis is `axis` to the space around.
+Transform turned_to(const Vec3& axis) {
+    const Frame frame = Frame::from_z(axis);
+    const Transform::Matrix m = {{frame.s.x, frame.t.x, frame.n.x, 0},
+                                 {frame.s.y, frame.t.y, frame.n.y, 0},
+                                 {frame.s.z, frame.t.z, frame.n.z, 0},
+                                 {0, 0, 0, 1}};
+    return Transform(m);
+}
+
+SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
+    const pbrt::ParameterSet& p = light.parameters;
+    const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
+    if (!is_finite(to - from) || !(length_squared(to - from) > 0)) {
+        throw InputError(p.place_of("to"), "a spot light shines from \"from\" to \"to\", which must differ");
+    }
+    const float outer = p.get_float("coneangle", 30), rim = p.get_float("conedeltaangle", 5);
+    if (!(outer > 0 && outer <= 180)) {
+        throw InputError(p.place_of("coneangle"),
+                         fmt::format("\"coneangle\" must lie between 0 and 180 degrees, not {}", outer));
+    }
+    if (!(rim >= 0) || !std::isfinite(rim)) {
+        throw InputError(p.place_of("conedeltaangle"), "\"conedeltaangle\" must be finite and not negative");
+    }
+    const auto cos_degrees = [](float degrees) { return std::cos(degrees * pi / 180); };
+    SpotLight spot;
+    spot.position = load_position(light, from);
+    spot.light_from_world = AffineMap((light.world_from_light * turned_to(normalize(to - from))).inverse());
+    spot.cos_outer = cos_degrees(outer);
+    spot.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
+    spot.intensity = load_scaled(context, p, "I") * power_factor(p, spread(spot));
+    return spot;
+}
+
+GoniometricLight load_goniometric(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
+    Image image = load_picture(context, textures, light);
+    require_square(image, light);
+    for (Rgb& pixel : image.pixels) {
+        pixel = Rgb(mean(pixel));
+    }
+    GoniometricLight source;
+    source.position = load_position(light, {0, 0, 0});
+    // The picture's pole is along y.
+    const Transform::Matrix y_is_up = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}};
+    source.light_from_world = AffineMap((light.world_from_light * Transform(y_is_up)).inverse());
+    source.picture = std::make_shared<const LightPicture>(std::move(image));
+    source.intensity =
+        load_scaled(context, light.parameters, "I") * power_factor(light.parameters, mean(spread(source)));
+    return source;
+}
+
+ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
+    const pbrt::ParameterSet& p = light.parameters;
+    const float fov = p.get_float("fov", 90);
+    if (!(fov > 0 && fov < 180)) {
+        throw InputError(p.place_of("fov"),
+                         fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
+    }
+    ProjectionLight projector;
+    projector.picture = std::make_shared<const LightPicture>(load_picture(context, textures, light));
+    projector.position = load_position(light, {0, 0, 0});
+    // The first row is on top.
+    projector.light_from_world = AffineMap((light.world_from_light * Transform::scale(1, -1, 1)).inverse());
+    const Image& image = projector.picture->image();
+    const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
+    projector.half_size = Vec2(std::max(aspect, 1.0f), std::max(1 / aspect, 1.0f)) * std::tan(0.5f * fov * pi / 180);
+    projector.intensity = Rgb(non_negative_float(p, "scale", 1) * power_factor(p, luminance(spread(projector))));
+    return projector;
 }
 
 DistantLight load_distant(LoadContext& context, const pbrt::LightEntity& light) {
@@ -92,41 +168,53 @@ float illuminance_of(const Image& sky) {
     return static_cast<float>(sum * 2 * static_cast<double>(pi) / static_cast<double>(sky.pixels.size()));
 }
 
-Light load_sky_picture(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
+/// The corners of "portal", which pbrt takes to be in the world, whatever the transform of the light.
+std::array<Vec3, 4> load_portal(const pbrt::ParameterSet& p) {
+    const std::vector<Vec3> given = p.get_point3s("portal");
+    if (given.size() != 4) {
+        throw InputError(p.place_of("portal"), fmt::format("a portal has 4 corners, not {}", given.size()));
+    }
+    const auto side = [&](std::size_t from, std::size_t to) { return given[to] - given[from]; };
+    const Vec3 sides[] = {side(0, 1), side(1, 2), side(3, 2), side(0, 3)};
+    constexpr float tolerance = 1e-3f;
+    const auto cosine = [&](int a, int b) { return dot(normalize(sides[a]), normalize(sides[b])); };
+    // Written so that sides without length are refused.
+    const bool is_rectangle = std::abs(cosine(0, 2) - 1) <= tolerance && std::abs(cosine(1, 3) - 1) <= tolerance &&
+                              std::abs(cosine(0, 1)) <= tolerance && std::abs(cosine(0, 3)) <= tolerance;
+    if (!is_rectangle) {
+        throw InputError(p.place_of("portal"), "the corners of the portal are not those of a rectangle");
+    }
+    return {given[0], given[1], given[2], given[3]};
+}
+
+/// A picture at infinity, everywhere or through a portal.
+Light make_sky(const pbrt::LightEntity& light, Image image) {
     const pbrt::ParameterSet& p = light.parameters;
-    Image image = *load_picture(context, textures, light);
-    if (image.width != image.height) {
-        throw InputError(
-            p.place_of("filename"),
-            fmt::format("the picture of an infinite light must be square (equal-area mapping), not {} x {}",
-                        image.width, image.height));
-    }
-    for (Rgb& pixel : image.pixels) {
-        if (!is_finite(pixel)) {
-            throw InputError(p.place_of("filename"),
-                             "the picture of the infinite light has a pixel that is not finite");
-        }
-        pixel = {std::max(pixel.r, 0.0f), std::max(pixel.g, 0.0f), std::max(pixel.b, 0.0f)};
-    }
     float scale = non_negative_float(p, "scale", 1);
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
         const float unscaled = illuminance_of(image);
         scale *= unscaled > 0 ? illuminance / unscaled : 0.0f;
+    }
+    if (p.has("portal")) {
+        return PortalInfiniteLight{
+            std::make_shared<const PortalLight>(image, scale, light.world_from_light, load_portal(p))};
     }
     return ImageInfiniteLight(std::move(image), scale, light.world_from_light);
 }
 
 Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
-    if (p.has("portal")) {
-        static_cast<void>(p.get_point3s("portal"));
-        context.warnings.add(p.place_of("portal"), "portals are ignored: the infinite light shines from everywhere");
-    }
     if (p.has("filename")) {
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an infinite light takes either \"L\" or \"filename\"");
         }
-        return load_sky_picture(context, textures, light);
+        Image image = load_picture(context, textures, light);
+        require_square(image, light);
+        return make_sky(light, std::move(image));
+    }
+    if (p.has("portal")) {
+        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(Rgb(1.0f));
+        return make_sky(light, Image(1, 1, radiance));
     }
     Rgb radiance = load_scaled(context, p, "L");
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
@@ -143,6 +231,10 @@ bool is_dark(const Light& light) {
         bool operator()(const UniformInfiniteLight& l) const { return is_black(l.radiance); }
         bool operator()(const TriangleLight& l) const { return is_black(l.radiance); }
         bool operator()(const QuadricLight& l) const { return is_black(l.radiance); }
+        bool operator()(const SpotLight& l) const { return is_black(l.intensity); }
+        bool operator()(const GoniometricLight& l) const { return !(light_power(l, 0) > 0); }
+        bool operator()(const ProjectionLight& l) const { return !(light_power(l, 0) > 0); }
+        bool operator()(const PortalInfiniteLight& l) const { return is_black(l.portal->power()); }
         bool operator()(const MediumLight& l) const { return !(l.grid->glow()->power() > 0); }
     };
     return std::visit(Dark{}, light);
@@ -172,8 +264,14 @@ std::optional<Light> load_light(LoadContext& context, TextureLoader& textures, c
         if (light.type == "infinite") {
             return load_infinite(context, textures, light);
         }
-        if (light.type == "spot" || light.type == "goniometric" || light.type == "projection") {
-            return replace_by_point(context, textures, light);
+        if (light.type == "spot") {
+            return load_spot(context, light);
+        }
+        if (light.type == "goniometric") {
+            return load_goniometric(context, textures, light);
+        }
+        if (light.type == "projection") {
+            return load_projection(context, textures, light);
         }
         refuse_type("LightSource", light, {"distant", "goniometric", "infinite", "point", "projection", "spot"});
     };
@@ -183,7 +281,9 @@ std::optional<Light> load_light(LoadContext& context, TextureLoader& textures, c
 }
 
 Rgb AreaLight::radiance_of(float area) const {
-    return power > 0 ? radiance * (power / (area * pi * (two_sided ? 2.0f : 1.0f))) : radiance;
+    const float brightness = picture ? luminance(picture->mean_colour()) : 1.0f;
+    const float unscaled = area * pi * (two_sided ? 2.0f : 1.0f) * brightness;
+    return !(power > 0) ? radiance : unscaled > 0 ? radiance * (power / unscaled) : Rgb(0.0f);
 }
 
 AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
@@ -197,8 +297,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an area light takes either \"L\" or \"filename\"");
         }
-        context.warnings.add(p.place_of("filename"), "the picture of an area light is replaced by its mean colour");
-        result.radiance *= mean_colour(*load_picture(context, textures, light));
+        result.picture = std::make_shared<const LightPicture>(load_picture(context, textures, light));
     }
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
@@ -206,27 +305,69 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
     return result;
 }
 
-void attach(const AreaLight& light, const Transform& world_from_object, Surface& surface, std::vector<Light>& lights) {
-    if (is_black(light.radiance)) {
-        return;
+namespace {
+
+void attach_to_quadric(const AreaLight& light, Presence presence, const Transform& world_from_object,
+                       const Surface& surface, std::vector<Light>& lights) {
+    QuadricLight source =
+        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), world_from_object,
+                           surface.flip_normal, light.radiance, light.two_sided);
+    // Exact where the transform keeps shapes similar.
+    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(source.determinant)));
+    source.presence = presence;
+    source.picture = light.picture;
+    lights.push_back(std::move(source));
+}
+
+/// Parameters of a triangle's corners, by default those of pbrt.
+void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& source) {
+    if (!mesh.uvs.empty()) {
+        const std::uint32_t* i = &mesh.indices[3 * triangle];
+        source.uv0 = mesh.uvs[i[0]];
+        source.uv1 = mesh.uvs[i[1]];
+        source.uv2 = mesh.uvs[i[2]];
     }
-    surface.first_light = static_cast<int>(lights.size());
-    if (const auto* quadric = std::get_if<Quadric>(&surface.shape)) {
-        QuadricLight source = make_quadric_light(std::make_shared<const Quadric>(*quadric), world_from_object,
-                                                 surface.flip_normal, light.radiance, light.two_sided);
-        // Exact where the transform keeps shapes similar.
-        source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(source.determinant)));
-        lights.push_back(std::move(source));
-        return;
-    }
+}
+
+/// `shapes`: of how many of pbrt's shapes the mesh consists, of equally many triangles each.
+void attach_to_mesh(const AreaLight& light, Presence presence, std::size_t shapes, const Surface& surface,
+                    std::vector<Light>& lights) {
     const auto& mesh = std::get<TriangleMesh>(surface.shape);
     // Below, the area's inverse and its products leave the range of floats.
     constexpr float smallest_area = 1e-30f;
-    for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-        TriangleLight source = make_triangle_light(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2),
-                                                   flips(surface, mesh, i), light.radiance, light.two_sided);
-        source.radiance = source.area > smallest_area ? light.radiance_of(source.area) : Rgb(0.0f);
-        lights.push_back(std::move(source));
+    const std::size_t triangles = mesh.triangle_count();
+    const std::size_t together = shapes > 0 && triangles % shapes == 0 ? triangles / shapes : 1;
+    for (std::size_t first = 0; first < triangles; first += together) {
+        const std::size_t begin = lights.size();
+        float area = 0;
+        for (std::size_t i = first; i < first + together; ++i) {
+            TriangleLight source = make_triangle_light(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2),
+                                                       flips(surface, mesh, i), light.radiance, light.two_sided);
+            source.presence = presence;
+            source.picture = light.picture;
+            copy_uvs(mesh, i, source);
+            area += source.area;
+            lights.push_back(std::move(source));
+        }
+        for (std::size_t i = begin; i < lights.size(); ++i) {
+            auto& source = std::get<TriangleLight>(lights[i]);
+            source.radiance = source.area > smallest_area ? light.radiance_of(area) : Rgb(0.0f);
+        }
+    }
+}
+
+}  // namespace
+
+void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
+            Surface& surface, std::vector<Light>& lights) {
+    if (is_black(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance)) {
+        return;
+    }
+    surface.first_light = static_cast<int>(lights.size());
+    if (std::holds_alternative<Quadric>(surface.shape)) {
+        attach_to_quadric(light, presence, world_from_object, surface, lights);
+    } else {
+        attach_to_mesh(light, presence, shapes, surface, lights);
     }
 }
 

@@ -4,7 +4,10 @@
 #include <wend/scene/light.h>
 #include <wend/scene/scene.h>
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace wend {
 
@@ -15,17 +18,22 @@ std::optional<Light> load_light(LoadContext& context, TextureLoader& textures, c
 /// What an AreaLightSource directive asks of the shapes that follow it.
 struct AreaLight {
     Rgb radiance;
-    /// Where positive, the power that each shape (of a mesh, each triangle) emits if `radiance` has luminance 1.
+    /// Multiplies the radiance; null: 1.
+    std::shared_ptr<const LightPicture> picture;
+    /// Where positive, the power that each of pbrt's shapes (of a mesh, each triangle) emits if `radiance` has luminance
+    /// 1, and whatever the picture's is.
     float power = 0;
     bool two_sided = false;
 
-    /// Radiance of a shape of this area.
+    /// Radiance of a shape of this area, where the picture is 1.
     Rgb radiance_of(float area) const;
 };
 AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light);
 
 /// Makes a surface shine: appends a light for each of its primitives and lets the surface refer to them. Triangles
-/// without area stay dark.
-void attach(const AreaLight& light, const Transform& world_from_object, Surface& surface, std::vector<Light>& lights);
+/// without area stay dark. `shapes`: how many shapes the surface's triangles are to pbrt, each with the power of one; 0:
+/// as many as triangles.
+void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
+            Surface& surface, std::vector<Light>& lights);
 
 }  // namespace wend

@@ -20,11 +20,32 @@ MediumId medium_id(const std::optional<std::size_t>& index) {
     return index ? static_cast<MediumId>(*index) : vacuum;
 }
 
+/// Forgets what is around cameras and in shapes, for integrators of surfaces alone. Materials may still bring media of
+/// their own.
+void leave_out_media(LoadContext& context, pbrt::Description& description) {
+    bool any = description.camera.medium.has_value();
+    description.camera.medium.reset();
+    for (pbrt::ShapeEntity& shape : description.shapes) {
+        any = any || shape.interior || shape.exterior;
+        shape.interior.reset();
+        shape.exterior.reset();
+    }
+    if (any) {
+        context.warnings.add(description.integrator.place,
+                             fmt::format("Integrator \"{}\" leaves out all media, as pbrt does: \"volpath\" has them",
+                                         description.integrator.type));
+    }
+}
+
 /// Fills a SceneDescription, part by part; each refers to those before.
 class SceneBuilder {
 public:
-    SceneBuilder(LoadContext& context, pbrt::Description& description, SceneDescription& scene)
-        : context_(context), description_(description), scene_(scene), textures_(context, scene.textures) {}
+    SceneBuilder(LoadContext& context, pbrt::Description& description, bool sees_media, SceneDescription& scene)
+        : context_(context),
+          description_(description),
+          sees_media_(sees_media),
+          scene_(scene),
+          textures_(context, scene.textures) {}
 
     void build() {
         for (const pbrt::TextureEntity& texture : description_.textures) {
@@ -62,7 +83,7 @@ private:
         }
         for (LoadedMaterial& material : materials) {
             std::optional<MediumId> inside;
-            if (material.inside) {
+            if (material.inside && sees_media_) {
                 inside = static_cast<MediumId>(scene_.media.size());
                 scene_.media.push_back(*material.inside);
             }
@@ -75,6 +96,7 @@ private:
     void add_shape(pbrt::ShapeEntity& entity) {
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
+        const std::size_t patches = patches_of(entity);
         std::optional<Shape> shape = load_shape(context_, entity, entity.area_light || interior != exterior);
         if (!shape) {
             return;
@@ -94,7 +116,7 @@ private:
         if (is_curve && (entity.area_light || interior != exterior)) {
             context_.warnings.add(entity.place, "curves neither shine nor bound a medium");
         } else if (entity.area_light) {
-            attach(area_lights_[*entity.area_light], entity.world_from_object, surface, scene_.lights);
+            add_area_light(entity, patches, surface);
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
@@ -115,6 +137,28 @@ private:
                last.alpha == surface.alpha && merge(*curves, std::get<CurveSet>(surface.shape));
     }
 
+    /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is
+    /// loaded, which takes its parameters.
+    static std::size_t patches_of(const pbrt::ShapeEntity& entity) {
+        if (entity.type == "bilinearmesh") {
+            return std::max<std::size_t>(1, entity.parameters.get_ints("indices").size() / 4);
+        }
+        return entity.type == "cylinder" ? 1 : 0;
+    }
+
+    void add_area_light(const pbrt::ShapeEntity& entity, std::size_t patches, Surface& surface) {
+        if (std::holds_alternative<InterfaceMaterial>(scene_.materials[entity.material])) {
+            context_.warnings.add(entity.place,
+                                  "an AreaLightSource on a shape of \"interface\" material is ignored, as by pbrt");
+            return;
+        }
+        const Rgb* alpha = surface.alpha >= 0 ? scene_.textures.constant(surface.alpha) : nullptr;
+        const Presence presence = surface.alpha < 0          ? Presence::solid
+                                  : alpha && !(alpha->r > 0) ? Presence::unseen
+                                                             : Presence::partly;
+        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+    }
+
     /// Those of materials have none.
     std::vector<std::string> medium_names() const {
         std::vector<std::string> names(scene_.media.size());
@@ -132,6 +176,7 @@ private:
 
     LoadContext& context_;
     pbrt::Description& description_;
+    bool sees_media_;
     SceneDescription& scene_;
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
@@ -153,10 +198,14 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     const FilmSettings film = load_film(context, description.film, overrides.resolution);
     const SamplerSettings sampler = load_sampler(context, description.sampler, description.options);
     const IntegratorSettings integrator = load_integrator(context, description.integrator);
+    if (!integrator.sees_media) {
+        leave_out_media(context, description);
+    }
     loaded.resolution = film.resolution;
     loaded.crop = film.crop;
     loaded.film_file = film.file;
     loaded.exposure = film.sensitivity * shutter_time(description.camera);
+    loaded.balance = film.balance;
     loaded.filter = load_filter(context, description.filter);
     loaded.sampler = sampler.kind;
     loaded.samples = sampler.samples;
@@ -165,7 +214,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.scene.light_tree = integrator.light_tree;
     loaded.scene.camera = load_camera(context, description.camera, film.resolution);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
-    SceneBuilder(context, description, loaded.scene).build();
+    SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     context.warnings.add_unused("Option", description.options);
     loaded.files.assign(context.files->begin(), context.files->end());
     loaded.warnings = std::move(description.warnings);

@@ -1,6 +1,7 @@
 // From a pbrt-v4 file to a scene that can be rendered.
 #pragma once
 
+#include <wend/core/colour_matrix.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/io/pbrt/description.h>
@@ -21,6 +22,7 @@ struct LoadedScene {
     Vec2i resolution{0, 0};
     PixelRect crop;
     float exposure = 1;  ///< multiplies the film's samples: shutter time times ISO / 100
+    ColourMatrix balance;  ///< multiplies them as well: what makes the film's white that of the picture
     Filter filter = Filter::box();
     SamplerKind sampler = SamplerKind::sobol;
     int samples = 16;  ///< per pixel

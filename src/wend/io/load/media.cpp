@@ -1,6 +1,7 @@
 #include <wend/io/load/cloud.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/phase_functions.h>
 #include <wend/io/negative_values.h>
 #include <wend/io/volume_file.h>
 
@@ -9,6 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <span>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -27,40 +31,6 @@ Rgb load_emitted(LoadContext& context, const pbrt::ParameterSet& p) {
 /// pbrt calls it "Lescale", scenes for its earlier versions "LeScale".
 std::string_view emission_scale_name(const pbrt::ParameterSet& p) {
     return p.has("LeScale") ? "LeScale" : "Lescale";
-}
-
-PhaseFunction load_draine(LoadContext& context, const pbrt::ParameterSet& p) {
-    const float g = load_mean_cosine(context, p), alpha = p.get_float("alpha", 1);
-    if (!(alpha >= 0 && alpha <= Draine::largest_alpha)) {
-        throw InputError(p.place_of("alpha"),
-                         fmt::format("\"alpha\" must lie between 0 and {}, not {}", Draine::largest_alpha, alpha));
-    }
-    return PhaseFunction(Draine(g, alpha));
-}
-
-PhaseFunction load_henyey_greenstein(LoadContext& context, const pbrt::ParameterSet& p) {
-    return PhaseFunction(HenyeyGreenstein{load_mean_cosine(context, p)});
-}
-
-/// What "phase" may name.
-struct PhaseLoader {
-    std::string_view name;
-    PhaseFunction (*load)(LoadContext&, const pbrt::ParameterSet&);
-};
-constexpr std::array phase_loaders{PhaseLoader{"draine", load_draine},
-                                   PhaseLoader{"henyeygreenstein", load_henyey_greenstein}};
-
-PhaseFunction load_phase(LoadContext& context, const pbrt::ParameterSet& p) {
-    const std::string name = p.get_string("phase", "henyeygreenstein");
-    std::string known;
-    for (const PhaseLoader& loader : phase_loaders) {
-        if (name == loader.name) {
-            return loader.load(context, p);
-        }
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", loader.name);
-    }
-    throw InputError(p.place_of("phase"),
-                     fmt::format("the phase function \"{}\" is unknown; known are {}", name, known));
 }
 
 struct Coefficients {
@@ -171,6 +141,17 @@ std::shared_ptr<GridEmission> make_emission_sampler(const pbrt::ParameterSet& p,
     return emission;
 }
 
+/// Without "Lescale" pbrt looks up a grid of a single 1, in the middle of the box: half of that is left at its faces.
+void set_default_strength(GridEmission& emission, const Vec3i& size, const Transform& index_from_world) {
+    const VoxelBox middle{Vec3i(0), Vec3i(0)};
+    emission.strength = std::make_shared<const Grid>(Vec3i(0), Vec3i(1), std::span(&middle, 1),
+                                                     [](int, int, int) { return 1.0f; });
+    // The box is from -1/2 to 1/2 then.
+    emission.strength_from_world =
+        AffineMap(Transform::scale(1.0 / size.x, 1.0 / size.y, 1.0 / size.z) *
+                  Transform::translate(0.5 * (1 - size.x), 0.5 * (1 - size.y), 0.5 * (1 - size.z)) * index_from_world);
+}
+
 /// What a "uniformgrid" emits: by a grid of temperatures, or "Le" times a number or a grid of numbers.
 std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbrt::ParameterSet& p, const Vec3i& size,
                                                  const Transform& index_from_world) {
@@ -180,22 +161,31 @@ std::shared_ptr<GridEmission> load_grid_emission(LoadContext& context, const pbr
     };
     const std::string_view scales_name = emission_scale_name(p);
     const std::vector<float> scales = p.get_floats(scales_name);
-    const bool is_uniform = scales.size() <= 1;
-    const float scale = scales.size() == 1 ? non_negative_float(p, scales_name, 1) : 1.0f;
+    // One number in place of one a voxel, which pbrt refuses, is the same everywhere.
+    const bool is_uniform = scales.empty() || (scales.size() == 1 && size != Vec3i(1));
+    const float scale = is_uniform && !scales.empty() ? non_negative_float(p, scales_name, 1) : 1.0f;
     const std::vector<float> temperature = p.get_floats("temperature");
     const Rgb emitted = load_emitted(context, p);
     if (!temperature.empty()) {
         if (p.has("Le")) {
             throw InputError(p.place_of("Le"), "a medium takes either \"Le\" or \"temperature\"");
         }
+        auto emission = make_emission_sampler(p, grid_of(temperature, "temperature"), index_from_world, scale);
         if (!is_uniform) {
-            context.warnings.add(p.place_of(scales_name),
-                                 "a grid of emission scales beside one of temperatures is ignored");
+            emission->strength = grid_of(scales, scales_name);
+            emission->strength_from_world = AffineMap(index_from_world);
+        } else if (scales.empty()) {
+            set_default_strength(*emission, size, index_from_world);
         }
-        return make_emission_sampler(p, grid_of(temperature, "temperature"), index_from_world, scale);
+        return emission;
     }
     if (is_black(emitted)) {
         return nullptr;
+    }
+    if (scales.empty()) {
+        context.warnings.add(p.place_of("Le"),
+                             "\"Le\" is the same everywhere: without \"Lescale\", pbrt lets it fall from the middle of "
+                             "the box to a half at its faces, and to 0.42 on average");
     }
     auto emission = std::make_shared<GridEmission>();
     emission->radiance = emitted * scale;
@@ -234,58 +224,103 @@ std::vector<Rgb> load_colours(LoadContext& context, const pbrt::ParameterSet& p,
     return values;
 }
 
-/// Three coefficients a voxel become one density, whose colour is that of the mean.
+/// A grid of the voxels of a "rgbgrid" and of a ring around them, which is `outside`: there coefficients that are the
+/// same everywhere go on.
+Grid make_ringed_grid(const Place& place, const Vec3i& size, float outside,
+                      const std::function<float(std::size_t)>& value) {
+    const VoxelBox all{Vec3i(-1), size};
+    const auto at = [&](int x, int y, int z) {
+        const bool is_outside = x < 0 || y < 0 || z < 0 || x >= size.x || y >= size.y || z >= size.z;
+        const std::size_t row =
+            static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y);
+        return is_outside ? outside : value(row * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x));
+    };
+    try {
+        return {Vec3i(-1), size + Vec3i(2), std::span(&all, 1), at};
+    } catch (const InputError& error) {
+        throw InputError(place, fmt::format("\"rgbgrid\": {}", error.what()));
+    }
+}
+
+/// One of the parameters of a "rgbgrid": colours of voxels, times a scale, or the scale everywhere where there are none.
+struct VoxelColours {
+    std::vector<Rgb> values;
+    float scale = 1;
+
+    float outside() const { return values.empty() ? scale : 0.0f; }
+    Rgb at(std::size_t voxel) const { return values.empty() ? Rgb(scale) : values[voxel] * scale; }
+    Rgb mean(std::size_t voxels) const {
+        Rgb sum;
+        for (std::size_t i = 0; i < voxels; ++i) {
+            sum += at(i) / static_cast<float>(voxels);
+        }
+        return sum;
+    }
+    ColourGrid grid(const Place& place, const Vec3i& size) const {
+        const auto channel = [&](int c) {
+            return make_ringed_grid(place, size, outside(), [&](std::size_t voxel) { return at(voxel)[c]; });
+        };
+        return ColourGrid({channel(0), channel(1), channel(2)});
+    }
+};
+
+/// Throws InputError where tracking through the medium would not end: it makes a step for each mean free path of the
+/// densest channel, also where another one sees nothing.
+void require_trackable(const pbrt::MediumEntity& entity, const Grid& bound, const Transform& world_from_index,
+                       const Box3& box) {
+    constexpr double thickest = 1e5;
+    const Vec3 size = box.size();
+    double diagonal = 0;
+    for (const Vec3& side : {Vec3(size.x, 0, 0), Vec3(0, size.y, 0), Vec3(0, 0, size.z)}) {
+        diagonal += double{length(world_from_index.vector(side))};
+    }
+    if (!(bound.max_value() * diagonal <= thickest)) {
+        throw InputError(entity.place,
+                         fmt::format("the \"rgbgrid\" is up to {:g} mean free paths thick, but {:g} are the most",
+                                     bound.max_value() * diagonal, thickest));
+    }
+}
+
 Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
     const pbrt::ParameterSet& p = entity.parameters;
-    context.warnings.add(entity.place, "Medium \"rgbgrid\" is not implemented: a grid of one colour takes its place");
-    const std::vector<Rgb> absorption = load_colours(context, p, "sigma_a");
-    const std::vector<Rgb> scattering = load_colours(context, p, "sigma_s");
-    const std::vector<Rgb> emitted = load_colours(context, p, "Le");
-    const std::size_t count = std::max(absorption.size(), scattering.size());
+    const float scale = non_negative_float(p, "scale", 1);
+    const VoxelColours absorption{load_colours(context, p, "sigma_a"), scale};
+    const VoxelColours scattering{load_colours(context, p, "sigma_s"), scale};
+    // Not divided by the luminance of a spectrum of 1 here, other than in all other media of pbrt.
+    constexpr float luminance_of_equal_energy = 106.856895f;
+    const VoxelColours emitted{load_colours(context, p, "Le"),
+                               luminance_of_equal_energy * non_negative_float(p, emission_scale_name(p), 1)};
+    const std::size_t count = std::max(absorption.values.size(), scattering.values.size());
     if (count == 0) {
         throw InputError(entity.place, "\"rgbgrid\" needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\"");
     }
-    const Vec3i size = load_size(p, count, absorption.empty() ? "sigma_s" : "sigma_a");
-    for (const auto& [values, name] : {std::pair(&absorption, "sigma_a"), {&scattering, "sigma_s"}, {&emitted, "Le"}}) {
-        if (!values->empty()) {
-            load_size(p, values->size(), name);
+    if (!emitted.values.empty() && absorption.values.empty()) {
+        throw InputError(p.place_of("Le"), "\"rgbgrid\" needs the parameter \"rgb sigma_a\" beside \"rgb Le\"");
+    }
+    const Vec3i size = load_size(p, count, absorption.values.empty() ? "sigma_s" : "sigma_a");
+    for (const auto& [colours, name] :
+         {std::pair(&absorption, "sigma_a"), {&scattering, "sigma_s"}, {&emitted, "Le"}}) {
+        if (!colours->values.empty()) {
+            load_size(p, colours->values.size(), name);
         }
     }
-    const auto at = [](const std::vector<Rgb>& values, std::size_t i) {
-        return values.empty() ? Rgb(1.0f) : values[i];
-    };
-    std::vector<float> density(count);
-    Rgb total_absorption, total_scattering;
-    float total = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        density[i] = mean(at(absorption, i) + at(scattering, i));
-        total_absorption += at(absorption, i);
-        total_scattering += at(scattering, i);
-        total += density[i];
-    }
-    if (!std::isfinite(total)) {
-        throw InputError(entity.place, "the coefficients of the \"rgbgrid\" are too large");
-    }
-    const float scale = non_negative_float(p, "scale", 1) / (total > 0 ? total : 1.0f);
     const Transform index_from_world = index_from_box(load_box(p), size) * entity.world_from_medium.inverse();
+    auto bound = std::make_shared<const Grid>(make_ringed_grid(
+        entity.place, size, absorption.outside() + scattering.outside(),
+        [&](std::size_t voxel) { return max_value(absorption.at(voxel) + scattering.at(voxel)); }));
+    require_trackable(entity, *bound, index_from_world.inverse(), all_cells(size));
     std::shared_ptr<GridEmission> emission;
-    const float emission_scale = non_negative_float(p, emission_scale_name(p), 1);
-    if (!emitted.empty()) {
-        std::vector<float> strength(count);
-        Rgb sum;
-        float total_strength = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            strength[i] = mean(emitted[i]);
-            sum += emitted[i];
-            total_strength += strength[i];
-        }
+    if (!emitted.values.empty()) {
         emission = std::make_shared<GridEmission>();
-        emission->radiance = sum * (emission_scale / (total_strength > 0 ? total_strength : 1.0f));
-        emission->field = make_grid(context, strength, size, p.place_of("Le"), "Le");
+        emission->radiance = Rgb(1.0f);
+        emission->colours = std::make_shared<const ColourGrid>(emitted.grid(entity.place, size));
         emission->field_from_world = AffineMap(index_from_world);
     }
-    return GridMedium(make_grid(context, density, size, entity.place, "sigma_a"), index_from_world, all_cells(size),
-                      total_absorption * scale, total_scattering * scale, load_phase(context, p), std::move(emission));
+    auto voxels = std::make_shared<VoxelCoefficients>();
+    voxels->absorption = absorption.grid(entity.place, size);
+    voxels->scattering = scattering.grid(entity.place, size);
+    return GridMedium(std::move(bound), index_from_world, all_cells(size), std::move(voxels), absorption.mean(count),
+                      scattering.mean(count), load_phase(context, p), std::move(emission));
 }
 
 Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) {

@@ -10,7 +10,7 @@ namespace wend {
 
 /// A medium of a scene file. Throws InputError for an unknown type, a missing or broken file, grids of the wrong or an
 /// absurd size, and values out of range: negative or not finite coefficients or densities, |g| >= 1. Beyond pbrt,
-/// "phase" names a phase function: "henyeygreenstein", or "draine" with "alpha" (1 where it is not given) beside "g".
+/// "phase" names a phase function (load_phase()).
 Medium load_medium(LoadContext& context, const pbrt::MediumEntity& medium);
 
 /// The parameter "g"; InputError unless it lies within (-1, 1). Beyond 0.99 either way, where the phase function is too

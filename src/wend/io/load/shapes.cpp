@@ -206,9 +206,7 @@ Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     for (std::size_t i = 0; i < patches.indices.size(); i += 4) {
         add_patch(patches, &patches.indices[i], strips, strips > 1, mesh);
     }
-    TriangleMesh placed = place(shape, std::move(mesh));
-    placed.triangles_per_shape = static_cast<std::uint32_t>(2 * strips * strips);
-    return placed;
+    return place(shape, std::move(mesh));
 }
 
 Shape load_subdivision_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
@@ -282,9 +280,7 @@ Shape load_prism(LoadContext& context, pbrt::ShapeEntity& shape) {
             mesh.indices.push_back(2 * i + corner);
         }
     }
-    TriangleMesh placed = place(shape, std::move(mesh));
-    placed.triangles_per_shape = 2 * segments;
-    return placed;
+    return place(shape, std::move(mesh));
 }
 
 Shape load_sphere(LoadContext&, pbrt::ShapeEntity& shape) {

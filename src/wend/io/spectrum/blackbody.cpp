@@ -1,6 +1,5 @@
 #include <wend/core/error.h>
 #include <wend/io/spectrum/blackbody.h>
-#include <wend/io/spectrum/colorimetry.h>
 
 #include <fmt/format.h>
 
@@ -37,11 +36,15 @@ Rgb blackbody_reflectance(double temperature, SpectrumKind kind) {
     return reduce(temperature, kind);
 }
 
+Xyz blackbody_xyz(double temperature) {
+    return xyz_from_spectrum([=](double w) { return relative_radiance(w, temperature); });
+}
+
 Rgb blackbody_emission(double temperature) {
     if (!(temperature > 0)) {
         return {};
     }
-    const Rgb rgb = rgb_from_xyz(xyz_from_spectrum([=](double w) { return relative_radiance(w, temperature); }));
+    const Rgb rgb = rgb_from_xyz(blackbody_xyz(temperature));
     return {std::max(rgb.r, 0.0f), std::max(rgb.g, 0.0f), std::max(rgb.b, 0.0f)};
 }
 

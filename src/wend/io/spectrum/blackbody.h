@@ -13,6 +13,10 @@ Rgb blackbody_rgb(double temperature);
 /// spectrum for them. Throws InputError likewise.
 Rgb blackbody_reflectance(double temperature, SpectrumKind kind);
 
+/// Tristimulus values of a black body whose radiance is 1 where it is largest over all wavelengths. `temperature` must be
+/// positive.
+Xyz blackbody_xyz(double temperature);
+
 /// What pbrt's rgb film shows of an emissive medium of this temperature with LeScale 1. There the emitted radiance is
 /// Planck's law scaled to a peak of 1 over all wavelengths, and, other than for lights, it is not divided by its
 /// photometric integral: the tristimulus values are its integrals with the matching functions over nanometres (imaging

@@ -50,8 +50,9 @@ Xyz integrate(const Spectrum& spectrum, Xyz (*matching)(double)) {
     return sum;
 }
 
-constexpr double rgb_from_xyz_matrix[3][3] = {
-    {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
+constexpr ColourMatrix to_rec709{{{{3.2404542, -1.5371385, -0.4985314},
+                                   {-0.9692660, 1.8760108, 0.0415560},
+                                   {0.0556434, -0.2040259, 1.0572252}}}};
 /// The tristimulus values that this matrix maps to (1, 1, 1).
 constexpr Xyz white{0.95047, 1.0, 1.08883};
 
@@ -91,11 +92,15 @@ Xyz xyz_from_spectrum(const std::function<double(double)>& spectrum) {
 Rgb rgb_from_xyz(const Xyz& xyz) {
     Rgb rgb;
     for (int c = 0; c < 3; ++c) {
-        const auto& row = rgb_from_xyz_matrix[c];
+        const auto& row = to_rec709.m[static_cast<std::size_t>(c)];
         const double of_white = row[0] * white.x + row[1] * white.y + row[2] * white.z;
         rgb[c] = static_cast<float>((row[0] * xyz.x + row[1] * xyz.y + row[2] * xyz.z) / of_white);
     }
     return rgb;
+}
+
+const ColourMatrix& rgb_from_xyz_matrix() {
+    return to_rec709;
 }
 
 Rgb rgb_from_chromaticity(double x, double y) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/colour_matrix.h>
 
 #include <functional>
 #include <span>
@@ -47,6 +48,8 @@ Xyz xyz_from_spectrum(const std::function<double(double)>& spectrum);
 
 /// Rec. 709 primaries, not clamped.
 Rgb rgb_from_xyz(const Xyz& xyz);
+/// The same as a matrix, but for the rounding of white.
+const ColourMatrix& rgb_from_xyz_matrix();
 
 /// The colour of luminance 1 and chromaticity (x, y), with negative channels clamped to 0.
 Rgb rgb_from_chromaticity(double x, double y);

@@ -1,0 +1,78 @@
+#include <wend/scene/directional_light.h>
+#include <wend/scene/light.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// A direction of the world in a light's own space.
+Vec3 to_light(const AffineMap& light_from_world, const Vec3& w) {
+    return normalize(light_from_world.vector(w));
+}
+
+}  // namespace
+
+Rgb intensity_towards(const SpotLight& light, const Vec3& w) {
+    const float cosine = to_light(light.light_from_world, w).z;
+    if (cosine >= light.cos_inner) {
+        return light.intensity;
+    }
+    if (!(cosine > light.cos_outer)) {
+        return Rgb(0.0f);
+    }
+    const float t = (cosine - light.cos_outer) / (light.cos_inner - light.cos_outer);
+    return light.intensity * (t * t * (3 - 2 * t));
+}
+
+Rgb intensity_towards(const GoniometricLight& light, const Vec3& w) {
+    return light.intensity * light.picture->nearest(equal_area_sphere_to_square(to_light(light.light_from_world, w)));
+}
+
+Rgb intensity_towards(const ProjectionLight& light, const Vec3& w) {
+    constexpr float grazing = 1e-3f;
+    const Vec3 d = to_light(light.light_from_world, w);
+    if (!(d.z >= grazing)) {
+        return Rgb(0.0f);
+    }
+    const Vec2 on_window(d.x / (d.z * light.half_size.x), d.y / (d.z * light.half_size.y));
+    if (!(std::abs(on_window.x) <= 1 && std::abs(on_window.y) <= 1)) {
+        return Rgb(0.0f);
+    }
+    return light.intensity * light.picture->nearest({0.5f * (on_window.x + 1), 0.5f * (on_window.y + 1)});
+}
+
+float spread(const SpotLight& light) {
+    // The smooth step is a half on average.
+    return 2 * pi * ((1 - light.cos_inner) + 0.5f * (light.cos_inner - light.cos_outer));
+}
+
+Rgb spread(const GoniometricLight& light) {
+    return light.picture->mean_colour() * (4 * pi);
+}
+
+Rgb spread(const ProjectionLight& light) {
+    const Image& image = light.picture->image();
+    const Vec2 pixel(2 * light.half_size.x / static_cast<float>(image.width),
+                     2 * light.half_size.y / static_cast<float>(image.height));
+    double sum[3] = {0, 0, 0};
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const float px = (static_cast<float>(x) + 0.5f) * pixel.x - light.half_size.x;
+            const float py = (static_cast<float>(y) + 0.5f) * pixel.y - light.half_size.y;
+            const double d2 = 1 + double{px} * px + double{py} * py;
+            for (int c = 0; c < 3; ++c) {
+                sum[c] += static_cast<double>(image.at(x, y)[c]) / (d2 * std::sqrt(d2));
+            }
+        }
+    }
+    const double area = double{pixel.x} * pixel.y;
+    return {static_cast<float>(sum[0] * area), static_cast<float>(sum[1] * area), static_cast<float>(sum[2] * area)};
+}
+
+float corner_cosine(const ProjectionLight& light) {
+    return 1 / std::sqrt(1 + sqr(light.half_size.x) + sqr(light.half_size.y));
+}
+
+}  // namespace wend
