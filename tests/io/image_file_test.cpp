@@ -1,6 +1,7 @@
 #include <tests/support/paths.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
+#include <wend/io/colour_encoding.h>
 #include <wend/io/gzip.h>
 #include <wend/io/image_file.h>
 
@@ -176,14 +177,129 @@ TEST_F(ImageFile, Png16KeepsItsDepthAndGreyFillsAllChannels) {
 
 TEST_F(ImageFile, ReadsTgaAndHdr) {
     store("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x18\x20", 18) + std::string("\0\x7f\xff\xff\0\0", 6));
+    // Of these, the encoding is sRGB whatever is asked for.
     const Image tga = read_image(folder / "a.tga", ColourEncoding::linear);
-    EXPECT_EQ(tga.at(0, 0), Rgb(1, 127 / 255.0f, 0));
+    EXPECT_EQ(tga.at(0, 0), Rgb(1, srgb_to_linear(127 / 255.0f), 0));
     EXPECT_EQ(tga.at(1, 0), Rgb(0, 0, 1));
     store("a.hdr",
           "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string("\x80\x40\x20\x82\x80\x80\x80\x81", 8));
     const Image hdr = read_image(folder / "a.hdr");
     EXPECT_EQ(hdr.at(0, 0), Rgb(2, 1, 0.5f));
     EXPECT_EQ(hdr.at(1, 0), Rgb(1));
+}
+
+std::string pfm(const char* head, const std::vector<float>& values, bool swapped) {
+    std::string bytes = head;
+    for (const float value : values) {
+        std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
+        bytes += swapped ? std::string(raw.rbegin(), raw.rend()) : raw;
+    }
+    return bytes;
+}
+
+TEST_F(ImageFile, ReadsFloatMapsFromTheBottom) {
+    for (const bool swapped : {false, true}) {
+        // The first row of the file is the lowest.
+        store("a.pfm", pfm(swapped ? "PF\n1 2\n2.0\n" : "PF\n1 2\n-2.0\n", {1, 2, 3, 4, 5, 0.5f}, swapped));
+        const Image image = read_image(folder / "a.pfm");
+        EXPECT_EQ(image.at(0, 0), Rgb(8, 10, 1));
+        EXPECT_EQ(image.at(0, 1), Rgb(2, 4, 6));
+        store("a.pfm", pfm(swapped ? "Pf 2 1 1\n" : "Pf 2 1 -1\n", {0.25f, 7}, swapped));
+        const Image grey = read_image(folder / "a.pfm");
+        EXPECT_EQ(grey.at(0, 0), Rgb(0.25f));
+        EXPECT_EQ(grey.at(1, 0), Rgb(7));
+    }
+}
+
+TEST_F(ImageFile, ReadsPixelMapsOfAllKinds) {
+    const Rgb expected(1, 0, srgb_to_linear(51 / 255.0f));
+    const std::string texts[] = {"P3\n# made by hand\n1 1 # one pixel\n255\n255 0 51\n",
+                                 "P6 1 1 255\n\xff" + std::string("\0\x33", 2),
+                                 "P6\n1 1\n65535\n\xff\xff" + std::string("\0\0\x33\x33", 4), "P3 1 1 5 5 0 1"};
+    for (const std::string& text : texts) {
+        store("a.ppm", text);
+        const Rgb pixel = read_image(folder / "a.ppm").at(0, 0);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(pixel[c], expected[c], 1e-6f) << text;
+        }
+    }
+    for (const char* text : {"P2 2 1 255 51 300", "P5 2 1 255\n\x33\xff"}) {
+        store("a.pgm", text);
+        const Image image = read_image(folder / "a.pgm");
+        EXPECT_FLOAT_EQ(image.at(0, 0).g, srgb_to_linear(51 / 255.0f));
+        EXPECT_EQ(image.at(1, 0), Rgb(1));
+    }
+}
+
+TEST_F(ImageFile, ReadsTheFirstPictureOfAGif) {
+    // A screen of 3 x 2 with the colours black, red, green and white and the background green; an extension that makes
+    // white transparent; and a picture of 2 x 2 at (1, 0): red, white, white, red.
+    const std::string gif = std::string("GIF89a\3\0\2\0\x81\2\0", 13) +
+                            std::string("\0\0\0\xff\0\0\0\xff\0\xff\xff\xff", 12) +
+                            std::string("\x21\xf9\4\1\0\0\3\0", 8) + std::string("\x2c\1\0\0\0\2\0\2\0\0\2", 11) +
+                            // Codes of three bits, and of four from the fourth on: clear, 1, 3, 3, 1, end.
+                            std::string("\3\xcc\x16\x05\0\x3b", 6);
+    store("a.gif", gif);
+    const Image image = read_image(folder / "a.gif");
+    const Rgb red(1, 0, 0), green(0, 1, 0);
+    const std::vector<Rgb> expected{green, red, green, green, green, red};
+    EXPECT_EQ(image.pixels, expected);
+}
+
+TEST_F(ImageFile, ReadsQoi) {
+    const std::string head("qoif\0\0\0\4\0\0\0\2\4", 13);
+    // Red and half opaque; a little less red; a run of two; by luma; red again by its slot; run of two.
+    const std::string pixels("\xff\xff\0\0\x80\x5a\xc1\xa0\x88\x3d\xc1", 11);
+    store("a.qoi", head + std::string("\1", 1) + pixels + std::string("\0\0\0\0\0\0\0\1", 8));
+    const ImageWithOpacity picture = read_image_with_opacity(folder / "a.qoi");
+    ASSERT_EQ(picture.opacity.size(), 8u);
+    EXPECT_EQ(picture.image.at(0, 0), Rgb(1, 0, 0));
+    EXPECT_FLOAT_EQ(picture.opacity[0], 128 / 255.0f);
+    EXPECT_EQ(picture.image.at(1, 0), Rgb(254 / 255.0f, 0, 0));
+    EXPECT_EQ(picture.image.at(3, 0), picture.image.at(1, 0));
+}
+
+TEST_F(ImageFile, OpacityIsKeptUnlessItIsOne) {
+    Picture picture;
+    picture.image = gradient(4, 3);
+    picture.layers = {{"", {"A"}, std::vector<float>(12, 1.0f)}};
+    write_picture(folder / "a.exr", picture);
+    EXPECT_TRUE(read_image_with_opacity(folder / "a.exr").opacity.empty());
+    picture.layers[0].values[5] = 0.5f;
+    write_picture(folder / "a.exr", picture);
+    const ImageWithOpacity read = read_image_with_opacity(folder / "a.exr");
+    EXPECT_EQ(read.opacity, picture.layers[0].values);
+    EXPECT_EQ(read.image.pixels, picture.image.pixels);
+}
+
+TEST_F(ImageFile, OwnReadersRefuseWhatIsBroken) {
+    const std::string qoi = std::string("qoif\0\0\0\4\0\0\0\2\3\0", 14) + std::string(8, '\x5a');
+    const std::string gif = std::string("GIF89a\2\0\2\0\x81\0\0", 13) + std::string(12, 'x') +
+                            std::string("\x2c\0\0\0\0\2\0\2\0\0\2\3\xcc\x16\x05\0", 16);
+    const std::string files[] = {pfm("PF 2 2 -1\n", std::vector<float>(12, 1.0f), false),
+                                 "P6 2 2 255\n" + std::string(12, 'x'), "P3 2 2 9 1 2 3 4 5 6 7 8 9 1 2 3", qoi, gif};
+    for (const std::string& whole : files) {
+        store("a", whole);
+        EXPECT_NO_THROW(read_image(folder / "a")) << whole;
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            store("a", whole.substr(0, size));
+            const std::string message = message_of([&] { read_image(folder / "a"); });
+            EXPECT_NE(message.find("a: error"), std::string::npos) << whole << " " << size << ": " << message;
+        }
+        std::uint64_t state = 1;
+        for (int i = 0; i < 300; ++i) {
+            std::string broken = whole;
+            state = state * 6364136223846793005ull + 1442695040888963407ull;
+            broken[(state >> 33) % broken.size()] ^= static_cast<char>(state >> 24 | 1);
+            store("a", broken);
+            message_of([&] { read_image(folder / "a"); });
+        }
+    }
+    for (const char* text : {"PF 100000 100000 -1\n", "P6 100000 100000 255\n", "P6 0 1 255\n", "P6 -1 1 255\n",
+                             "P6 1 1 0\n\1\1\1", "P3 1 1 99999 1 1 1", "P3 x 1 9 1 1 1", "PF 1 1 nan\n123456789012"}) {
+        store("a", text);
+        EXPECT_NE(message_of([&] { read_image(folder / "a"); }), "no InputError") << text;
+    }
 }
 
 TEST_F(ImageFile, TruncatedFilesAreRefused) {

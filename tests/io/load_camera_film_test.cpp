@@ -236,7 +236,7 @@ TEST(LoadSampler, KindsSamplesAndSeeds) {
     EXPECT_EQ(stratified.samples, 12);
     EXPECT_EQ(stratified.seed, 5u);
     EXPECT_TRUE(stratified.warnings.empty());
-    EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"random\""); }), "known are halton");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"randomly\""); }), "known are halton");
     EXPECT_PRED2(contains, message_of([] { load_text("", "Sampler \"halton\" \"integer pixelsamples\" 0"); }),
                  "at least 1");
 }

@@ -4,6 +4,7 @@
 #include <wend/io/image_file.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
+#include <wend/scene/noise.h>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,15 @@ TEST(LoadMaterials, Diffuse) {
         {1, 0, 0});
 }
 
+TEST(LoadMaterials, BlackBodiesReflect) {
+    // A peak of 1, in the near infrared: more red than blue, and no more than 1.
+    const Rgb colour = Loaded("Material \"diffuse\" \"blackbody reflectance\" 4000").reflectance();
+    EXPECT_LE(colour.r, 1);
+    EXPECT_GT(colour.r, 0.9f);
+    EXPECT_GT(colour.g, 0.7f);
+    EXPECT_LT(colour.b, 0.6f);
+}
+
 TEST(LoadMaterials, ColourSpaces) {
     // White stays white, and a primary of the wider space is clamped to the narrower one's.
     for (const std::string space : {"rec2020", "dci-p3", "aces2065-1"}) {
@@ -84,8 +94,6 @@ TEST(LoadMaterials, SpectrumFiles) {
                  "wend_broken.spd:2:1: error: expected a number");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"spectrum reflectance\" \"metal-Xx\""); }),
                  "test.pbrt:3:20: error: \"metal-Xx\" is neither");
-    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"blackbody reflectance\" 3000"); }),
-                 "a black body is light");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"diffuse\" \"rgb reflectance\" [ -1 0 0 ]"); }),
                  "not negative");
 }
@@ -116,6 +124,8 @@ TEST(LoadMaterials, Dielectrics) {
                 1e-3f);
     EXPECT_NEAR(Loaded("Material \"dielectric\" \"spectrum eta\" [ 300 1.4 900 1.4 ]").as<DielectricMaterial>().ior,
                 1.4f, 1e-3f);
+    EXPECT_NEAR(Loaded("Material \"dielectric\" \"rgb eta\" [ 1.5 1.5 1.5 ]").as<DielectricMaterial>().ior, 1.5f,
+                1e-5f);
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" 0"); }), "refractive index");
 }
 
@@ -342,7 +352,13 @@ TEST(LoadTextures, Pictures) {
         "Texture \"b\" \"spectrum\" \"imagemap\" \"string filename\" \"wend_load_texture.png\"",
         directory);
     EXPECT_TRUE(twice.scene.warnings.empty());
-    EXPECT_EQ(warnings_with(loaded("\"string mapping\" \"planar\"").scene, "\"planar\""), 1);
+    expect_near(loaded("\"string filter\" \"point\"").reflectance({0.45f, 0.55f}), {1, 0, 0}, 1e-3f);
+    // A pixel beyond the right border of a sphere is one at the border, mirrored up and down.
+    expect_near(loaded("\"string wrap\" \"octahedralsphere\" \"string filter\" \"point\"").reflectance({1.1f, 0.75f}),
+                Rgb(0.5f), 0.01f);
+    EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"sRGB\"", "wend_load_texture.exr").scene, "not PNG"), 1);
+    EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"linear\"", "wend_load_texture.exr").scene, "not PNG"), 0);
+    EXPECT_PRED2(contains, message_of([&] { loaded("\"string filter\" \"frob\""); }), "the filter \"frob\"");
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"frob\""); }),
                  "the encoding \"frob\" is unknown");
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"gamma -1\""); }), "the encoding");
@@ -350,14 +366,93 @@ TEST(LoadTextures, Pictures) {
     EXPECT_PRED2(contains, message_of([&] { loaded("", "none-such.png"); }), "there is no file");
 }
 
+TEST(LoadTextures, FloatsAreTheOpacityOrTheMeanOfAPicture) {
+    const auto directory = std::filesystem::temp_directory_path();
+    Picture picture;
+    picture.image = Image(1, 1, {0.3f, 0.6f, 0.9f});
+    picture.full_size = {1, 1};
+    write_picture(directory / "wend_float_opaque.exr", picture);
+    picture.layers = {{"", {"A"}, {0.25f}}};
+    write_picture(directory / "wend_float_alpha.exr", picture);
+    const auto value = [&](const std::string& file, const std::string& filter) {
+        return Loaded("Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"" + file + "\" \"string filter\" \"" +
+                          filter +
+                          "\" Texture \"u\" \"spectrum\" \"scale\" \"texture scale\" \"t\" "
+                          "Material \"diffuse\" \"texture reflectance\" \"u\"",
+                      directory)
+            .reflectance();
+    };
+    expect_near(value("wend_float_opaque.exr", "bilinear"), Rgb(0.6f));
+    expect_near(value("wend_float_alpha.exr", "trilinear"), Rgb(0.25f));
+    expect_near(value("wend_float_alpha.exr", "point"), Rgb(0.3f));
+    expect_near(value("wend_float_alpha.exr", "EWA"), Rgb(0.3f));
+}
+
+TEST(LoadTextures, MappingsAreInTheSpaceOfTheTexture) {
+    const auto value = [](const std::string& mapping, const Vec3& p) {
+        return Loaded(
+                   "Translate 1 2 3 Texture \"t\" \"spectrum\" \"bilerp\" \"rgb v00\" [0 0 0] \"rgb v01\" [0 1 0] "
+                   "\"rgb v10\" [1 0 0] \"rgb v11\" [1 1 0] \"string mapping\" \"" +
+                   mapping + " Material \"diffuse\" \"texture reflectance\" \"t\"")
+            .reflectance({0.1f, 0.2f}, p);
+    };
+    expect_near(value("uv\" \"float uscale\" 2 \"float vdelta\" .5", {0, 0, 0}), {0.2f, 0.7f, 0});
+    expect_near(value("spherical\"", {1, 3, 3}), {0.5f, 0.25f, 0});
+    expect_near(value("spherical\"", {1, 1, 4}), {0.25f, 0.75f, 0});
+    expect_near(value("spherical\"", {1, 2, 3}), {0, 0, 0});  // its very centre
+    expect_near(value("cylindrical\"", {1, 4, 3.7f}), {0.75f, 0.7f, 0});
+    expect_near(value("planar\" \"vector3 v1\" [0 .5 0] \"vector3 v2\" [0 0 2] \"float udelta\" .1", {9, 3, 3.2f}),
+                {0.6f, 0.4f, 0});
+}
+
+TEST(LoadTextures, PatternsOfNoise) {
+    const auto texture = [](const std::string& kind, const std::string& parameters) {
+        return Loaded("Scale 2 2 2 Texture \"t\" \"" + kind + "\" " + parameters +
+                      (kind == "float" ? " Texture \"u\" \"spectrum\" \"scale\" \"texture scale\" \"t\" " : " ") +
+                      "Material \"diffuse\" \"texture reflectance\" \"" + (kind == "float" ? "u" : "t") + "\"");
+    };
+    const Vec3 p(0.6f, 1.1f, -0.3f), q = p * 0.5f;
+    const Rgb fractal =
+        texture("float", "\"fbm\" \"integer octaves\" 2 \"float roughness\" .25").reflectance({0, 0}, p);
+    expect_near(fractal, Rgb(perlin_noise(q) + 0.25f * perlin_noise(q * 1.99f)));
+    const Rgb wrinkled =
+        texture("float", "\"wrinkled\" \"integer octaves\" 1 \"float roughness\" .5").reflectance({0, 0}, p);
+    expect_near(wrinkled, Rgb(std::abs(perlin_noise(q)) + 0.1f));
+    EXPECT_TRUE(is_finite(texture("float", "\"windy\"").reflectance({0, 0}, p)));
+    // Without displacement: half way along the wave.
+    const Rgb marble =
+        texture("spectrum", "\"marble\" \"float variation\" 0 \"float scale\" 3").reflectance({0, 0}, {0, 0, 0});
+    expect_near(marble, Rgb(0.75f), 0.2f);
+    EXPECT_PRED2(contains, message_of([&] { texture("float", "\"fbm\" \"integer octaves\" 100"); }), "from 0 to 64");
+}
+
+TEST(LoadTextures, DotsAndMixturesByDirection) {
+    // As in pbrt, "inside" is what lies around the dots.
+    const Loaded dots(
+        "Texture \"d\" \"spectrum\" \"dots\" \"rgb outside\" [ 1 0 0 ] \"rgb inside\" [ 0 0 1 ] "
+        "Material \"diffuse\" \"texture reflectance\" \"d\"");
+    int in_dots = 0;
+    constexpr int side = 100;
+    for (int i = 0; i < side * side; ++i) {
+        const Rgb colour = dots.reflectance(Vec2(static_cast<float>(i % side), static_cast<float>(i / side)) * 0.37f);
+        EXPECT_EQ(colour.r + colour.b, 1);
+        in_dots += colour.r == 1;
+    }
+    // At most half of the squares have a dot: where the noise is above 0.
+    EXPECT_GT(in_dots, side * side / 10);
+    EXPECT_LT(in_dots, side * side / 5);
+    const Loaded mix(
+        "Rotate 90 1 0 0 Texture \"m\" \"spectrum\" \"directionmix\" \"rgb tex1\" [1 0 0] \"rgb tex2\" "
+        "[0 0 1] Material \"diffuse\" \"texture reflectance\" \"m\"");
+    const TextureId id = mix.as<DiffuseMaterial>().reflectance;
+    expect_near(mix.scene.scene.textures.evaluate(id, {{0, 0}, {0, 0, 0}, {0, 0, -1}}), {1, 0, 0});
+    expect_near(mix.scene.scene.textures.evaluate(id, {{0, 0}, {0, 0, 0}, {0, 0.8f, 0.6f}}), {0.6f, 0, 0.4f});
+}
+
 TEST(LoadTextures, SubstitutesAreNamedOnce) {
-    const Loaded loaded(
-        "Texture \"f\" \"float\" \"fbm\" \"integer octaves\" 3 Texture \"d\" \"spectrum\" \"dots\" \"rgb outside\" [ 1 "
-        "0 0 ] "
-        "Texture \"w\" \"float\" \"wrinkled\" Material \"diffuse\" \"texture reflectance\" \"d\"");
-    expect_near(loaded.reflectance(), {1, 0, 0});
-    EXPECT_EQ(warnings_with(loaded.scene, "is not implemented"), 3);
-    EXPECT_EQ(warnings_with(loaded.scene, "the parameter \"octaves\""), 1);
+    const Loaded loaded("Texture \"f\" \"spectrum\" \"ptex\" Material \"diffuse\" \"texture reflectance\" \"f\"");
+    expect_near(loaded.reflectance(), Rgb(0.5f));
+    EXPECT_EQ(warnings_with(loaded.scene, "is not implemented"), 1);
     EXPECT_PRED2(contains, message_of([] { Loaded("Texture \"x\" \"float\" \"frob\""); }), "known are bilerp");
 }
 

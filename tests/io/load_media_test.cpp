@@ -3,6 +3,7 @@
 
 #include <wend/io/load/cloud.h>
 #include <wend/io/spectrum/blackbody.h>
+#include <wend/scene/noise.h>
 
 #include <gtest/gtest.h>
 

@@ -113,13 +113,114 @@ TEST(LoadShapes, PlyMesh) {
     EXPECT_EQ(mesh.vertex(0, 0), Vec3(0, 0, 7));
 }
 
-TEST(LoadShapes, SubstitutesAreNamedOnce) {
-    const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ] ";
+TEST(LoadShapes, NormalsOfPlyFilesThatAreNoneLeaveTheFaceFlat) {
+    const auto directory = std::filesystem::temp_directory_path();
+    std::ofstream(directory / "wend_load_normals.ply")
+        << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "property float nx\nproperty float ny\nproperty float nz\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 nan nan nan\n1 0 0 nan 0 1\n"
+           "0 1 0 0 inf 0\n3 0 1 2\n";
     const LoadedScene loaded =
-        load_text(patch + patch + "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ] Shape \"curve\" ");
+        load_text("Shape \"plymesh\" \"string filename\" \"wend_load_normals.ply\"", "", {}, directory);
+    const Scene scene(loaded.scene);
+    const auto hit = scene.intersect({{0.25f, 0.25f, 1}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->normal, Vec3(0, 0, 1));
+    EXPECT_EQ(hit->shading.n, Vec3(0, 0, 1));
+}
+
+TEST(LoadShapes, CylindersAreExact) {
+    const LoadedScene loaded = load_text(
+        "Rotate 90 1 0 0 Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 3 \"float zmax\" -1 \"float phimax\" "
+        "270");
+    EXPECT_TRUE(loaded.warnings.empty());
+    const Scene scene(loaded.scene);
+    // The axis is -y now; along it, from -3 to 1. What is missing has x > 0 and z < 0.
+    const auto hit = scene.intersect({{-5, 0, 0.1f}, {1, 0, 0}});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->position.x, -std::sqrt(4 - 0.01f), 1e-5f);
+    EXPECT_NEAR(dot(hit->normal, Vec3(hit->position.x, 0, hit->position.z)) / 2, 1, 1e-5f);
+    EXPECT_NEAR(hit->uv.y, 0.25f, 1e-5f);
+    const auto through_the_gap = scene.intersect({{5, 0, -0.1f}, {-1, 0, 0}});
+    ASSERT_TRUE(through_the_gap);
+    EXPECT_LT(through_the_gap->position.x, 0);
+    EXPECT_FALSE(scene.intersect({{-5, 1.1f, 0}, {1, 0, 0}}));
+    // What shines is a mesh, as lights are made of triangles.
+    const LoadedScene light = load_text("AreaLightSource \"diffuse\" Shape \"cylinder\"");
+    EXPECT_EQ(std::get<TriangleMesh>(light.scene.surfaces[0].shape).triangle_count(), 512u);
+    EXPECT_EQ(light.scene.lights.size(), 512u);
+    EXPECT_EQ(warnings_with(light, "a prism of 256 sides"), 1);
+}
+
+TEST(LoadShapes, CurvedPatches) {
+    const LoadedScene loaded = load_text(
+        "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 1 ] "
+        "Shape \"bilinearmesh\" \"point3 P\" [ 5 0 0  6 0 0  5 1 0  6 1 0 ]");
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_EQ(std::get<TriangleMesh>(loaded.scene.surfaces[1].shape).triangle_count(), 2u);
+    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    EXPECT_GT(mesh.triangle_count(), 100u);
+    const Scene scene(loaded.scene);
+    for (const float x : {0.13f, 0.5f, 0.77f}) {
+        for (const float y : {0.21f, 0.64f, 0.98f}) {
+            const auto hit = scene.intersect({{x, y, 5}, {0, 0, -1}});
+            ASSERT_TRUE(hit);
+            EXPECT_NEAR(hit->position.z, x * y, 1e-3f);
+            EXPECT_NEAR(hit->uv.x, x, 1e-4f);
+            EXPECT_NEAR(hit->uv.y, y, 1e-4f);
+            EXPECT_LT(length(hit->shading.n - normalize(Vec3(-y, -x, 1))), 2e-3f);
+        }
+    }
+}
+
+TEST(LoadShapes, CurvesOfBothBasesAndDegrees) {
+    const auto curves = [](const std::string& text) {
+        return std::get<CurveSet>(load_text("Shape \"curve\" " + text).scene.surfaces.at(0).shape);
+    };
+    const auto near = [](const Vec3& a, const Vec3& b) { EXPECT_LT(length(a - b), 1e-5f) << a << " " << b; };
+    const std::string points = "\"point3 P\" [0 0 0 1 0 0 2 3 0 3 0 1 4 1 0 5 0 0 6 0 3] ";
+    const CurveSet cubic = curves(points + "\"float width0\" 2 \"float width1\" 4 \"string type\" \"cylinder\"");
+    ASSERT_EQ(cubic.segments.size(), 2u);
+    EXPECT_EQ(cubic.kind, CurveSet::Kind::cylinder);
+    EXPECT_EQ(cubic.segments[0].width[1], 3);
+    near(cubic.segments[1].at(0), {3, 0, 1});
+    near(cubic.segments[1].at(1), {6, 0, 3});
+    const CurveSet quadratic = curves(points + "\"integer degree\" 2");
+    ASSERT_EQ(quadratic.segments.size(), 3u);
+    near(quadratic.segments[0].at(0.5f), Vec3(0, 0, 0) * 0.25f + Vec3(1, 0, 0) * 0.5f + Vec3(2, 3, 0) * 0.25f);
+    const CurveSet spline = curves(points + "\"string basis\" \"bspline\"");
+    ASSERT_EQ(spline.segments.size(), 4u);
+    near(spline.segments[1].at(0), (Vec3(1, 0, 0) + Vec3(2, 3, 0) * 4.0f + Vec3(3, 0, 1)) / 6.0f);
+    near(spline.segments[1].at(1), spline.segments[2].at(0));
+    near(spline.segments[1].along(1), spline.segments[2].along(0));
+    const CurveSet low = curves(points + "\"string basis\" \"bspline\" \"integer degree\" 2");
+    ASSERT_EQ(low.segments.size(), 5u);
+    near(low.segments[0].at(0.5f), Vec3(0, 0, 0) * 0.125f + Vec3(1, 0, 0) * 0.75f + Vec3(2, 3, 0) * 0.125f);
+    const auto error = [&](const std::string& text) { return message_of([&] { curves(text); }); };
+    EXPECT_PRED2(contains, error("\"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0 2 2 2]"), "make no curve of degree 3");
+    EXPECT_PRED2(contains, error(points + "\"integer degree\" 4"), "2 or 3");
+    EXPECT_PRED2(contains, error(points + "\"string type\" \"ribbon\""), "needs 3 normals");
+    EXPECT_PRED2(contains, error(points + "\"string basis\" \"frob\""), "known are bezier");
+    EXPECT_PRED2(contains, error(points + "\"string type\" \"frob\""), "known are flat");
+    EXPECT_PRED2(contains, error(points + "\"float width\" -1"), "not be below 0");
+}
+
+TEST(LoadShapes, CurvesAlikeAreOneSurface) {
+    const std::string curve = "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] ";
+    const LoadedScene loaded =
+        load_text(curve + curve + "Material \"conductor\" " + curve + "AreaLightSource \"diffuse\" " + curve);
+    ASSERT_EQ(loaded.scene.surfaces.size(), 2u);
+    EXPECT_EQ(std::get<CurveSet>(loaded.scene.surfaces[0].shape).segments.size(), 2u);
+    EXPECT_EQ(std::get<CurveSet>(loaded.scene.surfaces[1].shape).segments.size(), 2u);
+    EXPECT_TRUE(loaded.scene.lights.empty());
+    EXPECT_EQ(warnings_with(loaded, "curves neither shine nor bound a medium"), 1);
+}
+
+TEST(LoadShapes, FlatPatchesAreTwoTriangles) {
+    const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ] ";
+    const LoadedScene loaded = load_text(patch + patch);
     EXPECT_EQ(loaded.scene.surfaces.size(), 2u);
-    EXPECT_EQ(warnings_with(loaded, "bilinearmesh"), 1);
-    EXPECT_EQ(warnings_with(loaded, "Shape \"curve\" is not implemented"), 1);
+    EXPECT_TRUE(loaded.warnings.empty());
     const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
     EXPECT_EQ(mesh.triangle_count(), 2u);
     const Scene scene(load_text(patch).scene);

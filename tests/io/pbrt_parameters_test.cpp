@@ -142,9 +142,17 @@ TEST(PbrtParameters, MalformedOnesAreErrors) {
     EXPECT_PRED2(contains, parse_message("\"float f\" nan"), "not a finite number");
 }
 
-TEST(PbrtParameters, DuplicatesAreErrorsNamingBothPlaces) {
-    EXPECT_EQ(parse_message("\"float f\" 1 \"integer f\" 2"),
-              "t.pbrt:2:24: error: \"f\" is given twice; the first is at t.pbrt:2:12");
+TEST(PbrtParameters, OfDuplicatesTheLastCountsWithAWarningThatNamesBothPlaces) {
+    const Description d = parse_string(
+        "WorldBegin\nShape \"a\" \"float f\" 1 \"float g\" 3 \"integer f\" 2\n"
+        "Shape \"a\" \"float f\" 1 \"float f\" 4",
+        {}, "t.pbrt");
+    EXPECT_EQ(d.shapes[0].parameters.get_int("f", 0), 2);
+    EXPECT_EQ(d.shapes[0].parameters.get_float("g", 0), 3);
+    EXPECT_EQ(d.shapes[1].parameters.get_float("f", 0), 4);
+    ASSERT_EQ(d.warnings.size(), 1u);
+    EXPECT_EQ(d.warnings[0],
+              "t.pbrt:2:35: warning: \"f\" is given twice: the last one counts, not that at t.pbrt:2:11");
 }
 
 TEST(PbrtParameters, SpectraAndTemperaturesMustMakeSense) {

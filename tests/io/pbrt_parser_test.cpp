@@ -103,14 +103,41 @@ TEST(PbrtParser, MotionUsesTheStartAndWarnsOnce) {
     EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:3:37: warning: motion");
 }
 
-TEST(PbrtParser, DegenerateTransformsAreErrors) {
-    EXPECT_PRED2(contains, world_error_of("  Scale 0 1 1"), "t.pbrt:2:3: error: a scale");
-    EXPECT_PRED2(contains, world_error_of("Rotate 10 0 0 0"), "t.pbrt:2:1: error: a rotation");
-    EXPECT_PRED2(contains, world_error_of("LookAt 0 0 0 0 0 0 0 1 0"), "t.pbrt:2:1: error: the up vector");
-    EXPECT_PRED2(contains, world_error_of("Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]"), "singular");
-    EXPECT_PRED2(contains, world_error_of("ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]"), "singular");
-    EXPECT_PRED2(contains, world_error_of("Scale 1e100 1 1 Scale 1e100 1 1 Scale 1e100 1 1 Scale 1e100 1 1"),
-                 "t.pbrt:2:49: error: the transformation matrix or its inverse is no longer finite");
+TEST(PbrtParser, WhatHasNoTransformIsLeftOut) {
+    const char* const faults[][2] = {
+        {"  Scale 0 1 1", "t.pbrt:3:3: warning: Shape \"a\" is left out: a scale"},
+        {"Rotate 10 0 0 0", "t.pbrt:3:1: warning: Shape \"a\" is left out: a rotation"},
+        {"LookAt 0 0 0 0 0 0 0 1 0", "t.pbrt:3:1: warning: Shape \"a\" is left out: the up vector"},
+        {"Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]", "singular"},
+        {"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]", "singular"},
+        {"Scale 1e100 1 1 Scale 1e100 1 1 Scale 1e100 1 1 Scale 1e100 1 1",
+         "t.pbrt:3:49: warning: Shape \"a\" is left out: the transformation matrix or its inverse is no longer "
+         "finite"}};
+    for (const auto& [fault, warning] : faults) {
+        const Description d = parse_world(std::string("ObjectBegin \"o\" ObjectEnd AttributeBegin\n") + fault +
+                                          " Translate 1 2 3 Shape \"a\" LightSource \"l\" ObjectInstance \"o\" "
+                                          "Identity Shape \"b\" AttributeEnd Shape \"c\"");
+        ASSERT_EQ(d.shapes.size(), 2u) << fault;
+        EXPECT_EQ(d.shapes[0].type, "b");
+        EXPECT_EQ(d.shapes[1].type, "c");
+        EXPECT_TRUE(d.lights.empty());
+        EXPECT_TRUE(d.instances.empty());
+        ASSERT_EQ(d.warnings.size(), 3u) << fault;
+        EXPECT_PRED2(contains, d.warnings[0], warning);
+    }
+}
+
+TEST(PbrtParser, UnusedFaultyTransformsDoNotMatter) {
+    const Description d = parse_world(
+        "AttributeBegin Scale 1 1 0 CoordinateSystem \"flat\" AttributeBegin AttributeEnd AttributeEnd\n"
+        "Shape \"a\" CoordSysTransform \"flat\" Translate 1 0 0 CoordSysTransform \"world\" Shape \"b\"");
+    EXPECT_TRUE(d.warnings.empty());
+    EXPECT_EQ(d.shapes.size(), 2u);
+    EXPECT_EQ(error_of("Scale 0 1 1\nCamera \"perspective\"\nWorldBegin"),
+              "t.pbrt:1:1: error: a scale must be finite and not zero");
+}
+
+TEST(PbrtParser, MalformedTransformsAreErrors) {
     EXPECT_PRED2(contains, world_error_of("Transform [1 2 3]"), "expected a number, found ']'");
     EXPECT_PRED2(contains, world_error_of("Transform 1 2 3"), "expected '[', found \"1\"");
     EXPECT_PRED2(contains, world_error_of("Translate 1 2"), "expected a number, found the end of the file");
@@ -198,7 +225,7 @@ TEST(PbrtParser, Textures) {
     EXPECT_EQ(d.textures[1].kind, TextureKind::real);
     EXPECT_EQ(d.textures[2].type, "scale");
     expect_near(d.textures[0].world_from_texture.point(Vec3(0)), Vec3(0, 1, 0));
-    EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"color\" \"constant\""), "kind float or spectrum");
+    EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"colour\" \"constant\""), "kind float or spectrum");
     EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"a\""),
                  "t.pbrt:2:29: error: \"tex\": the texture \"a\" is not defined");
 }
@@ -303,6 +330,8 @@ TEST(PbrtParser, NamedMaterialsAndMediaNeedAType) {
 
 TEST(PbrtParser, UnknownDirectivesAreErrors) {
     EXPECT_EQ(error_of("Film \"rgb\"\nCamara \"x\""), "t.pbrt:2:1: error: expected a directive, found \"Camara\"");
+    EXPECT_PRED2(contains, world_error_of("VolumeIntegrator \"x\""),
+                 "t.pbrt:2:1: error: VolumeIntegrator is a part of");
     EXPECT_EQ(error_of("]"), "t.pbrt:1:1: error: expected a directive, found ']'");
     EXPECT_EQ(error_of("\"float x\" 1"), "t.pbrt:1:1: error: expected a directive, found \"float x\"");
     EXPECT_EQ(error_of("Camera perspective"), "t.pbrt:1:8: error: expected a quoted string, found \"perspective\"");

@@ -80,6 +80,13 @@ TEST(TracedRay, MeetsASphereTwice) {
     }
 }
 
+TEST(TracedRay, MeetsACylinderTwice) {
+    for (const Body& body : bodies()) {
+        // So long that next to nothing leaves through its ends.
+        expect_two_hits(CylinderShell(Cylinder{1, -300, 300}, body.place), body.place, body.name);
+    }
+}
+
 TEST(TracedRay, MeetsAMeshTwice) {
     for (const Body& body : bodies()) {
         expect_two_hits(cube(body.place), body.place, body.name);

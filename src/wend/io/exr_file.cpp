@@ -342,10 +342,20 @@ bool is_exr(const std::filesystem::path& file) {
     return Imf::isOpenExrFile(file.c_str());
 }
 
-Image read_exr_image(const std::filesystem::path& file) {
-    Image image;
-    with_file(file, [&](Imf::InputFile& input) { image = read_beauty(input); });
-    return image;
+ImageWithOpacity read_exr_image(const std::filesystem::path& file) {
+    ImageWithOpacity picture;
+    with_file(file, [&](Imf::InputFile& input) {
+        picture.image = read_beauty(input);
+        if (input.header().channels().findChannel("A")) {
+            Layer opacity{"", {"A"}, std::vector<float>(picture.image.pixels.size())};
+            Imf::FrameBuffer frame;
+            insert_layer(frame, opacity, input.header().dataWindow());
+            input.setFrameBuffer(frame);
+            input.readPixels(input.header().dataWindow().min.y, input.header().dataWindow().max.y);
+            picture.opacity = std::move(opacity.values);
+        }
+    });
+    return picture;
 }
 
 Picture read_exr(const std::filesystem::path& file) {

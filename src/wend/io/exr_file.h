@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/film/picture.h>
+#include <wend/io/image_file.h>
 
 #include <filesystem>
 
@@ -10,8 +11,8 @@ namespace wend {
 /// Whether a file begins as every OpenEXR file does; false where it cannot be read.
 bool is_exr(const std::filesystem::path& file);
 
-/// See read_image and read_picture.
-Image read_exr_image(const std::filesystem::path& file);
+/// See read_image_with_opacity and read_picture.
+ImageWithOpacity read_exr_image(const std::filesystem::path& file);
 Picture read_exr(const std::filesystem::path& file);
 
 /// Writes to exactly this file. Throws std::runtime_error when that fails.

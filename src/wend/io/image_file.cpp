@@ -2,17 +2,65 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/exr_file.h>
+#include <wend/io/gif_file.h>
+#include <wend/io/gzip.h>
 #include <wend/io/image_file.h>
+#include <wend/io/pfm_file.h>
+#include <wend/io/pnm_file.h>
+#include <wend/io/qoi_file.h>
 #include <wend/io/stb_file.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 namespace wend {
 
+namespace {
+
+ImageWithOpacity read_any(const std::filesystem::path& file, ColourEncoding encoding) {
+    if (is_exr(file)) {
+        return read_exr_image(file);
+    }
+    const Place place{file.string()};
+    std::string bytes = read_file(file);
+    if (is_pfm(bytes)) {
+        return {read_pfm(bytes, place), {}};
+    }
+    if (is_pnm(bytes)) {
+        return {read_pnm(bytes, place), {}};
+    }
+    if (is_gif(bytes)) {
+        return {read_gif(bytes, place), {}};
+    }
+    if (is_qoi(bytes)) {
+        return read_qoi(bytes, place);
+    }
+    return read_stb_image(std::move(bytes), place, encoding);
+}
+
+}  // namespace
+
 Image read_image(const std::filesystem::path& file, ColourEncoding encoding) {
-    return is_exr(file) ? read_exr_image(file) : read_stb_image(file, encoding);
+    return read_any(file, encoding).image;
+}
+
+ImageWithOpacity read_image_with_opacity(const std::filesystem::path& file, ColourEncoding encoding) {
+    ImageWithOpacity picture = read_any(file, encoding);
+    if (std::all_of(picture.opacity.begin(), picture.opacity.end(), [](float a) { return a == 1; })) {
+        picture.opacity.clear();
+    }
+    return picture;
+}
+
+bool is_png(const std::filesystem::path& file) {
+    std::array<char, 4> start{};
+    std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+    return std::string_view(start.data(), start.size()) == "\x89PNG";
 }
 
 Picture read_picture(const std::filesystem::path& file) {

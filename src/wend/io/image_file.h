@@ -1,20 +1,37 @@
-// Picture files: OpenEXR through its library, PNG, JPEG, TGA, BMP and Radiance HDR through stb.
+// Picture files: OpenEXR through its library, PNG, JPEG, TGA, BMP, PSD and Radiance HDR through stb, and of our own
+// PFM, PGM, PPM, GIF and QOI.
 #pragma once
 
 #include <wend/film/picture.h>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace wend {
 
-/// How the numbers of an 8-bit or 16-bit file map to linear colour; files of floating point are linear always.
+/// How the numbers of a PNG file map to linear colour. Files of floating point are linear, and all others sRGB, or say
+/// themselves what they are: pbrt does not ask there.
 enum class ColourEncoding { srgb, linear };
 
 /// Reads the colour of a picture file as linear colour; a grey file fills all three channels, and opacity is dropped.
 /// The kind is recognized by content. For EXR: channels R, G, B (or Y) of the data window. Throws InputError naming the
 /// file when it is missing, broken, truncated, larger than `max_pixels` or of an unknown kind.
 Image read_image(const std::filesystem::path& file, ColourEncoding encoding = ColourEncoding::srgb);
+
+/// A picture with its opacity: one value a pixel, decoded as its colours are (so pbrt has it), or none.
+struct ImageWithOpacity {
+    Image image;
+    std::vector<float> opacity;
+};
+
+/// The same with the opacity of OpenEXR (the channel A), PNG (but not by a palette) and QOI, unless that is 1
+/// everywhere.
+ImageWithOpacity read_image_with_opacity(const std::filesystem::path& file,
+                                         ColourEncoding encoding = ColourEncoding::srgb);
+
+/// Whether a file begins as PNG files do; false where it cannot be read.
+bool is_png(const std::filesystem::path& file);
 
 /// The whole of an EXR file: beauty, layers and metadata, as write_picture left them. Channels without a layer's name
 /// (other than the beauty's) are in a layer named "". Throws InputError as read_image does, and for files that are not

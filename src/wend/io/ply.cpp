@@ -220,8 +220,7 @@ private:
                     row.values[slots[p]] = static_cast<float>(reader_.next(property.type));
                 }
             }
-            if (!row.finite(VertexRow::x, 3) || (has_normals && !row.finite(VertexRow::nx, 3)) ||
-                (has_uvs && !row.finite(VertexRow::u, 2))) {
+            if (!row.finite(VertexRow::x, 3)) {
                 throw InputError(reader_.place(), fmt::format("vertex {} is not finite", i));
             }
             const auto& v = row.values;
@@ -230,7 +229,7 @@ private:
                 mesh_.normals.emplace_back(v[VertexRow::nx], v[VertexRow::ny], v[VertexRow::nz]);
             }
             if (has_uvs) {
-                mesh_.uvs.emplace_back(v[VertexRow::u], v[VertexRow::v]);
+                mesh_.uvs.push_back(row.finite(VertexRow::u, 2) ? Vec2(v[VertexRow::u], v[VertexRow::v]) : Vec2(0, 0));
             }
         }
     }

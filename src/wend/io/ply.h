@@ -11,7 +11,7 @@ namespace wend {
 /// Triangles as a file gives them, checked: coordinates are finite, indices are in range.
 struct TriangleMeshData {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;           ///< one a vertex, of any length, or none
+    std::vector<Vec3> normals;           ///< one a vertex, of any length, or none; they may not be finite
     std::vector<Vec2> uvs;               ///< one a vertex, or none
     std::vector<std::uint32_t> indices;  ///< three a triangle
 };
@@ -19,7 +19,8 @@ struct TriangleMeshData {
 /// Reads a PLY file: ascii or binary of either byte order, compressed by gzip or not. Polygons become fans of
 /// triangles; what is neither a position, normal (nx, ny, nz), uv (u, v or s, t, with or without the prefix `texture_`)
 /// nor a face's vertices is skipped. Throws InputError with the place (the line, in the header and in ascii files) when
-/// the file is missing, malformed or truncated, an index is out of range, or a vertex is not finite.
+/// the file is missing, malformed or truncated, an index is out of range, or a position is not finite; texture
+/// coordinates that are not become 0.
 TriangleMeshData read_ply(const std::filesystem::path& file);
 
 }  // namespace wend

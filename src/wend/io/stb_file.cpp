@@ -1,5 +1,5 @@
 #include <wend/core/error.h>
-#include <wend/io/gzip.h>
+#include <wend/io/colour_encoding.h>
 #include <wend/io/image_size.h>
 #include <wend/io/jpeg_check.h>
 #include <wend/io/png_check.h>
@@ -13,6 +13,7 @@
 #define STBI_ONLY_TGA
 #define STBI_ONLY_BMP
 #define STBI_ONLY_HDR
+#define STBI_ONLY_PSD
 #include <stb_image.h>
 
 #define STB_IMAGE_WRITE_STATIC
@@ -25,9 +26,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -76,42 +77,35 @@ constexpr stbi_io_callbacks callbacks = {
     [](void* self, int count) { static_cast<Source*>(self)->skip(count); },
     [](void* self) { return static_cast<int>(static_cast<Source*>(self)->at_end()); }};
 
-float srgb_to_linear(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-float linear_to_srgb(float v) {
-    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
-
-/// Linear values of all numbers that an integer channel can hold.
-template <class Integer>
-std::vector<float> decoding_table(ColourEncoding encoding) {
-    constexpr std::size_t largest = std::numeric_limits<Integer>::max();
-    std::vector<float> table(largest + 1);
-    for (std::size_t i = 0; i <= largest; ++i) {
-        const float v = static_cast<float>(i) / static_cast<float>(largest);
-        table[i] = encoding == ColourEncoding::srgb ? srgb_to_linear(v) : v;
-    }
-    return table;
-}
-
+/// `channels` is 3, or 4 with an opacity.
 template <class Number, class Decode>
-Image to_image(int width, int height, const Number* values, const Decode& decode) {
-    Image image(width, height);
-    for (Rgb& pixel : image.pixels) {
+ImageWithOpacity to_image(int width, int height, int channels, const Number* values, const Decode& decode) {
+    ImageWithOpacity picture{Image(width, height), {}};
+    picture.opacity.reserve(channels == 4 ? picture.image.pixels.size() : 0);
+    for (Rgb& pixel : picture.image.pixels) {
         pixel = {decode(values[0]), decode(values[1]), decode(values[2])};
-        values += 3;
+        if (channels == 4) {
+            picture.opacity.push_back(decode(values[3]));
+        }
+        values += channels;
     }
-    return image;
+    return picture;
+}
+
+/// Whether a PNG file has an opacity at each pixel, beside red, green and blue.
+bool has_opacity(std::string_view png) {
+    constexpr std::size_t colour_type = 25;
+    constexpr char rgb_with_opacity = 6;
+    return png.starts_with("\x89PNG") && png.size() > colour_type && png[colour_type] == rgb_with_opacity;
 }
 
 /// Reads with one of stb's loaders and hands the values on.
 template <class Load, class Decode>
-Image load(const std::string& bytes, const Place& place, const Load& loader, const Decode& decode) {
+ImageWithOpacity load(const std::string& bytes, const Place& place, const Load& loader, const Decode& decode) {
     Source source(bytes);
-    int width = 0, height = 0, channels = 0;
-    auto* values = loader(&callbacks, &source, &width, &height, &channels, 3);
+    int width = 0, height = 0, channels_there = 0;
+    const int channels = has_opacity(bytes) ? 4 : 3;
+    auto* values = loader(&callbacks, &source, &width, &height, &channels_there, channels);
     const std::unique_ptr<std::remove_pointer_t<decltype(values)>, decltype(&stbi_image_free)> owner(values,
                                                                                                      stbi_image_free);
     if (source.ran_out()) {
@@ -120,7 +114,7 @@ Image load(const std::string& bytes, const Place& place, const Load& loader, con
     if (!values) {
         throw InputError(place, std::string("not a readable picture: ") + stbi_failure_reason());
     }
-    return to_image(width, height, values, decode);
+    return to_image(width, height, channels, values, decode);
 }
 
 std::vector<unsigned char> to_bytes(const Image& image) {
@@ -141,9 +135,8 @@ void append(void* text, void* data, int size) {
 
 }  // namespace
 
-Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding) {
-    const Place place{file.string()};
-    std::string bytes = read_file(file);
+ImageWithOpacity read_stb_image(std::string bytes, const Place& place, ColourEncoding wanted) {
+    const ColourEncoding encoding = bytes.starts_with("\x89PNG") ? wanted : ColourEncoding::srgb;
     prepare_png(bytes, place);
     if (!huffman_tables_fit(bytes)) {
         throw InputError(place, "the picture is damaged: a Huffman table is too large");
@@ -152,7 +145,8 @@ Image read_stb_image(const std::filesystem::path& file, ColourEncoding encoding)
     Source source(bytes);
     if (!stbi_info_from_callbacks(&callbacks, &source, &width, &height, &channels)) {
         throw InputError(place, source.ran_out() ? "the picture is truncated"
-                                                 : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP or HDR)");
+                                                 : "not a picture of a known kind (EXR, PNG, JPEG, TGA, BMP, HDR, PFM, "
+                                                   "PGM, PPM, GIF, QOI or PSD)");
     }
     const bool is_bmp = bytes.starts_with("BM");
     // A BMP whose rows come from the top says so by a negative height.

@@ -218,7 +218,7 @@ private:
                     remove(box);
                 }
             } else {
-                remove(bounds(std::get<Quadric>(surface.shape)));
+                remove(bounds(surface.shape));
             }
         }
     }

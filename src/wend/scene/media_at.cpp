@@ -191,7 +191,7 @@ private:
                         part.box.extendBy(mesh->vertex(i, k));
                     }
                 } else {
-                    part.box.extendBy(bounds(std::get<Quadric>(surface.shape)));
+                    part.box.extendBy(bounds(surface.shape));
                 }
                 parts.push_back(found->second);
             }

@@ -22,6 +22,7 @@ void for_each_crossing(const Surface& surface, const Vec3& from, const Vec3& alo
         }
         return;
     }
+    // Only meshes and quadrics bound media.
     const auto& mesh = std::get<TriangleMesh>(surface.shape);
     const Imath::V3d o(from), d(along);
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
@@ -116,14 +117,7 @@ std::vector<Vec3> some_points(const Surface& surface) {
 }
 
 Box3 box_of(const Surface& surface) {
-    if (const auto* quadric = std::get_if<Quadric>(&surface.shape)) {
-        return bounds(*quadric);
-    }
-    Box3 box;
-    for (const Vec3& p : std::get<TriangleMesh>(surface.shape).positions) {
-        box.extendBy(p);
-    }
-    return box;
+    return bounds(surface.shape);
 }
 
 /// What is wrong with a surface that meets another one around a different medium.

@@ -8,9 +8,11 @@
 namespace wend {
 namespace {
 
-void bound_quadric(const RTCBoundsFunctionArguments* arguments) {
+/// Of one of the shapes whose crossings are ours to find: all but meshes.
+void bound_own_shape(const RTCBoundsFunctionArguments* arguments) {
     const auto& surface = *static_cast<const Surface*>(arguments->geometryUserPtr);
-    const Box3 box = bounds(std::get<Quadric>(surface.shape));
+    const auto* curves = std::get_if<CurveSet>(&surface.shape);
+    const Box3 box = curves ? bounds(*curves, arguments->primID) : bounds(surface.shape);
     // A flat disk's box must not be empty, nor rounding cut into a sphere.
     const Vec3 margin = box.size() * 1e-5f + Vec3(1e-6f);
     *arguments->bounds_o = {box.min.x - margin.x, box.min.y - margin.y, box.min.z - margin.z, 0,
@@ -98,18 +100,46 @@ struct RayCaster::Query : EmbreeContext {
     bool is_ahead(unsigned surface, unsigned primitive, unsigned inst, float t, bool along) const {
         return ray.is_ahead({surface, primitive, caster.instance(inst)}, t, along);
     }
-    /// Where the ray meets a quadric next within its bounds.
-    std::optional<float> next(unsigned surface, const RTCRay& bounds) const {
-        const auto& quadric = std::get<Quadric>(caster.d_.surfaces[surface].shape);
-        const Vec3 origin = quadric.object_from_world.point({bounds.org_x, bounds.org_y, bounds.org_z});
-        const Vec3 direction = quadric.object_from_world.vector({bounds.dir_x, bounds.dir_y, bounds.dir_z});
-        for (const auto& crossing : crossings(quadric, origin, direction)) {
+    /// Where the ray meets a shape of ours next within its bounds; u and v are those of curves.
+    std::optional<CurveCrossing> next(unsigned surface, unsigned primitive, const RTCRay& bounds) const {
+        const Shape& shape = caster.d_.surfaces[surface].shape;
+        if (const auto* quadric = std::get_if<Quadric>(&shape)) {
+            return next_of(*quadric, surface, bounds);
+        }
+        if (const auto* cylinder = std::get_if<CylinderShell>(&shape)) {
+            return next_of(*cylinder, surface, bounds);
+        }
+        return next_of(std::get<CurveSet>(shape), surface, primitive, bounds);
+    }
+    /// Of a quadric or cylinder.
+    template <class Solid>
+    std::optional<CurveCrossing> next_of(const Solid& solid, unsigned surface, const RTCRay& bounds) const {
+        const Vec3 origin = solid.object_from_world.point({bounds.org_x, bounds.org_y, bounds.org_z});
+        const Vec3 direction = solid.object_from_world.vector({bounds.dir_x, bounds.dir_y, bounds.dir_z});
+        for (const auto& crossing : crossings(solid, origin, direction)) {
             if (crossing.t > bounds.tnear && crossing.t < bounds.tfar &&
                 is_ahead(surface, 0, instID[0], crossing.t, crossing.along)) {
-                return crossing.t;
+                return CurveCrossing{crossing.t, 0, 0};
             }
         }
         return std::nullopt;
+    }
+    std::optional<CurveCrossing> next_of(const CurveSet& curves, unsigned surface, unsigned primitive,
+                                         const RTCRay& bounds) const {
+        const int inst = caster.instance(instID[0]);
+        Vec3 offset = ray.offset_for({surface, primitive, inst});
+        if (inst >= 0) {
+            offset = caster.placements_[static_cast<std::size_t>(inst)].object_from_world.vector(offset);
+        }
+        const Vec3 start(bounds.org_x, bounds.org_y, bounds.org_z), way(bounds.dir_x, bounds.dir_y, bounds.dir_z);
+        // What Embree asks for has the ray itself in its bounds: so has what is found, or the answer would depend on
+        // how far it looks.
+        const bool is_shifted = length_squared(offset) > 0;
+        const Box3 box = is_shifted ? wend::bounds(curves, primitive) : Box3();
+        const auto accept = [&](float t) {
+            return is_ahead(surface, primitive, instID[0], t, true) && (!is_shifted || box.intersects(start + way * t));
+        };
+        return next_crossing(curves, primitive, start + offset, way, bounds.tnear, bounds.tfar, CrossingFilter(accept));
     }
 
     const RayCaster& caster;
@@ -129,29 +159,29 @@ void RayCaster::filter(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-void RayCaster::intersect_quadric(const RTCIntersectFunctionNArguments* arguments) {
+void RayCaster::intersect_own_shape(const RTCIntersectFunctionNArguments* arguments) {
     if (!arguments->valid[0]) {
         return;
     }
     const auto& query = *static_cast<const Query*>(arguments->context);
     auto* rayhit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    if (const std::optional<float> hit = query.next(arguments->geomID, rayhit->ray)) {
-        rayhit->ray.tfar = *hit;
-        rayhit->hit.u = 0;
-        rayhit->hit.v = 0;
+    if (const auto hit = query.next(arguments->geomID, arguments->primID, rayhit->ray)) {
+        rayhit->ray.tfar = hit->t;
+        rayhit->hit.u = hit->u;
+        rayhit->hit.v = hit->v;
         rayhit->hit.geomID = arguments->geomID;
         rayhit->hit.primID = arguments->primID;
         rayhit->hit.instID[0] = query.instID[0];
     }
 }
 
-void RayCaster::occlude_quadric(const RTCOccludedFunctionNArguments* arguments) {
+void RayCaster::occlude_own_shape(const RTCOccludedFunctionNArguments* arguments) {
     if (!arguments->valid[0]) {
         return;
     }
     const auto& query = *static_cast<const Query*>(arguments->context);
     auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
-    if (query.next(arguments->geomID, *ray)) {
+    if (query.next(arguments->geomID, arguments->primID, *ray)) {
         ray->tfar = -infinity;
     }
 }
@@ -215,11 +245,12 @@ void RayCaster::attach(RTCScene scene, int index) {
         rtcSetGeometryOccludedFilterFunction(geometry, filter);
     } else {
         geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        const auto* curves = std::get_if<CurveSet>(&surface.shape);
+        rtcSetGeometryUserPrimitiveCount(geometry, curves ? static_cast<unsigned>(curves->primitive_count()) : 1);
         rtcSetGeometryUserData(geometry, const_cast<Surface*>(&surface));
-        rtcSetGeometryBoundsFunction(geometry, bound_quadric, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, intersect_quadric);
-        rtcSetGeometryOccludedFunction(geometry, occlude_quadric);
+        rtcSetGeometryBoundsFunction(geometry, bound_own_shape, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_own_shape);
+        rtcSetGeometryOccludedFunction(geometry, occlude_own_shape);
     }
     const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
     const bool can_pass = std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
@@ -310,8 +341,9 @@ LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
     return point;
 }
 
-/// The same of a quadric, near the point p. `has_uv`: whether anybody asks for its parameters.
-LocalPoint point_of(const Quadric& quadric, const Vec3& p, bool has_uv, Hit& hit) {
+/// The same of a quadric or cylinder, near the point p. `has_uv`: whether anybody asks for its parameters.
+template <class Solid>
+LocalPoint point_of(const Solid& quadric, const Vec3& p, bool has_uv, Hit& hit) {
     const QuadricPoint on_it = project(quadric, quadric.object_from_world.point(p));
     LocalPoint point;
     point.position = quadric.world_from_object.point(on_it.position);
@@ -324,6 +356,22 @@ LocalPoint point_of(const Quadric& quadric, const Vec3& p, bool has_uv, Hit& hit
         hit.uv = parameters(quadric, on_it.position);
     }
     point.tangents = {quadric.world_from_object.vector(on_it.dpdu), length_squared(on_it.dpdu) > 0};
+    return point;
+}
+
+/// The same of a curve, at the point p of a ray of this direction.
+LocalPoint point_of(const CurveSet& curves, const RayHit& raw, const Vec3& p, const Vec3& direction, Hit& hit) {
+    const CurvePoint on_it = curve_point(curves, raw.element.primitive, raw.u, raw.v, direction);
+    LocalPoint point;
+    point.position = p;
+    point.largest = largest_of(p, p);
+    hit.against_winding = hit.surface->flip_normal;
+    point.normal = normalize(hit.against_winding ? -on_it.normal : on_it.normal);
+    point.shading = point.normal;
+    point.tangents = {on_it.dpdu, length_squared(on_it.dpdu) > 0};
+    hit.uv = {raw.u, raw.v};
+    // As pbrt has it, which takes the width for the error of each coordinate.
+    hit.thickness = on_it.width * (std::abs(point.normal.x) + std::abs(point.normal.y) + std::abs(point.normal.z));
     return point;
 }
 
@@ -356,10 +404,18 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
         point = point_of(*mesh, raw, hit);
     } else {
-        const Vec3 p = ray.at(raw.distance);
+        const Vec3 in_world = ray.at(raw.distance);
+        const Vec3 p = placement ? placement->object_from_world.point(in_world) : in_world;
         const Material& material = d_.materials[static_cast<std::size_t>(hit.surface->material)];
-        point = point_of(std::get<Quadric>(hit.surface->shape), placement ? placement->object_from_world.point(p) : p,
-                         !std::holds_alternative<InterfaceMaterial>(material), hit);
+        const bool has_uv = !std::holds_alternative<InterfaceMaterial>(material);
+        if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
+            point = point_of(*quadric, p, has_uv, hit);
+        } else if (const auto* cylinder = std::get_if<CylinderShell>(&hit.surface->shape)) {
+            point = point_of(*cylinder, p, has_uv, hit);
+        } else {
+            const Vec3 way = placement ? placement->object_from_world.vector(ray.direction) : ray.direction;
+            point = point_of(std::get<CurveSet>(hit.surface->shape), raw, p, way, hit);
+        }
     }
     if (placement) {
         point.position = placement->world_from_object.point(point.position);
@@ -400,12 +456,20 @@ Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
         normal = n0 + interpolated(place - p0);
         change = interpolated(moved);
     } else {
-        const auto& quadric = std::get<Quadric>(hit.surface->shape);
         const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
-        const QuadricPoint point = project(quadric, quadric.object_from_world.point(place));
-        normal = quadric.object_from_world.transposed_vector(point.normal);
-        change =
-            quadric.object_from_world.transposed_vector(quadric.object_from_world.vector(moved) * point.normal_slope);
+        const auto set = [&](const auto& solid) {
+            const QuadricPoint point = project(solid, solid.object_from_world.point(place));
+            normal = solid.object_from_world.transposed_vector(point.normal);
+            change =
+                solid.object_from_world.transposed_vector(solid.object_from_world.vector(moved) * point.normal_slope);
+        };
+        if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
+            set(*quadric);
+        } else if (const auto* cylinder = std::get_if<CylinderShell>(&hit.surface->shape)) {
+            set(*cylinder);
+        } else {
+            return {0, 0, 0};  // curves are too thin for it to matter
+        }
     }
     if (placement) {
         normal = placement->object_from_world.transposed_vector(normal);
@@ -434,11 +498,17 @@ SurfaceDerivatives RayCaster::derivatives(const Hit& hit) const {
             d.dpdu = u.dpdu;
             d.dpdv = tangents(e1, e2, Vec2(d1.y, d1.x), Vec2(d2.y, d2.x)).dpdu;
         }
-    } else if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
+    } else if (!std::holds_alternative<CurveSet>(hit.surface->shape)) {
         const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
-        const QuadricTangents local = tangents(*quadric, quadric->object_from_world.point(place));
-        d.dpdu = quadric->world_from_object.vector(local.dpdu);
-        d.dpdv = quadric->world_from_object.vector(local.dpdv);
+        const auto set = [&](const auto& solid) {
+            const QuadricTangents local = tangents(solid, solid.object_from_world.point(place));
+            d.dpdu = solid.world_from_object.vector(local.dpdu);
+            d.dpdv = solid.world_from_object.vector(local.dpdv);
+        };
+        const auto* quadric = std::get_if<Quadric>(&hit.surface->shape);
+        quadric ? set(*quadric) : set(std::get<CylinderShell>(hit.surface->shape));
+    } else {
+        return d;  // the frame is in the world already, and what a curve is across has no length of its own
     }
     if (placement) {
         d.dpdu = placement->world_from_object.vector(d.dpdu);

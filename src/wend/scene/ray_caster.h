@@ -42,8 +42,8 @@ private:
     /// A query's ray, for the callbacks.
     struct Query;
     static void filter(const RTCFilterFunctionNArguments* arguments);
-    static void intersect_quadric(const RTCIntersectFunctionNArguments* arguments);
-    static void occlude_quadric(const RTCOccludedFunctionNArguments* arguments);
+    static void intersect_own_shape(const RTCIntersectFunctionNArguments* arguments);
+    static void occlude_own_shape(const RTCOccludedFunctionNArguments* arguments);
 
     void attach(RTCScene scene, int surface);
     /// A ray from further than Embree reckons, or of what is not a number, leaves the scene: it hits nothing.

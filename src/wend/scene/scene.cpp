@@ -13,7 +13,7 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
     if (hit.surface->alpha < 0) {
         return true;
     }
-    const float alpha = textures.evaluate_grey(hit.surface->alpha, {hit.uv, hit.position});
+    const float alpha = textures.evaluate_grey(hit.surface->alpha, texture_point(hit));
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     const std::uint64_t h = hash_of(bits(ray.origin.x), bits(ray.origin.y), bits(ray.origin.z), bits(ray.direction.x),
                                     bits(ray.direction.y), bits(ray.direction.z), bits(hit.distance));
@@ -30,7 +30,8 @@ std::uint32_t flat_primitives(const Shape& shape) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
         return static_cast<std::uint32_t>(mesh->triangle_count());
     }
-    return std::holds_alternative<Disk>(std::get<Quadric>(shape).shape) ? 1 : 0;
+    const auto* quadric = std::get_if<Quadric>(&shape);
+    return quadric && std::holds_alternative<Disk>(quadric->shape) ? 1 : 0;
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ Hit Scene::complete(const RayHit& found, const Ray& ray) const {
     if (has_details_) {
         const auto material = static_cast<std::size_t>(material_id(hit));
         if (material < d_.details.size() && !d_.details[material].is_none()) {
-            hit.shading = detailed_frame(d_.details[material], hit.shading, hit.normal, {hit.uv, hit.position},
+            hit.shading = detailed_frame(d_.details[material], hit.shading, hit.normal, texture_point(hit),
                                          caster_->derivatives(hit), d_.textures);
         }
     }
@@ -172,7 +173,7 @@ std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {
     if (!boundary || boundary->relative_albedo < 0) {
         return std::nullopt;
     }
-    return d_.textures.evaluate(boundary->relative_albedo, {hit.uv, hit.position});
+    return d_.textures.evaluate(boundary->relative_albedo, texture_point(hit));
 }
 
 Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {

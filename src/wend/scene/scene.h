@@ -83,8 +83,14 @@ struct Hit {
     SurfaceElement element;
     bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
     float clearance = 0;           ///< by how much rounding may have moved the position
+    float thickness = 0;           ///< of a curve: what leaves it starts so far outside of it; 0: no curve
     int light = -1;                ///< area light, if any
 };
+
+/// Where textures are evaluated for a hit.
+inline TexturePoint texture_point(const Hit& hit) {
+    return {hit.uv, hit.position, hit.normal};
+}
 
 /// Embree's structures over the scene's surfaces.
 class RayCaster;
@@ -123,7 +129,7 @@ public:
     /// What the surface is made of there: no mixture.
     const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(material_id(hit))]; }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
-    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, {hit.uv, hit.position}); }
+    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, texture_point(hit)); }
     /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
     /// does not say.
     std::optional<Rgb> relative_albedo(const Hit& hit) const;
@@ -167,7 +173,7 @@ private:
     void add_emitting_media();
     MediumState medium_of_camera() const;
     int material_id(const Hit& hit) const {
-        return has_mixtures_ ? material_at(d_.materials, hit.surface->material, d_.textures, {hit.uv, hit.position})
+        return has_mixtures_ ? material_at(d_.materials, hit.surface->material, d_.textures, texture_point(hit))
                              : hit.surface->material;
     }
 

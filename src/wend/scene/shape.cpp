@@ -61,6 +61,52 @@ QuadricCrossings crossings_of(const Disk& s, const Vec3& o, const Vec3& d) {
     return found;
 }
 
+QuadricCrossings crossings_of(const Cylinder& s, const Vec3& o, const Vec3& d) {
+    QuadricCrossings found;
+    const float a = d.x * d.x + d.y * d.y;
+    if (!(a > 0)) {
+        return found;
+    }
+    // As of a sphere, in the plane across.
+    const float b = -(o.x * d.x + o.y * d.y);
+    const Vec2 nearest(o.x + d.x * (b / a), o.y + d.y * (b / a));
+    const float discriminant = sqr(s.radius) - nearest.dot(nearest);
+    if (!(discriminant >= 0)) {
+        return found;
+    }
+    const float c = o.x * o.x + o.y * o.y - sqr(s.radius);
+    const float q = b + std::copysign(std::sqrt(a * discriminant), b);
+    float t0 = q != 0 ? c / q : 0.0f;
+    float t1 = q / a;
+    if (t0 > t1) {
+        std::swap(t0, t1);
+    }
+    for (const float t : {t0, t1}) {
+        const Vec3 p = o + d * t;
+        if (p.z >= s.z_min && p.z <= s.z_max && azimuth(p) <= s.phi_max) {
+            found.add(t, t == t1);
+        }
+    }
+    return found;
+}
+
+Vec2 parameters_of(const Cylinder& s, const Vec3& p) {
+    return {azimuth(p) / s.phi_max, std::clamp((p.z - s.z_min) / (s.z_max - s.z_min), 0.0f, 1.0f)};
+}
+
+QuadricPoint project_onto(const Cylinder& s, const Vec3& p) {
+    const float scale = s.radius / std::hypot(p.x, p.y);
+    return {{p.x * scale, p.y * scale, p.z}, {p.x, p.y, 0}, {-p.y, p.x, 0}, {1, 1, 0}};
+}
+
+QuadricTangents tangents_of(const Cylinder& s, const Vec3& p) {
+    return {Vec3(-p.y, p.x, 0) * s.phi_max, Vec3(0, 0, s.z_max - s.z_min)};
+}
+
+Box3 object_bounds(const Cylinder& s) {
+    return {Vec3(-s.radius, -s.radius, s.z_min), Vec3(s.radius, s.radius, s.z_max)};
+}
+
 Vec2 parameters_of(const Sphere& s, const Vec3& p) {
     const auto theta = [&](float z) { return std::acos(std::clamp(z / s.radius, -1.0f, 1.0f)); };
     const float theta_min = theta(s.z_min);
@@ -73,11 +119,11 @@ Vec2 parameters_of(const Disk& s, const Vec3& p) {
 
 QuadricPoint project_onto(const Sphere& s, const Vec3& p) {
     const Vec3 on = p * (s.radius / length(p));
-    return {on, on, {-on.y, on.x, 0}, 1};
+    return {on, on, {-on.y, on.x, 0}, {1, 1, 1}};
 }
 
 QuadricPoint project_onto(const Disk& s, const Vec3& p) {
-    return {{p.x, p.y, s.height}, {0, 0, 1}, {-p.y, p.x, 0}, 0};
+    return {{p.x, p.y, s.height}, {0, 0, 1}, {-p.y, p.x, 0}, {0, 0, 0}};
 }
 
 QuadricTangents tangents_of(const Sphere& s, const Vec3& p) {
@@ -100,38 +146,87 @@ Box3 object_bounds(const Disk& s) {
     return {Vec3(-s.radius, -s.radius, s.height), Vec3(s.radius, s.radius, s.height)};
 }
 
+template <class Part>
+float extent_of(const Part& s) {
+    const Box3 box = object_bounds(s);
+    return std::max({-box.min.x, -box.min.y, -box.min.z, box.max.x, box.max.y, box.max.z});
+}
+
+Box3 placed(const Box3& local, const AffineMap& world_from_object) {
+    Box3 world;
+    for (int corner = 0; corner < 8; ++corner) {
+        world.extendBy(
+            world_from_object.point({corner & 1 ? local.max.x : local.min.x, corner & 2 ? local.max.y : local.min.y,
+                                     corner & 4 ? local.max.z : local.min.z}));
+    }
+    return world;
+}
+
 }  // namespace
 
 QuadricCrossings crossings(const Quadric& quadric, const Vec3& origin, const Vec3& direction) {
     return std::visit([&](const auto& s) { return crossings_of(s, origin, direction); }, quadric.shape);
 }
 
+QuadricCrossings crossings(const CylinderShell& cylinder, const Vec3& origin, const Vec3& direction) {
+    return crossings_of(cylinder.shape, origin, direction);
+}
+
 float extent(const Quadric& quadric) {
-    const Box3 box = std::visit([](const auto& s) { return object_bounds(s); }, quadric.shape);
-    return std::max({-box.min.x, -box.min.y, -box.min.z, box.max.x, box.max.y, box.max.z});
+    return std::visit([](const auto& s) { return extent_of(s); }, quadric.shape);
+}
+
+float extent(const CylinderShell& cylinder) {
+    return extent_of(cylinder.shape);
 }
 
 Vec2 parameters(const Quadric& quadric, const Vec3& p) {
     return std::visit([&](const auto& s) { return parameters_of(s, p); }, quadric.shape);
 }
 
+Vec2 parameters(const CylinderShell& cylinder, const Vec3& p) {
+    return parameters_of(cylinder.shape, p);
+}
+
 QuadricPoint project(const Quadric& quadric, const Vec3& p) {
     return std::visit([&](const auto& s) { return project_onto(s, p); }, quadric.shape);
+}
+
+QuadricPoint project(const CylinderShell& cylinder, const Vec3& p) {
+    return project_onto(cylinder.shape, p);
 }
 
 QuadricTangents tangents(const Quadric& quadric, const Vec3& p) {
     return std::visit([&](const auto& s) { return tangents_of(s, p); }, quadric.shape);
 }
 
+QuadricTangents tangents(const CylinderShell& cylinder, const Vec3& p) {
+    return tangents_of(cylinder.shape, p);
+}
+
 Box3 bounds(const Quadric& quadric) {
-    const Box3 local = std::visit([](const auto& s) { return object_bounds(s); }, quadric.shape);
-    Box3 world;
-    for (int corner = 0; corner < 8; ++corner) {
-        world.extendBy(quadric.world_from_object.point({corner & 1 ? local.max.x : local.min.x,
-                                                        corner & 2 ? local.max.y : local.min.y,
-                                                        corner & 4 ? local.max.z : local.min.z}));
+    return placed(std::visit([](const auto& s) { return object_bounds(s); }, quadric.shape), quadric.world_from_object);
+}
+
+Box3 bounds(const CylinderShell& cylinder) {
+    return placed(object_bounds(cylinder.shape), cylinder.world_from_object);
+}
+
+Box3 bounds(const Shape& shape) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+        Box3 box;
+        for (const Vec3& p : mesh->positions) {
+            box.extendBy(p);
+        }
+        return box;
     }
-    return world;
+    if (const auto* quadric = std::get_if<Quadric>(&shape)) {
+        return bounds(*quadric);
+    }
+    if (const auto* cylinder = std::get_if<CylinderShell>(&shape)) {
+        return bounds(*cylinder);
+    }
+    return bounds(std::get<CurveSet>(shape));
 }
 
 }  // namespace wend

@@ -3,6 +3,7 @@
 
 #include <wend/core/transform.h>
 #include <wend/core/vector.h>
+#include <wend/scene/curve.h>
 
 #include <array>
 #include <cstddef>
@@ -45,6 +46,14 @@ struct Disk {
     float phi_max = 6.28318530717958648f;
 };
 
+/// A cylinder about the z axis of its space, open at both ends.
+struct Cylinder {
+    float radius = 1;
+    float z_min = -1;
+    float z_max = 1;
+    float phi_max = 6.28318530717958648f;
+};
+
 /// A sphere or disk with its place in the world.
 struct Quadric {
     std::variant<Sphere, Disk> shape;
@@ -53,6 +62,17 @@ struct Quadric {
 
     Quadric(std::variant<Sphere, Disk> s, const Transform& to_world)
         : shape(std::move(s)), world_from_object(to_world), object_from_world(to_world.inverse()) {}
+};
+
+/// A cylinder with its place in the world. It is no quadric because it never shines nor bounds a medium: a mesh stands
+/// for one that does.
+struct CylinderShell {
+    Cylinder shape;
+    AffineMap world_from_object;
+    AffineMap object_from_world;
+
+    CylinderShell(const Cylinder& s, const Transform& to_world)
+        : shape(s), world_from_object(to_world), object_from_world(to_world.inverse()) {}
 };
 
 /// Where a line meets a quadric: at most twice.
@@ -71,9 +91,11 @@ struct QuadricCrossings {
 
 /// In their order along the line, behind its origin too. `origin` and `direction` (any length) are in object space.
 QuadricCrossings crossings(const Quadric& quadric, const Vec3& origin, const Vec3& direction);
+QuadricCrossings crossings(const CylinderShell& cylinder, const Vec3& origin, const Vec3& direction);
 
 /// Surface parameters in [0,1]² of a point on the quadric (object space).
 Vec2 parameters(const Quadric& quadric, const Vec3& p);
+Vec2 parameters(const CylinderShell& cylinder, const Vec3& p);
 
 /// A point near the surface moved onto it, its normal (outward; disk: +z) and its tangent along u; object space, not
 /// normalized.
@@ -81,22 +103,29 @@ struct QuadricPoint {
     Vec3 position;
     Vec3 normal;
     Vec3 dpdu;
-    float normal_slope;  ///< where the point moves along the surface, the normal changes by so many times as much
+    Vec3 normal_slope;  ///< where the point moves along the surface, the normal changes by so many times as much
 };
 QuadricPoint project(const Quadric& quadric, const Vec3& p);
+QuadricPoint project(const CylinderShell& cylinder, const Vec3& p);
 
 /// How the point moves with each of the surface parameters, object space.
 struct QuadricTangents {
     Vec3 dpdu, dpdv;
 };
 QuadricTangents tangents(const Quadric& quadric, const Vec3& p);
+QuadricTangents tangents(const CylinderShell& cylinder, const Vec3& p);
 
 /// The largest coordinate of any of its points, at most, in object space.
 float extent(const Quadric& quadric);
+float extent(const CylinderShell& cylinder);
 
 /// Bounds in the world.
 Box3 bounds(const Quadric& quadric);
+Box3 bounds(const CylinderShell& cylinder);
 
-using Shape = std::variant<TriangleMesh, Quadric>;
+using Shape = std::variant<TriangleMesh, Quadric, CylinderShell, CurveSet>;
+
+/// Bounds in the world.
+Box3 bounds(const Shape& shape);
 
 }  // namespace wend

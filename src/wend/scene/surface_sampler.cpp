@@ -42,6 +42,7 @@ SurfaceSampler::SurfaceSampler(const SceneDescription& scene, const std::functio
 SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2) const {
     const Element& element = elements_[static_cast<std::size_t>(table_.sample(u))];
     const Surface& surface = *element.surface;
+    // Of curves and cylinders there are none: see add_surface().
     Point point{&surface, {}, {}};
     if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
         const Vec3 p0 = mesh->vertex(element.primitive, 0);
@@ -77,8 +78,8 @@ void SurfaceSampler::add_surface(const Surface& surface) {
             const Vec3 e2 = to.vector(mesh->vertex(i, 2) - mesh->vertex(i, 0));
             add_element(surface, i, 0.5f * length(cross(e1, e2)));
         }
-    } else {
-        const auto& quadric = std::get<Quadric>(surface.shape);
+    } else if (const auto* found = std::get_if<Quadric>(&surface.shape)) {
+        const Quadric& quadric = *found;
         const auto edge = [&](const Vec3& axis) { return to.vector(quadric.world_from_object.vector(axis)); };
         const float volume = std::abs(dot(edge({1, 0, 0}), cross(edge({0, 1, 0}), edge({0, 0, 1}))));
         const float scale = std::cbrt(volume);

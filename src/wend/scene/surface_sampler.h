@@ -11,7 +11,7 @@
 namespace wend {
 
 /// Draws points of chosen surfaces, placed objects included, evenly by area; on stretched spheres and disks not quite
-/// evenly. The scene must outlive it.
+/// evenly, and on curves and cylinders (which neither shine nor bound media) none. The scene must outlive it.
 class SurfaceSampler {
 public:
     SurfaceSampler(const SceneDescription& scene, const std::function<bool(const Surface&)>& is_chosen);

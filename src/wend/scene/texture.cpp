@@ -8,27 +8,55 @@
 namespace wend {
 namespace {
 
+/// Onto the octahedral picture of a sphere, from a place beyond one of its borders: there the sphere goes on behind
+/// that border, mirrored about its middle.
+void wrap_octahedral(int& x, int& y, int width, int height) {
+    const auto mirrored = [](int i, int n) { return i < 0 ? -i - 1 : 2 * n - 1 - i; };
+    if (x < 0 || x >= width) {
+        x = mirrored(x, width);
+        y = height - 1 - y;
+    }
+    if (y < 0 || y >= height) {
+        y = mirrored(y, height);
+        x = width - 1 - x;
+    }
+    // Further away than the picture is wide, there is nothing that makes sense.
+    x = std::clamp(x, 0, width - 1);
+    y = std::clamp(y, 0, height - 1);
+}
+
 /// The pixel at (x, y), which may lie outside.
 Rgb texel(const ImageTexture& t, int x, int y) {
     const Image& image = *t.image;
-    const auto wrapped = [&](int i, int n) {
-        if (t.wrap == ImageTexture::Wrap::repeat) {
-            i %= n;
-            return i < 0 ? i + n : i;
-        }
-        return std::clamp(i, 0, n - 1);
+    const auto repeated = [](int i, int n) {
+        i %= n;
+        return i < 0 ? i + n : i;
     };
-    if (t.wrap == ImageTexture::Wrap::black && (x < 0 || y < 0 || x >= image.width || y >= image.height)) {
-        return Rgb(0.0f);
+    switch (t.wrap) {
+        case ImageTexture::Wrap::repeat:
+            return image.at(repeated(x, image.width), repeated(y, image.height));
+        case ImageTexture::Wrap::black:
+            if (x < 0 || y < 0 || x >= image.width || y >= image.height) {
+                return Rgb(0.0f);
+            }
+            break;
+        case ImageTexture::Wrap::octahedral_sphere:
+            wrap_octahedral(x, y, image.width, image.height);
+            break;
+        case ImageTexture::Wrap::clamp:
+            break;
     }
-    return image.at(wrapped(x, image.width), wrapped(y, image.height));
+    return image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
 }
 
-Rgb bilinear(const ImageTexture& t, const Vec2& uv) {
+Rgb look_up(const ImageTexture& t, const Vec2& st) {
     constexpr float far_away = 1e6f;  // keeps the conversion to int defined
-    const float x = std::clamp(uv.x, -far_away, far_away) * static_cast<float>(t.image->width) - 0.5f;
-    const float y = (1 - std::clamp(uv.y, -far_away, far_away)) * static_cast<float>(t.image->height) - 0.5f;
+    const float x = std::clamp(st.x, -far_away, far_away) * static_cast<float>(t.image->width) - 0.5f;
+    const float y = (1 - std::clamp(st.y, -far_away, far_away)) * static_cast<float>(t.image->height) - 0.5f;
     const auto floor_of = [](float v) { return static_cast<int>(std::clamp(std::floor(v), -2e9f, 2e9f)); };
+    if (t.nearest) {
+        return texel(t, floor_of(x + 0.5f), floor_of(y + 0.5f));
+    }
     const int x0 = floor_of(x);
     const int y0 = floor_of(y);
     const float fx = x - std::floor(x);
@@ -39,6 +67,32 @@ Rgb bilinear(const ImageTexture& t, const Vec2& uv) {
 
 bool is_odd(float x) {
     return std::fmod(std::floor(x), 2.0f) != 0;
+}
+
+/// Whether a point lies in a dot: in some of the cells around the integers, by noise, there is one, moved a little.
+bool is_in_dot(const Vec2& st) {
+    constexpr float radius = 0.35f, most_shift = 0.5f - radius;
+    const float s = std::floor(st.x + 0.5f), t = std::floor(st.y + 0.5f);
+    if (!(perlin_noise(s + 0.5f, t + 0.5f) > 0)) {
+        return false;
+    }
+    const Vec2 centre(s + most_shift * perlin_noise(s + 1.5f, t + 2.8f),
+                      t + most_shift * perlin_noise(s + 4.5f, t + 9.8f));
+    return sqr(st.x - centre.x) + sqr(st.y - centre.y) < sqr(radius);
+}
+
+/// The colours of marble along a wave, t in [0, 1]: a row of cubic Bezier curves, each of which shares all but one of
+/// its points with the next.
+Rgb marble_colour(float t) {
+    constexpr int points = 9, curves = points - 3;
+    constexpr float light = 1.5f;
+    static const Rgb colours[points] = {{0.58f, 0.58f, 0.6f}, {0.58f, 0.58f, 0.6f}, {0.58f, 0.58f, 0.6f},
+                                        {0.5f, 0.5f, 0.5f},   {0.6f, 0.59f, 0.58f}, {0.58f, 0.58f, 0.6f},
+                                        {0.58f, 0.58f, 0.6f}, {0.2f, 0.2f, 0.33f},  {0.58f, 0.58f, 0.6f}};
+    const int first = std::clamp(static_cast<int>(t * curves), 0, curves - 1);
+    const float u = t * curves - static_cast<float>(first), w = 1 - u;
+    const Rgb* c = colours + first;
+    return (c[0] * (w * w * w) + c[1] * (3 * u * w * w) + c[2] * (3 * u * u * w) + c[3] * (u * u * u)) * light;
 }
 
 }  // namespace
@@ -54,40 +108,78 @@ const Rgb* Textures::constant(TextureId id) const {
 }
 
 Rgb Textures::evaluate(TextureId id, const TexturePoint& p) const {
-    const Texture& texture = textures_[static_cast<std::size_t>(id)];
-    if (const auto* c = std::get_if<ConstantTexture>(&texture)) {
-        return c->value;
-    }
-    if (const auto* s = std::get_if<ScaleTexture>(&texture)) {
-        return evaluate(s->texture, p) * evaluate(s->scale, p);
-    }
-    if (const auto* m = std::get_if<MixTexture>(&texture)) {
-        const Rgb amount = evaluate(m->amount, p);
-        return evaluate(m->first, p) * (Rgb(1.0f) - amount) + evaluate(m->second, p) * amount;
-    }
-    if (const auto* i = std::get_if<ImageTexture>(&texture)) {
-        const Rgb value = bilinear(*i, i->mapping(p)) * i->scale;
-        return i->invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b))
-                         : value;
-    }
-    if (const auto* a = std::get_if<RelativeAlbedoTexture>(&texture)) {
-        const Rgb reflectance = evaluate(a->reflectance, p);
-        Rgb relative;
-        for (int c = 0; c < 3; ++c) {
-            relative[c] = a->albedo[c] > 0 ? (*a->albedo_of)(reflectance[c]) / a->albedo[c] : 0.0f;
-        }
-        return relative;
-    }
-    const auto& board = std::get<CheckerboardTexture>(texture);
+    return std::visit([&](const auto& texture) { return value_of(texture, p); },
+                      textures_[static_cast<std::size_t>(id)]);
+}
+
+Rgb Textures::value_of(const ScaleTexture& t, const TexturePoint& p) const {
+    return evaluate(t.texture, p) * evaluate(t.scale, p);
+}
+
+Rgb Textures::value_of(const MixTexture& t, const TexturePoint& p) const {
+    const Rgb amount = evaluate(t.amount, p);
+    return evaluate(t.first, p) * (Rgb(1.0f) - amount) + evaluate(t.second, p) * amount;
+}
+
+Rgb Textures::value_of(const DirectionMixTexture& t, const TexturePoint& p) const {
+    const float amount = std::abs(dot(p.normal, t.direction));
+    return evaluate(t.first, p) * amount + evaluate(t.second, p) * (1 - amount);
+}
+
+Rgb Textures::value_of(const BilerpTexture& t, const TexturePoint& p) const {
+    const Vec2 st = map_to_texture(t.mapping, p);
+    return (t.v00 * (1 - st.x) + t.v10 * st.x) * (1 - st.y) + (t.v01 * (1 - st.x) + t.v11 * st.x) * st.y;
+}
+
+Rgb Textures::value_of(const ImageTexture& t, const TexturePoint& p) const {
+    const Rgb value = look_up(t, map_to_texture(t.mapping, p)) * t.scale;
+    return t.invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b))
+                    : value;
+}
+
+Rgb Textures::value_of(const CheckerboardTexture& t, const TexturePoint& p) const {
     bool odd;
-    if (board.dimensions == 3) {
-        const Vec3 q = board.texture_from_world.point(p.position);
+    if (t.dimensions == 3) {
+        const Vec3 q = t.texture_from_world.point(p.position);
         odd = is_odd(q.x) ^ is_odd(q.y) ^ is_odd(q.z);
     } else {
-        const Vec2 st = board.mapping(p);
+        const Vec2 st = map_to_texture(t.mapping, p);
         odd = is_odd(st.x) ^ is_odd(st.y);
     }
-    return evaluate(odd ? board.odd : board.even, p);
+    return evaluate(odd ? t.odd : t.even, p);
+}
+
+Rgb Textures::value_of(const DotsTexture& t, const TexturePoint& p) const {
+    return evaluate(is_in_dot(map_to_texture(t.mapping, p)) ? t.dot : t.ground, p);
+}
+
+Rgb Textures::value_of(const NoiseTexture& t, const TexturePoint& p) const {
+    const Vec3 q = t.texture_from_world.point(p.position);
+    switch (t.kind) {
+        case NoiseTexture::Kind::fractal:
+            return Rgb(fractal_noise(q, t.octaves));
+        case NoiseTexture::Kind::wrinkled:
+            return Rgb(turbulence(q, t.octaves));
+        case NoiseTexture::Kind::windy:
+            break;
+    }
+    constexpr Octaves wind{3, 0.5f}, waves{6, 0.5f};
+    return Rgb(std::abs(fractal_noise(q * 0.1f, wind)) * fractal_noise(q, waves));
+}
+
+Rgb Textures::value_of(const MarbleTexture& t, const TexturePoint& p) const {
+    const Vec3 q = t.texture_from_world.point(p.position) * t.scale;
+    const float phase = q.y + t.displacement * fractal_noise(q, t.octaves);
+    return marble_colour(0.5f + 0.5f * std::sin(phase));
+}
+
+Rgb Textures::value_of(const RelativeAlbedoTexture& t, const TexturePoint& p) const {
+    const Rgb reflectance = evaluate(t.reflectance, p);
+    Rgb relative;
+    for (int c = 0; c < 3; ++c) {
+        relative[c] = t.albedo[c] > 0 ? (*t.albedo_of)(reflectance[c]) / t.albedo[c] : 0.0f;
+    }
+    return relative;
 }
 
 }  // namespace wend

@@ -5,6 +5,8 @@
 #include <wend/core/colour.h>
 #include <wend/core/image.h>
 #include <wend/core/transform.h>
+#include <wend/scene/noise.h>
+#include <wend/scene/texture_mapping.h>
 
 #include <memory>
 #include <variant>
@@ -13,19 +15,6 @@
 namespace wend {
 
 class AlbedoInversion;
-
-/// What a texture is evaluated at.
-struct TexturePoint {
-    Vec2 uv;
-    Vec3 position;  ///< in the world
-};
-
-/// Surface parameters to texture coordinates.
-struct UvMapping {
-    float su = 1, sv = 1, du = 0, dv = 0;
-
-    Vec2 operator()(const TexturePoint& p) const { return {su * p.uv.x + du, sv * p.uv.y + dv}; }
-};
 
 /// Index of a texture in the scene's list.
 using TextureId = int;
@@ -47,23 +36,65 @@ struct MixTexture {
     TextureId amount = 0;
 };
 
-/// A picture, bilinearly interpolated. v grows upwards: (0,0) is the lower left corner of the picture.
+/// (1 - amount) * second + amount * first, where the amount is the magnitude of the cosine between the normal and a
+/// direction.
+struct DirectionMixTexture {
+    TextureId first = 0;
+    TextureId second = 0;
+    Vec3 direction{0, 1, 0};  ///< in the world, of unit length
+};
+
+/// Bilinear in texture coordinates, from the values at the corners of the unit square: at (0,0), (0,1), (1,0), (1,1).
+struct BilerpTexture {
+    Rgb v00, v01, v10, v11;
+    TextureMapping mapping;
+};
+
+/// A picture. t grows upwards: (0,0) is the lower left corner of the picture.
 struct ImageTexture {
-    enum class Wrap { repeat, clamp, black };
+    /// What is beside it: the picture again, its border, black, or the rest of a sphere that the picture shows by the
+    /// octahedral mapping.
+    enum class Wrap { repeat, clamp, black, octahedral_sphere };
 
     std::shared_ptr<const Image> image;
-    UvMapping mapping;
+    TextureMapping mapping;
     Wrap wrap = Wrap::repeat;
+    bool nearest = false;  ///< the nearest pixel, not bilinear interpolation
     float scale = 1;
     bool invert = false;  ///< 1 - value, after the scale
 };
 
-/// Two textures in the squares of a chess board of unit squares in (u, v), or of unit cubes in texture space.
+/// Two textures in the squares of a chess board of unit squares in (s, t), or of unit cubes in texture space.
 struct CheckerboardTexture {
     TextureId even = 0;
     TextureId odd = 0;
     int dimensions = 2;
-    UvMapping mapping;
+    TextureMapping mapping;
+    AffineMap texture_from_world;
+};
+
+/// Dots at random places, one in about half of the unit squares in (s, t).
+struct DotsTexture {
+    TextureId dot = 0;
+    TextureId ground = 0;
+    TextureMapping mapping;
+};
+
+/// Sums of noise in texture space: with signs, as magnitudes, or that of waves whose height varies slowly (of which
+/// the octaves are fixed).
+struct NoiseTexture {
+    enum class Kind { fractal, wrinkled, windy };
+
+    Kind kind = Kind::fractal;
+    Octaves octaves;
+    AffineMap texture_from_world;
+};
+
+/// Veins: waves along y in texture space, displaced by noise, in the colours of marble.
+struct MarbleTexture {
+    Octaves octaves;
+    float scale = 1;            ///< of texture space
+    float displacement = 0.2f;  ///< how much of the noise is added to the phase of the waves
     AffineMap texture_from_world;
 };
 
@@ -75,7 +106,8 @@ struct RelativeAlbedoTexture {
 };
 
 using Texture =
-    std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageTexture, CheckerboardTexture, RelativeAlbedoTexture>;
+    std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, BilerpTexture, ImageTexture,
+                 CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {
@@ -89,6 +121,18 @@ public:
     const Rgb* constant(TextureId id) const;
 
 private:
+    Rgb value_of(const ConstantTexture& t, const TexturePoint&) const { return t.value; }
+    Rgb value_of(const ScaleTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const MixTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const DirectionMixTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const BilerpTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const ImageTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const CheckerboardTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const DotsTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const NoiseTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const MarbleTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const RelativeAlbedoTexture& t, const TexturePoint& p) const;
+
     std::vector<Texture> textures_;
 };
 

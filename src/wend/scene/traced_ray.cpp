@@ -10,9 +10,11 @@ namespace {
 /// A ray that is more along the surface does not get behind it.
 constexpr float least_cosine = 1.0f / 32;
 
-bool is_on_sphere(const Surface& surface) {
+/// Whether a ray that starts inwards may meet the same element again, on its way out.
+bool is_round(const Surface& surface) {
     const auto* quadric = std::get_if<Quadric>(&surface.shape);
-    return quadric && std::holds_alternative<Sphere>(quadric->shape);
+    return std::holds_alternative<CylinderShell>(surface.shape) ||
+           (quadric && std::holds_alternative<Sphere>(quadric->shape));
 }
 
 /// Whether the normal by the surface's winding is along w.
@@ -56,8 +58,12 @@ TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_
     origin = start_;
     direction = w;
     own_ = hit.element;
-    own_again_ = !along && is_on_sphere(*hit.surface);
+    own_again_ = !along && is_round(*hit.surface);
     zone_ = 2 * behind;
+    if (const auto* curves = std::get_if<CurveSet>(&hit.surface->shape)) {
+        curve_offset_ = hit.normal * (cosine > 0 ? hit.thickness : -hit.thickness);
+        curve_reach_ = curves->pieces;
+    }
     add({hit.element, before, along});
 }
 

@@ -54,6 +54,11 @@ public:
         return distance;
     }
 
+    /// By how much the ray starts elsewhere for what it meets, so that it is outside of the curve that it leaves.
+    Vec3 offset_for(const SurfaceElement& met) const {
+        return curve_reach_ > 0 && met.is_of_the_same(own_) && is_near(met.primitive) ? curve_offset_ : Vec3(0, 0, 0);
+    }
+
     /// Where the ray is traced from, and how far along it has come.
     const Vec3& start() const { return start_; }
     float passed() const { return passed_; }
@@ -61,7 +66,7 @@ public:
     /// Whether what is met at distance t from start() is still ahead. `along`: whether the normal by the surface's
     /// winding is along the ray.
     bool is_ahead(const SurfaceElement& met, float t, bool along) const {
-        if (t < passed_ || met == aim_ || (met == own_ && !(own_again_ && along))) {
+        if (t < passed_ || met == aim_ || (met == own_ && !(own_again_ && along) && curve_reach_ == 0)) {
             return false;
         }
         if (t == passed_ && std::any_of(begin(), end(), [&](const Crossing& c) { return c.t == t && c.met == met; })) {
@@ -70,7 +75,7 @@ public:
         if (t >= zone_) {
             return true;
         }
-        if (reflected_ && met.is_of_the_same(own_)) {
+        if (reflected_ && met.is_of_the_same(own_) && curve_reach_ == 0) {
             return false;
         }
         const bool was_crossed = std::any_of(begin(), end(), [&](const Crossing& c) {
@@ -91,6 +96,10 @@ private:
     TracedRay(const Hit& hit, const Vec3& w, bool reflected);
 
     void add(const Crossing& crossing);
+    /// Whether a primitive of the surface that it leaves may be a part of the same curve.
+    bool is_near(std::uint32_t primitive) const {
+        return primitive + curve_reach_ >= own_.primitive && primitive <= own_.primitive + curve_reach_;
+    }
     const Crossing* begin() const { return crossings_.data(); }
     const Crossing* end() const { return crossings_.data() + count_; }
 
@@ -102,6 +111,9 @@ private:
     SurfaceElement aim_{};
     bool own_again_ = false;
     bool reflected_ = false;
+    /// Where it leaves a curve: how far outside of that it starts, and how many primitives on either side may be of it.
+    Vec3 curve_offset_{0, 0, 0};
+    std::uint32_t curve_reach_ = 0;
     /// Up to where lies what may be in the place that it starts from.
     float zone_ = 0;
     std::array<Crossing, 4> crossings_{};  // the latest first

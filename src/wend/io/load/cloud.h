@@ -6,9 +6,6 @@
 
 namespace wend {
 
-/// Gradient noise (perlin2002): smooth, in [-1, 1], zero at points of integer coordinates.
-float perlin_noise(const Vec3& p);
-
 struct CloudShape {
     float density = 1;
     float wispiness = 1;  ///< how far the shape is distorted

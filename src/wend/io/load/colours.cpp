@@ -115,7 +115,7 @@ Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, Sp
     } else if (kind == SpectrumKind::illuminant) {
         colour = blackbody_rgb(std::get<pbrt::Blackbody>(value).temperature);
     } else {
-        throw InputError(place, "a black body is light: it cannot be a reflectance, coefficient or index");
+        colour = blackbody_reflectance(std::get<pbrt::Blackbody>(value).temperature, kind);
     }
     if (!is_finite(colour) || min_value(colour) < 0) {
         throw InputError(place, fmt::format("a colour must be finite and not negative, but is ({}, {}, {})", colour.r,

@@ -14,8 +14,8 @@ namespace wend {
 
 /// A colour of a scene file. RGB is converted to Rec. 709 primaries and otherwise taken as it stands, whatever it
 /// means; spectra are reduced by their kind, light to luminance 1 (as are black bodies). Throws InputError at the
-/// parameter where a channel is negative or not finite, a black body is to reflect, or the name is neither that of a
-/// known spectrum nor of a file of wavelengths and values.
+/// parameter where a channel is negative or not finite, or the name is neither that of a known spectrum nor of a file
+/// of wavelengths and values.
 std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name,
                               SpectrumKind kind);
 

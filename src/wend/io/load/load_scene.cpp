@@ -1,5 +1,6 @@
 #include <wend/io/load/boundaries.h>
 #include <wend/io/load/camera_film.h>
+#include <wend/io/load/curves.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/load_scene.h>
 #include <wend/io/load/materials.h>
@@ -93,11 +94,14 @@ private:
     }
 
     void add_shape(pbrt::ShapeEntity& entity) {
+        const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
+        const MediumId exterior = medium_id(entity.exterior);
         const std::size_t patches = patches_of(entity);
-        std::optional<Shape> shape = load_shape(context_, entity);
+        std::optional<Shape> shape = load_shape(context_, entity, entity.area_light || interior != exterior);
         if (!shape) {
             return;
         }
+        const bool is_curve = std::holds_alternative<CurveSet>(*shape);
         const Box3 box =
             require_near(entity.place, fmt::format("Shape \"{}\" reaches to a point", entity.type), *shape);
         if (entity.object) {
@@ -105,18 +109,32 @@ private:
         }
         Surface surface{std::move(*shape)};
         surface.material = static_cast<int>(entity.material);
-        surface.interior = inside_[entity.material].value_or(medium_id(entity.interior));
-        surface.exterior = medium_id(entity.exterior);
+        surface.interior = is_curve ? exterior : interior;
+        surface.exterior = exterior;
         surface.flip_normal = flips_normal(entity);
         surface.alpha = load_alpha(entity);
-        if (entity.area_light) {
+        if (is_curve && (entity.area_light || interior != exterior)) {
+            context_.warnings.add(entity.place, "curves neither shine nor bound a medium");
+        } else if (entity.area_light) {
             add_area_light(entity, patches, surface);
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
+        if (is_curve && !group.empty() && joins(scene_.surfaces[static_cast<std::size_t>(group.back())], surface)) {
+            return;
+        }
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
         places_.push_back(entity.place);
+    }
+
+    /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last
+    /// one.
+    static bool joins(Surface& last, const Surface& surface) {
+        auto* curves = std::get_if<CurveSet>(&last.shape);
+        return curves && last.material == surface.material && last.interior == surface.interior &&
+               last.exterior == surface.exterior && last.flip_normal == surface.flip_normal &&
+               last.alpha == surface.alpha && merge(*curves, std::get<CurveSet>(surface.shape));
     }
 
     /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is

@@ -306,7 +306,7 @@ private:
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.
     float load_ior(const pbrt::ParameterSet& p, const std::string& name, float fallback) {
         float ior = fallback;
-        if (p.type_of(name) != pbrt::ParameterType::spectrum) {
+        if (const auto type = p.type_of(name); !type || *type == pbrt::ParameterType::real) {
             ior = p.get_float(name, fallback);
         } else {
             const pbrt::ColourValue value = p.get_colour(name).value();

@@ -7,7 +7,7 @@
 namespace wend {
 namespace {
 
-/// Of spheres and disks, which need no products of lengths: rays that reach them are still rays to Embree.
+/// Of spheres, disks and cylinders, which need no products of lengths: rays that reach them are still rays to Embree.
 constexpr float farthest_quadric = 1e16f;
 
 void require_within(const Place& place, std::string_view what, const Vec3& point, float bound) {
@@ -34,7 +34,12 @@ Box3 require_near(const Place& place, std::string_view what, const Shape& shape)
         }
         return box;
     }
-    box = bounds(std::get<Quadric>(shape));
+    box = bounds(shape);
+    if (std::holds_alternative<CurveSet>(shape)) {
+        require_near(place, what, box.min);
+        require_near(place, what, box.max);
+        return box;
+    }
     require_within(place, what, box.min, farthest_quadric);
     require_within(place, what, box.max, farthest_quadric);
     return box;

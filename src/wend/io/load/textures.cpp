@@ -23,29 +23,51 @@ std::optional<float> gamma_of(const std::string& encoding) {
     return end != text && *end == '\0' && gamma > 0 && std::isfinite(gamma) ? std::optional(gamma) : std::nullopt;
 }
 
-bool holds_floats(const std::filesystem::path& file) {
-    return is_exr(file) || file.extension() == ".hdr";
+/// By a gamma, of PNG files alone. Their opacity is encoded as the colours are.
+void apply_gamma(ImageWithOpacity& picture, float gamma) {
+    for (Rgb& c : picture.image.pixels) {
+        c = {std::pow(c.r, gamma), std::pow(c.g, gamma), std::pow(c.b, gamma)};
+    }
+    for (float& opacity : picture.opacity) {
+        opacity = std::pow(opacity, gamma);
+    }
 }
 
-Image read_encoded(const std::filesystem::path& file, const std::string& encoding, const Place& place) {
+ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::string& encoding, const Place& place) {
     if (encoding == "sRGB") {
-        return read_image(file, ColourEncoding::srgb);
+        return read_image_with_opacity(file, ColourEncoding::srgb);
     }
     const std::optional<float> gamma = gamma_of(encoding);
     if (!gamma && encoding != "linear") {
         throw InputError(place,
                          fmt::format("the encoding \"{}\" is unknown; known are sRGB, linear, gamma X", encoding));
     }
-    Image image = read_image(file, ColourEncoding::linear);
-    if (gamma && !holds_floats(file)) {
-        for (Rgb& c : image.pixels) {
-            c = {std::pow(c.r, *gamma), std::pow(c.g, *gamma), std::pow(c.b, *gamma)};
-        }
+    ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
+    if (gamma && is_png(file)) {
+        apply_gamma(picture, *gamma);
     }
-    return image;
+    return picture;
 }
 
-ImageTexture::Wrap load_wrap(LoadContext& context, const pbrt::ParameterSet& p) {
+/// That of a picture which is not PNG.
+std::string_view implied_encoding(const std::filesystem::path& file) {
+    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
+    return holds_floats ? "linear" : "sRGB";
+}
+
+/// A picture's colours, or one number a pixel in all channels.
+Image reduce(ImageWithOpacity picture, TextureLoader::Channels channels) {
+    std::vector<Rgb>& pixels = picture.image.pixels;
+    for (std::size_t i = 0; i < pixels.size() && channels != TextureLoader::Channels::colours; ++i) {
+        const bool is_first = channels == TextureLoader::Channels::first;
+        const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
+        const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
+        pixels[i] = Rgb(is_first || picture.opacity.empty() ? colour : picture.opacity[i]);
+    }
+    return std::move(picture.image);
+}
+
+ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     const std::string wrap = p.get_string("wrap", "repeat");
     if (wrap == "repeat") {
         return ImageTexture::Wrap::repeat;
@@ -57,12 +79,49 @@ ImageTexture::Wrap load_wrap(LoadContext& context, const pbrt::ParameterSet& p) 
         return ImageTexture::Wrap::black;
     }
     if (wrap == "octahedralsphere") {
-        context.warnings.add(p.place_of("wrap"),
-                             "the wrap mode \"octahedralsphere\" is not implemented: \"repeat\" takes its place");
-        return ImageTexture::Wrap::repeat;
+        return ImageTexture::Wrap::octahedral_sphere;
     }
-    throw InputError(p.place_of("wrap"),
-                     fmt::format("the wrap mode \"{}\" is unknown; known are repeat, clamp, black", wrap));
+    throw InputError(
+        p.place_of("wrap"),
+        fmt::format("the wrap mode \"{}\" is unknown; known are repeat, clamp, black, octahedralsphere", wrap));
+}
+
+/// Pictures are interpolated bilinearly unless the nearest pixel is wanted: with many samples a pixel, the finer
+/// filters average to the same.
+std::string load_filter(const pbrt::ParameterSet& p) {
+    const std::string filter = p.get_string("filter", "bilinear");
+    if (filter != "point" && filter != "bilinear" && filter != "trilinear" && filter != "EWA" && filter != "ewa") {
+        throw InputError(
+            p.place_of("filter"),
+            fmt::format("the filter \"{}\" is unknown; known are point, bilinear, trilinear, EWA", filter));
+    }
+    return filter;
+}
+
+Octaves load_octaves(const pbrt::ParameterSet& p) {
+    constexpr int most = 64;
+    const Octaves octaves{p.get_int("octaves", 8), p.get_float("roughness", 0.5f)};
+    if (octaves.count < 0 || octaves.count > most) {
+        throw InputError(p.place_of("octaves"), fmt::format("\"octaves\" must be from 0 to {}", most));
+    }
+    constexpr float largest_falloff = 3;  // keeps the sum of all octaves finite
+    if (!(std::abs(octaves.falloff) <= largest_falloff)) {
+        throw InputError(p.place_of("roughness"), fmt::format("the \"roughness\" of a texture must be from {} to {}",
+                                                              -largest_falloff, largest_falloff));
+    }
+    return octaves;
+}
+
+AffineMap texture_from_world(const pbrt::TextureEntity& texture) {
+    return AffineMap(texture.world_from_texture.inverse());
+}
+
+float finite_float(const pbrt::ParameterSet& p, std::string_view name, float fallback) {
+    const float value = p.get_float(name, fallback);
+    if (!std::isfinite(value)) {
+        throw InputError(p.place_of(name), fmt::format("\"{}\" must be finite", name));
+    }
+    return value;
 }
 
 }  // namespace
@@ -73,22 +132,27 @@ void TextureLoader::add(const pbrt::TextureEntity& texture) {
 }
 
 TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
-    if (texture.type == "constant") {
-        return load_constant(texture);
+    struct Loader {
+        std::string_view type;
+        TextureId (TextureLoader::*load)(const pbrt::TextureEntity&);
+    };
+    static constexpr Loader loaders[] = {
+        {"bilerp", &TextureLoader::load_bilerp},     {"checkerboard", &TextureLoader::load_checkerboard},
+        {"constant", &TextureLoader::load_constant}, {"directionmix", &TextureLoader::load_direction_mix},
+        {"dots", &TextureLoader::load_dots},         {"fbm", &TextureLoader::load_fractal},
+        {"imagemap", &TextureLoader::load_imagemap}, {"marble", &TextureLoader::load_marble},
+        {"mix", &TextureLoader::load_mix},           {"ptex", &TextureLoader::load_ptex},
+        {"scale", &TextureLoader::load_scale},       {"windy", &TextureLoader::load_windy},
+        {"wrinkled", &TextureLoader::load_wrinkled},
+    };
+    for (const Loader& loader : loaders) {
+        if (loader.type == texture.type) {
+            return (this->*loader.load)(texture);
+        }
     }
-    if (texture.type == "scale") {
-        return load_scale(texture);
-    }
-    if (texture.type == "mix") {
-        return load_mix(texture);
-    }
-    if (texture.type == "imagemap") {
-        return load_imagemap(texture);
-    }
-    if (texture.type == "checkerboard") {
-        return load_checkerboard(texture);
-    }
-    return replace(texture);
+    refuse_type("Texture", texture,
+                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mix",
+                 "ptex", "scale", "windy", "wrinkled"});
 }
 
 TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
@@ -111,14 +175,22 @@ TextureId TextureLoader::load_mix(const pbrt::TextureEntity& texture) {
 TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     ImageTexture image;
-    image.image =
-        picture(required_file(context_, texture, "filename"), p.get_string("encoding", "sRGB"), p.place_of("encoding"));
+    const std::string filter = load_filter(p);
+    image.nearest = filter == "point";
+    const Channels channels = texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
+                              : filter == "bilinear" || filter == "trilinear" ? Channels::number
+                                                                              : Channels::first;
+    const std::filesystem::path file = required_file(context_, texture, "filename");
+    image.image = picture(file, p.get_string("encoding", "sRGB"), p.place_of("encoding"), channels);
+    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != implied_encoding(file)) {
+        context_.warnings.add(p.place_of("encoding"),
+                              "the encoding of a picture that is not PNG is not asked for: "
+                              "numbers of 8 bits are sRGB, others linear");
+    }
     image.mapping = load_mapping(texture);
-    image.wrap = load_wrap(context_, p);
-    image.scale = p.get_float("scale", 1);
+    image.wrap = load_wrap(p);
+    image.scale = finite_float(p, "scale", 1);
     image.invert = p.get_bool("invert", false);
-    // Pictures are interpolated bilinearly: with many samples a pixel, the finer filters average to the same.
-    static_cast<void>(p.get_string("filter", "bilinear"));
     static_cast<void>(p.get_float("maxanisotropy", 8));
     return textures_.add(std::move(image));
 }
@@ -130,7 +202,7 @@ TextureId TextureLoader::load_checkerboard(const pbrt::TextureEntity& texture) {
     board.odd = operand(texture, "tex2", 0);
     board.dimensions = p.get_int("dimension", 2);
     if (board.dimensions == 3) {
-        board.texture_from_world = AffineMap(texture.world_from_texture.inverse());
+        board.texture_from_world = texture_from_world(texture);
     } else if (board.dimensions == 2) {
         board.mapping = load_mapping(texture);
     } else {
@@ -140,45 +212,88 @@ TextureId TextureLoader::load_checkerboard(const pbrt::TextureEntity& texture) {
     return add_node(board, {board.even, board.odd}, texture.place);
 }
 
-TextureId TextureLoader::replace(const pbrt::TextureEntity& texture) {
-    // The parameter that comes nearest to the texture as a whole; empty: half grey.
-    struct Stand {
-        std::string_view type;
-        std::string_view parameter;
-    };
-    constexpr Stand stands[] = {{"bilerp", "v00"}, {"directionmix", "tex1"}, {"dots", "outside"},
-                                {"fbm", ""},       {"marble", ""},           {"ptex", ""},
-                                {"windy", ""},     {"wrinkled", ""}};
-    for (const Stand& stand : stands) {
-        if (stand.type != texture.type) {
-            continue;
-        }
-        context_.warnings.add(
-            texture.place,
-            stand.parameter.empty()
-                ? fmt::format("Texture \"{}\" is not implemented: the constant 0.5 takes its place", texture.type)
-                : fmt::format("Texture \"{}\" is not implemented: its \"{}\" takes its place", texture.type,
-                              stand.parameter));
-        return stand.parameter.empty() ? textures_.add_constant(Rgb(0.5f)) : operand(texture, stand.parameter, 0);
+TextureId TextureLoader::load_direction_mix(const pbrt::TextureEntity& texture) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    DirectionMixTexture mix;
+    mix.first = operand(texture, "tex1", 0);
+    mix.second = operand(texture, "tex2", 1);
+    const Vec3 direction = texture.world_from_texture.vector(p.get_vector3("dir", {0, 1, 0}));
+    if (!is_finite(direction) || !(length_squared(direction) > 0)) {
+        throw InputError(p.place_of("dir"), "\"dir\" must be a direction");
     }
-    refuse_type("Texture", texture,
-                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mix",
-                 "ptex", "scale", "windy", "wrinkled"});
+    mix.direction = normalize(direction);
+    return add_node(mix, {mix.first, mix.second}, texture.place);
 }
 
-UvMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
+Rgb TextureLoader::plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    return texture.kind == pbrt::TextureKind::real
+               ? Rgb(finite_float(p, name, fallback))
+               : get_colour(context_, p, name, SpectrumKind::reflectance).value_or(Rgb(fallback));
+}
+
+TextureId TextureLoader::load_bilerp(const pbrt::TextureEntity& texture) {
+    return textures_.add(BilerpTexture{plain_value(texture, "v00", 0), plain_value(texture, "v01", 1),
+                                       plain_value(texture, "v10", 0), plain_value(texture, "v11", 1),
+                                       load_mapping(texture)});
+}
+
+TextureId TextureLoader::load_dots(const pbrt::TextureEntity& texture) {
+    // The names are the wrong way round, in pbrt-v4 as in those before: pictures were made for that.
+    DotsTexture dots;
+    dots.ground = operand(texture, "inside", 1);
+    dots.dot = operand(texture, "outside", 0);
+    dots.mapping = load_mapping(texture);
+    return add_node(dots, {dots.dot, dots.ground}, texture.place);
+}
+
+TextureId TextureLoader::load_fractal(const pbrt::TextureEntity& texture) {
+    return textures_.add(
+        NoiseTexture{NoiseTexture::Kind::fractal, load_octaves(texture.parameters), texture_from_world(texture)});
+}
+
+TextureId TextureLoader::load_wrinkled(const pbrt::TextureEntity& texture) {
+    return textures_.add(
+        NoiseTexture{NoiseTexture::Kind::wrinkled, load_octaves(texture.parameters), texture_from_world(texture)});
+}
+
+TextureId TextureLoader::load_windy(const pbrt::TextureEntity& texture) {
+    return textures_.add(NoiseTexture{NoiseTexture::Kind::windy, {}, texture_from_world(texture)});
+}
+
+TextureId TextureLoader::load_marble(const pbrt::TextureEntity& texture) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    return textures_.add(MarbleTexture{load_octaves(p), finite_float(p, "scale", 1), finite_float(p, "variation", 0.2f),
+                                       texture_from_world(texture)});
+}
+
+TextureId TextureLoader::load_ptex(const pbrt::TextureEntity& texture) {
+    context_.warnings.add(texture.place, "Texture \"ptex\" is not implemented: the constant 0.5 takes its place");
+    static_cast<void>(texture.parameters.get_string("filename", ""));
+    return textures_.add_constant(Rgb(0.5f));
+}
+
+TextureMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     const std::string kind = p.get_string("mapping", "uv");
-    if (kind == "spherical" || kind == "cylindrical" || kind == "planar") {
-        context_.warnings.add(
-            p.place_of("mapping"),
-            fmt::format("the texture mapping \"{}\" is not implemented: \"uv\" takes its place", kind));
-    } else if (kind != "uv") {
-        throw InputError(
-            p.place_of("mapping"),
-            fmt::format("the texture mapping \"{}\" is unknown; known are uv, spherical, cylindrical, planar", kind));
+    if (kind == "uv") {
+        return UvMapping{finite_float(p, "uscale", 1), finite_float(p, "vscale", 1), finite_float(p, "udelta", 0),
+                         finite_float(p, "vdelta", 0)};
     }
-    return {p.get_float("uscale", 1), p.get_float("vscale", 1), p.get_float("udelta", 0), p.get_float("vdelta", 0)};
+    if (kind == "spherical") {
+        return SphericalMapping{texture_from_world(texture)};
+    }
+    if (kind == "cylindrical") {
+        return CylindricalMapping{texture_from_world(texture)};
+    }
+    if (kind == "planar") {
+        return PlanarMapping{texture_from_world(texture), p.get_vector3("v1", {1, 0, 0}),
+                             p.get_vector3("v2", {0, 1, 0}), finite_float(p, "udelta", 0),
+                             finite_float(p, "vdelta", 0)};
+    }
+    throw InputError(
+        p.place_of("mapping"),
+        fmt::format("the texture mapping \"{}\" is unknown; known are uv, spherical, cylindrical, planar", kind));
 }
 
 TextureId TextureLoader::add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place) {
@@ -254,17 +369,19 @@ Rgb TextureLoader::mean(TextureId id) const {
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const Vec2 uv((static_cast<float>(x) + 0.5f) / side, (static_cast<float>(y) + 0.5f) / side);
-            sum += textures_.evaluate(id, {uv, {0, 0, 0}});
+            // What depends on the place instead varies over a cube around the origin.
+            const Vec3 position(2 * uv.x - 1, 2 * uv.y - 1, static_cast<float>((x * 37 + y * 29) % side) / 32 - 1);
+            sum += textures_.evaluate(id, {uv, position, {0, 0, 1}});
         }
     }
     return sum / static_cast<float>(side * side);
 }
 
 std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path& file, const std::string& encoding,
-                                                    const Place& place) {
-    std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding}];
+                                                    const Place& place, Channels channels) {
+    std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding, channels}];
     if (!image) {
-        image = std::make_shared<const Image>(read_encoded(file, encoding, place));
+        image = std::make_shared<const Image>(reduce(read_encoded(file, encoding, place), channels));
     }
     return image;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace wend {
@@ -42,9 +43,15 @@ public:
     /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
     Rgb mean(TextureId id) const;
 
-    /// Reads a picture file once however often it is asked for. `encoding` is pbrt's: "sRGB", "linear" or "gamma X".
+    /// What of a picture is wanted: its colours, or the one number that pbrt takes of it for a float texture. That is
+    /// the opacity if there is one that is not 1 everywhere, or else the mean of the colours; but the first of them by
+    /// the filters that take single pixels.
+    enum class Channels { colours, number, first };
+
+    /// Reads a picture file once however often it is asked for. `encoding` is pbrt's, of PNG files: "sRGB", "linear" or
+    /// "gamma X". A number is in all three channels.
     std::shared_ptr<const Image> picture(const std::filesystem::path& file, const std::string& encoding,
-                                         const Place& place);
+                                         const Place& place, Channels channels = Channels::colours);
 
 private:
     TextureId load(const pbrt::TextureEntity& texture);
@@ -53,19 +60,28 @@ private:
     TextureId load_mix(const pbrt::TextureEntity& texture);
     TextureId load_imagemap(const pbrt::TextureEntity& texture);
     TextureId load_checkerboard(const pbrt::TextureEntity& texture);
-    TextureId replace(const pbrt::TextureEntity& texture);
+    TextureId load_direction_mix(const pbrt::TextureEntity& texture);
+    TextureId load_bilerp(const pbrt::TextureEntity& texture);
+    TextureId load_dots(const pbrt::TextureEntity& texture);
+    TextureId load_fractal(const pbrt::TextureEntity& texture);
+    TextureId load_wrinkled(const pbrt::TextureEntity& texture);
+    TextureId load_windy(const pbrt::TextureEntity& texture);
+    TextureId load_marble(const pbrt::TextureEntity& texture);
+    TextureId load_ptex(const pbrt::TextureEntity& texture);
 
     /// Adds a texture made of others. Throws InputError if evaluating it takes absurdly many steps.
     TextureId add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place);
     /// A parameter of the texture's own kind.
     TextureId operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
     TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place) const;
-    UvMapping load_mapping(const pbrt::TextureEntity& texture);
+    TextureMapping load_mapping(const pbrt::TextureEntity& texture);
+    /// A value that cannot be a texture itself.
+    Rgb plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
 
     LoadContext& context_;
     Textures& textures_;
     std::map<std::pair<pbrt::TextureKind, std::string>, TextureId> by_name_;
-    std::map<std::pair<std::string, std::string>, std::shared_ptr<const Image>> pictures_;
+    std::map<std::tuple<std::string, std::string, Channels>, std::shared_ptr<const Image>> pictures_;
     std::map<TextureId, int> evaluations_;  ///< how many an evaluation takes, of textures made of others
 };
 

@@ -41,11 +41,15 @@ DescriptionBuilder::DescriptionBuilder(std::filesystem::path base_directory) {
     materials_.define_anonymous({});
 }
 
-const Transform& DescriptionBuilder::still_transform(const Location& place) {
+const Transform* DescriptionBuilder::still_transform(const Location& place, const std::string& what) {
+    if (const auto& fault = state().ctm.fault) {
+        warn(fault->place, fmt::format("{}: {}", what, fault->text));
+        return nullptr;
+    }
     if (state().ctm.is_moving()) {
         warn(place, "motion is not rendered: everything stays where it is at the start time");
     }
-    return state().ctm.start;
+    return &state().ctm.start;
 }
 
 std::optional<std::size_t> DescriptionBuilder::medium_named(const std::string& name, const Location& place) {
@@ -72,33 +76,51 @@ void DescriptionBuilder::warn(const Location& place, const std::string& message)
     }
 }
 
+void DescriptionBuilder::warn_of_repeated(const Parameter& last, const Parameter& earlier) {
+    if (repeated_.insert(last.name).second) {
+        warn(last.place, fmt::format("\"{}\" is given twice: the last one counts, not that at {}", last.name,
+                                     to_string(Place(earlier.place))));
+    }
+}
+
 void DescriptionBuilder::accelerator(std::string type, ParameterSet parameters, const Location& place) {
     description_.accelerator = {std::move(type), std::move(parameters), place};
 }
 
 void DescriptionBuilder::camera(std::string type, ParameterSet parameters, const Location& place) {
-    const Transform camera_from_world = still_transform(place);
+    if (const auto& fault = state().ctm.fault) {
+        throw InputError(fault->place, fault->text);
+    }
+    version3_.camera(type, parameters, place);
+    const Transform camera_from_world = *still_transform(place, "");
     states_.coordinate_systems()["camera"] = {state().ctm.start.inverse(), state().ctm.end.inverse()};
     description_.camera = {{std::move(type), std::move(parameters), place}, camera_from_world, state().exterior};
 }
 
 void DescriptionBuilder::film(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.film(type, parameters, place);
     description_.film = {std::move(type), std::move(parameters), place};
 }
 
 void DescriptionBuilder::integrator(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.integrator(type, parameters, place);
     description_.integrator = {std::move(type), std::move(parameters), place};
 }
 
 void DescriptionBuilder::option(Parameter parameter) {
-    description_.options.add(std::move(parameter));
+    const Parameter last{parameter.type, parameter.name, parameter.place, parameter.colour_space, {}};
+    if (const auto earlier = description_.options.add(std::move(parameter))) {
+        warn_of_repeated(last, *earlier);
+    }
 }
 
 void DescriptionBuilder::pixel_filter(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.pixel_filter(type, parameters, place);
     description_.filter = {std::move(type), std::move(parameters), place};
 }
 
 void DescriptionBuilder::sampler(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.sampler(type, place);
     description_.sampler = {std::move(type), std::move(parameters), place};
 }
 
@@ -130,7 +152,7 @@ void DescriptionBuilder::coord_sys_transform(const std::string& name, const Loca
 }
 
 void DescriptionBuilder::identity(const Location& place) {
-    state().change_transforms([](const Transform&) { return Transform(); }, place);
+    state().set_transforms([] { return Transform(); }, place);
 }
 
 void DescriptionBuilder::look_at(std::span<const double> v, const Location& place) {
@@ -149,7 +171,7 @@ void DescriptionBuilder::scale(std::span<const double> v, const Location& place)
 }
 
 void DescriptionBuilder::transform(std::span<const double> column_major, const Location& place) {
-    state().change_transforms([&](const Transform&) { return transform_of(column_major); }, place);
+    state().set_transforms([&] { return transform_of(column_major); }, place);
 }
 
 void DescriptionBuilder::transform_times(std::span<const double> v, const Location& place) {
@@ -205,6 +227,7 @@ void DescriptionBuilder::colour_space(const std::string& name, const Location& p
 }
 
 void DescriptionBuilder::material(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.material(type, parameters, place);
     parameters.set_defaults(state().defaults.material);
     state().material = materials_.define_anonymous(place);
     place_at(description_.materials, state().material, {{std::move(type), std::move(parameters), place}, ""});
@@ -250,20 +273,26 @@ void DescriptionBuilder::transform_end(const Location& place) {
 }
 
 void DescriptionBuilder::area_light_source(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.light(type, parameters, place);
     parameters.set_defaults(state().defaults.light);
     state().area_light = description_.area_lights.size();
     description_.area_lights.push_back({std::move(type), std::move(parameters), place});
 }
 
 void DescriptionBuilder::light_source(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.light(type, parameters, place);
     parameters.set_defaults(state().defaults.light);
-    description_.lights.push_back(
-        {{std::move(type), std::move(parameters), place}, still_transform(place), state().exterior});
+    if (const Transform* world_from_light =
+            still_transform(place, fmt::format("LightSource \"{}\" is left out", type))) {
+        description_.lights.push_back(
+            {{std::move(type), std::move(parameters), place}, *world_from_light, state().exterior});
+    }
 }
 
 void DescriptionBuilder::make_named_material(std::string name, ParameterSet parameters, const Location& place) {
     parameters.set_defaults(state().defaults.material);
     std::string type = type_parameter(parameters, place);
+    version3_.material(type, parameters, place);
     const std::size_t index = materials_.define(name, place);
     place_at(description_.materials, index, {{std::move(type), std::move(parameters), place}, std::move(name)});
 }
@@ -274,27 +303,37 @@ void DescriptionBuilder::make_named_medium(std::string name, ParameterSet parame
     }
     parameters.set_defaults(state().defaults.medium);
     std::string type = type_parameter(parameters, place);
+    version3_.medium(type, place);
     const std::size_t index = media_.define(name, place);
+    const Transform* transform = still_transform(place, fmt::format("the medium \"{}\" is not transformed", name));
     place_at(description_.media, index,
-             {{std::move(type), std::move(parameters), place}, std::move(name), still_transform(place)});
+             {{std::move(type), std::move(parameters), place}, std::move(name), transform ? *transform : Transform()});
 }
 
 void DescriptionBuilder::object_instance(const std::string& name, const Location& place) {
     if (open_object_) {
         throw InputError(place, "an ObjectInstance may not be part of an object");
     }
-    description_.instances.push_back({objects_.use(name, place), still_transform(place), place});
+    const std::size_t object = objects_.use(name, place);
+    if (const Transform* transform = still_transform(place, fmt::format("an instance of \"{}\" is left out", name))) {
+        description_.instances.push_back({object, *transform, place});
+    }
 }
 
 void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const Location& place) {
+    version3_.shape(type, parameters, place);
     parameters.set_defaults(state().defaults.shape);
+    const Transform* world_from_object = still_transform(place, fmt::format("Shape \"{}\" is left out", type));
+    if (!world_from_object) {
+        return;
+    }
     std::optional<std::size_t> area_light = state().area_light;
     if (area_light && open_object_) {
         warn(place, "shapes of object instances cannot be area lights: they do not shine");
         area_light.reset();
     }
     description_.shapes.push_back({{std::move(type), std::move(parameters), place},
-                                   still_transform(place),
+                                   *world_from_object,
                                    state().reverse_orientation,
                                    state().material,
                                    state().interior,
@@ -303,20 +342,22 @@ void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const 
                                    open_object_});
 }
 
-void DescriptionBuilder::texture(std::string name, const std::string& kind, std::string type, ParameterSet parameters,
+void DescriptionBuilder::texture(std::string name, std::string kind, std::string type, ParameterSet parameters,
                                  const Location& place) {
+    version3_.texture(kind, type, parameters, place);
     if (kind != "float" && kind != "spectrum") {
         throw InputError(place, fmt::format("\"{}\": expected a texture of kind float or spectrum", kind));
     }
     parameters.set_defaults(state().defaults.texture);
     // A texture refers to earlier ones only, as in pbrt; so there are no cycles.
     require_textures(parameters);
+    const Transform* transform = still_transform(place, fmt::format("the texture \"{}\" is not transformed", name));
     textures_.define(kind + ' ' + name, place);
     texture_names_.insert(name);
     description_.textures.push_back({{std::move(type), std::move(parameters), place},
                                      std::move(name),
                                      kind == "float" ? TextureKind::real : TextureKind::spectrum,
-                                     still_transform(place)});
+                                     transform ? *transform : Transform()});
 }
 
 Description DescriptionBuilder::finish(const Location& end) {

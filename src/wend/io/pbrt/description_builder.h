@@ -4,6 +4,7 @@
 #include <wend/io/pbrt/description.h>
 #include <wend/io/pbrt/graphics_state.h>
 #include <wend/io/pbrt/name_table.h>
+#include <wend/io/pbrt/version3.h>
 
 #include <set>
 #include <span>
@@ -17,9 +18,17 @@ namespace wend::pbrt {
 class DescriptionBuilder {
 public:
     explicit DescriptionBuilder(std::filesystem::path base_directory);
+    DescriptionBuilder(const DescriptionBuilder&) = delete;
+    DescriptionBuilder& operator=(const DescriptionBuilder&) = delete;
 
     bool in_world() const { return in_world_; }
+    /// What becomes of directives of pbrt-v3.
+    const Version3& version3() const { return version3_; }
     ColourSpace colour_space() const { return states_.current().colour_space; }
+    /// Adds a warning, unless it was there before.
+    void warn(const Location& place, const std::string& message);
+    /// That a parameter is given twice, once for each name.
+    void warn_of_repeated(const Parameter& last, const Parameter& earlier);
 
     // Options, before WorldBegin.
     void accelerator(std::string type, ParameterSet parameters, const Location& place);
@@ -68,20 +77,20 @@ public:
     void make_named_medium(std::string name, ParameterSet parameters, const Location& place);
     void object_instance(const std::string& name, const Location& place);
     void shape(std::string type, ParameterSet parameters, const Location& place);
-    void texture(std::string name, const std::string& kind, std::string type, ParameterSet parameters,
-                 const Location& place);
+    void texture(std::string name, std::string kind, std::string type, ParameterSet parameters, const Location& place);
 
     /// Closes the scene at the end of the main file: everything opened must be closed, and every name used defined.
     Description finish(const Location& end);
 
 private:
     GraphicsState& state() { return states_.current(); }
-    /// The start transform, with a warning where it differs from the end transform.
-    const Transform& still_transform(const Location& place);
+    /// The start transform, with a warning where it differs from the end transform. Null where it is none, with a
+    /// warning that `what` does not have its effect.
+    const Transform* still_transform(const Location& place, const std::string& what);
     std::optional<std::size_t> medium_named(const std::string& name, const Location& place);
     void require_textures(const ParameterSet& parameters) const;
-    void warn(const Location& place, const std::string& message);
 
+    Version3 version3_{[this](const Location& place, const std::string& text) { warn(place, text); }};
     Description description_;
     StateStack states_;
     NameTable materials_{"material"};
@@ -90,6 +99,7 @@ private:
     NameTable textures_{"texture"};
     std::unordered_set<std::string> texture_names_;
     std::set<std::string> warned_;
+    std::set<std::string> repeated_;
     std::optional<std::size_t> open_object_;
     bool in_world_ = false;
 };

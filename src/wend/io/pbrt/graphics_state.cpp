@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace wend::pbrt {
@@ -48,23 +49,34 @@ bool is_finite(const Transform& t) {
 }  // namespace
 
 void GraphicsState::change_transforms(const std::function<Transform(const Transform&)>& change, const Location& place) {
-    const auto changed = [&](const Transform& t) {
+    const auto changed = [&](const Transform& t) -> std::pair<Transform, std::string> {
         try {
             const Transform result = change(t);
             if (is_finite(result) && is_finite(result.inverse())) {
-                return result;
+                return {result, ""};
             }
         } catch (const std::domain_error& error) {
-            throw InputError(place, error.what());
+            return {t, error.what()};
         }
-        throw InputError(place, "the transformation matrix or its inverse is no longer finite");
+        return {t, "the transformation matrix or its inverse is no longer finite"};
     };
-    if (active != ActiveTransform::end) {
-        ctm.start = changed(ctm.start);
+    if (active != ActiveTransform::end && !ctm.fault) {
+        std::string text;
+        std::tie(ctm.start, text) = changed(ctm.start);
+        if (!text.empty()) {
+            ctm.fault = std::make_shared<const TransformFault>(TransformFault{place, std::move(text)});
+        }
     }
     if (active != ActiveTransform::start) {
-        ctm.end = changed(ctm.end);
+        ctm.end = changed(ctm.end).first;
     }
+}
+
+void GraphicsState::set_transforms(const std::function<Transform()>& make, const Location& place) {
+    if (active != ActiveTransform::end) {
+        ctm.fault.reset();
+    }
+    change_transforms([&](const Transform&) { return make(); }, place);
 }
 
 void StateStack::open(Block block, const Location& place) {

@@ -14,10 +14,18 @@
 
 namespace wend::pbrt {
 
+/// Why a transformation is none: it has no inverse, or is no longer finite.
+struct TransformFault {
+    Location place;
+    std::string text;
+};
+
 /// The current transformation matrix at the start and the end of the shutter interval.
 struct MovingTransform {
-    Transform start;
-    Transform end;
+    Transform start{};
+    Transform end{};
+    /// Set while that at the start is none: until it is set anew, `start` is the last that was one.
+    std::shared_ptr<const TransformFault> fault{};
 
     bool is_moving() const { return !(start == end); }
 };
@@ -40,9 +48,11 @@ struct GraphicsState {
     std::optional<std::size_t> area_light;
     AttributeDefaults defaults;
 
-    /// Replaces the active transforms by what `change` makes of them. Throws InputError at `place` where the result is
-    /// singular or no longer finite.
+    /// Replaces the active transforms by what `change` makes of them. Where the result is singular or no longer finite,
+    /// that is a fault from then on: exporters hide objects so, and nothing may be there to be transformed.
     void change_transforms(const std::function<Transform(const Transform&)>& change, const Location& place);
+    /// Replaces the active transforms whatever they were.
+    void set_transforms(const std::function<Transform()>& make, const Location& place);
 };
 
 /// The graphics state, the states saved at the blocks that are open, and the named coordinate systems.

@@ -22,7 +22,7 @@ constexpr std::array<TypeRow, 13> rows = {{{ParameterType::real, "float", "", 1}
                                            {ParameterType::point3, "point3", "point", 3},
                                            {ParameterType::vector3, "vector3", "vector", 3},
                                            {ParameterType::normal3, "normal3", "normal", 3},
-                                           {ParameterType::rgb, "rgb", "", 3},
+                                           {ParameterType::rgb, "rgb", "color", 3},
                                            {ParameterType::spectrum, "spectrum", "", 2},
                                            {ParameterType::blackbody, "blackbody", "", 1},
                                            {ParameterType::texture, "texture", "", 1}}};

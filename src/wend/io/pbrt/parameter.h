@@ -29,7 +29,7 @@ enum class ParameterType {
 
 /// The type's spelling in a file.
 std::string_view to_string(ParameterType type);
-/// The type spelled so, with pbrt's synonyms point, vector and normal; none for an unknown one.
+/// The type spelled so, with pbrt's synonyms point, vector and normal, and pbrt-v3's color; none for an unknown one.
 std::optional<ParameterType> parameter_type_named(std::string_view name);
 /// All spellings, for messages.
 std::string parameter_type_names();

@@ -154,7 +154,8 @@ Parameter read_option(TokenStream& tokens, ColourSpace colour_space) {
     return option;
 }
 
-ParameterSet read_parameters(TokenStream& tokens, const Location& directive, ColourSpace colour_space) {
+ParameterSet read_parameters(TokenStream& tokens, const Location& directive, ColourSpace colour_space,
+                             const OnRepeated& on_repeated) {
     ParameterSet parameters(directive);
     while (true) {
         tokens.leave_finished_includes();
@@ -162,7 +163,11 @@ ParameterSet read_parameters(TokenStream& tokens, const Location& directive, Col
             const Location place = tokens.top().location(tokens.next());
             tokens.enter(tokens.next_string(), place, TokenStream::Entry::include);
         } else if (tokens.peek().kind == Token::Kind::string) {
-            parameters.add(read_parameter(tokens, colour_space));
+            Parameter parameter = read_parameter(tokens, colour_space);
+            const Parameter last{parameter.type, parameter.name, parameter.place, parameter.colour_space, {}};
+            if (const auto earlier = parameters.add(std::move(parameter))) {
+                on_repeated(last, *earlier);
+            }
         } else {
             return parameters;
         }

@@ -89,17 +89,31 @@ bool is_single(const Parameter& parameter) {
 
 }  // namespace
 
-void ParameterSet::add(Parameter parameter) {
-    for (const auto& other : own_) {
-        if (other->name == parameter.name) {
-            throw InputError(parameter.place, fmt::format("\"{}\" is given twice; the first is at {}", parameter.name,
-                                                          wend::to_string(other->place)));
-        }
-    }
+std::shared_ptr<const Parameter> ParameterSet::add(Parameter parameter) {
+    std::shared_ptr<const Parameter> replaced = remove(parameter.name);
     if (own_.size() >= most_parameters) {
         throw InputError(parameter.place, fmt::format("more than {} parameters", most_parameters));
     }
     own_.push_back(std::make_shared<Parameter>(std::move(parameter)));
+    return replaced;
+}
+
+void ParameterSet::rename(std::string_view from, std::string to) {
+    if (const auto old = remove(from)) {
+        Parameter renamed = *old;
+        renamed.name = std::move(to);
+        add(std::move(renamed));
+    }
+}
+
+std::shared_ptr<const Parameter> ParameterSet::remove(std::string_view name) {
+    const auto found = std::find_if(own_.begin(), own_.end(), [&](const auto& mine) { return mine->name == name; });
+    if (found == own_.end()) {
+        return nullptr;
+    }
+    std::shared_ptr<const Parameter> removed = *found;
+    own_.erase(found);
+    return removed;
 }
 
 void ParameterSet::override_with(const ParameterSet& others) {

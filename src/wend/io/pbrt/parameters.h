@@ -25,8 +25,14 @@ public:
     /// `directive` is the place to blame for what is missing.
     explicit ParameterSet(Location directive) : directive_(std::move(directive)) {}
 
-    /// Throws InputError if the set holds one of this name already (whatever its type), or far too many.
-    void add(Parameter parameter);
+    /// Takes the place of one of this name (whatever its type), which it returns: null if there was none. Throws
+    /// InputError if there are far too many.
+    std::shared_ptr<const Parameter> add(Parameter parameter);
+    /// Gives one of the directive's own parameters another name, in the place of one that has it. Nothing happens where
+    /// it is absent.
+    void rename(std::string_view from, std::string to);
+    /// Takes one of the directive's own parameters away; null where it is absent.
+    std::shared_ptr<const Parameter> remove(std::string_view name);
     /// Parameters to fall back on. Replaces earlier ones; may be null.
     void set_defaults(std::shared_ptr<const ParameterSet> defaults) { defaults_ = std::move(defaults); }
     /// Takes over `others`, which override those of the same name.

@@ -75,7 +75,11 @@ private:
 
     template <std::size_t n>
     std::array<double, n> next_numbers(std::size_t count = n);
-    ParameterSet parameters(const Location& place) { return read_parameters(tokens_, place, builder_.colour_space()); }
+    ParameterSet parameters(const Location& place) {
+        return read_parameters(
+            tokens_, place, builder_.colour_space(),
+            [this](const Parameter& last, const Parameter& earlier) { builder_.warn_of_repeated(last, earlier); });
+    }
     Location next_location() const { return tokens_.top().location(tokens_.peek()); }
 
     TokenStream tokens_;
@@ -154,6 +158,9 @@ void Parser::read_directive() {
     const Location place = tokens_.top().location(token);
     const auto entry = token.kind == Token::Kind::word ? directives().find(token.text) : directives().end();
     if (entry == directives().end()) {
+        if (token.kind == Token::Kind::word && builder_.version3().skips(token.text, place)) {
+            return;
+        }
         throw InputError(place, fmt::format("expected a directive, found {}", describe(token)));
     }
     const Directive& directive = entry->second;
@@ -239,9 +246,9 @@ void Parser::option(const Location&) {
 
 void Parser::texture(const Location& place) {
     std::string name = tokens_.next_string();
-    const std::string kind = tokens_.next_string();
+    std::string kind = tokens_.next_string();
     std::string type = tokens_.next_string();
-    builder_.texture(std::move(name), kind, std::move(type), parameters(place), place);
+    builder_.texture(std::move(name), std::move(kind), std::move(type), parameters(place), place);
 }
 
 }  // namespace

@@ -19,13 +19,21 @@ double relative_radiance(double wavelength, double temperature) {
            std::expm1(second_radiation_constant / (wavelength * temperature));
 }
 
-}  // namespace
-
-Rgb blackbody_rgb(double temperature) {
+Rgb reduce(double temperature, SpectrumKind kind) {
     if (!(temperature > 0) || !std::isfinite(temperature)) {
         throw InputError(fmt::format("a black body of {} K: the temperature must be positive", temperature));
     }
-    return rgb_from_spectrum([=](double w) { return relative_radiance(w, temperature); }, SpectrumKind::illuminant);
+    return rgb_from_spectrum([=](double w) { return relative_radiance(w, temperature); }, kind);
+}
+
+}  // namespace
+
+Rgb blackbody_rgb(double temperature) {
+    return reduce(temperature, SpectrumKind::illuminant);
+}
+
+Rgb blackbody_reflectance(double temperature, SpectrumKind kind) {
+    return reduce(temperature, kind);
 }
 
 Xyz blackbody_xyz(double temperature) {

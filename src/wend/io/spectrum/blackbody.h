@@ -9,6 +9,10 @@ namespace wend {
 /// clamped to 0 (blue below some 1950 K). `temperature` in kelvin. Throws InputError unless it is positive and finite.
 Rgb blackbody_rgb(double temperature);
 
+/// The same spectrum, scaled to a peak of 1, as a reflectance or another quantity that is no light: pbrt takes any
+/// spectrum for them. Throws InputError likewise.
+Rgb blackbody_reflectance(double temperature, SpectrumKind kind);
+
 /// Tristimulus values of a black body whose radiance is 1 where it is largest over all wavelengths. `temperature` must
 /// be positive.
 Xyz blackbody_xyz(double temperature);
