@@ -332,18 +332,6 @@ TEST(FlightPieces, ThereIsRoomForAFewLamps) {
     EXPECT_LE(lamps, 64);
 }
 
-TEST(FlightPieces, ABeamTakesNoMoreThanAllPieces) {
-    const Case c{"", grey, {{1, 2}, {2, 2}}, 0, false, {}, {{0.5f, 1.5f, 1, 0.01f, 1e6f}}};
-    const FlightPieces pieces = pieces_of(c);
-    Pcg32 random(5);
-    int beside = 0;
-    constexpr int samples = 20000;
-    for (int i = 0; i < samples; ++i) {
-        beside += std::abs(pieces.sample(0, random.uniform()).distance - 1) > 0.2f ? 1 : 0;
-    }
-    EXPECT_GT(beside, samples / 3);
-}
-
 TEST(FlightPieces, AFalseEstimateLeavesSome) {
     const FlightPieces pieces = pieces_of({"", grey, {{1, 1}, {2, 1.01f}}, 1});
     const auto weight = [&](float t) {

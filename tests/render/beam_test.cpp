@@ -84,8 +84,8 @@ TEST(SlowBeam, EveryPresetHasItsLight) {
     }
     // By that many, 1 % is seen, and beams are drawn better than by chance.
     const Moments classical = rendered("classical", 256, 1), guided = rendered("distance+direction", 256, 1);
-    EXPECT_LT(guided.standard_error(), 0.003 * static_cast<double>(expected.g));
-    EXPECT_LT(3 * guided.standard_error(), classical.standard_error());
+    EXPECT_LT(guided.standard_error(), 0.005 * static_cast<double>(expected.g));
+    EXPECT_LT(2 * guided.standard_error(), classical.standard_error());
 }
 
 }  // namespace

@@ -87,13 +87,9 @@ void FlightPieces::finish(float length, float ahead, bool level) {
         lit += or_nothing(piece.in_scattered * part);
         piece.cumulative = lit;
     }
-    const float most_of_beam = lit > 0 ? lit : std::numeric_limits<float>::infinity();
     for (int i = 0; i < near_count_; ++i) {
         Near& near = *near_[i];
         near.part = or_nothing(near.part * dot(scattering_rate_, transmitted(near.along.closest())));
-        if (near.piece == Near::anywhere) {
-            near.part = std::min(near.part, most_of_beam);
-        }
         lit += near.part;
         near.cumulative = lit;
     }

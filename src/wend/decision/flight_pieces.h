@@ -42,10 +42,10 @@ public:
     bool has_room_for_near() const { return near_count_ - beam_count_ < most_near; }
 
     /// A light whose beam the ray crosses there, of this in-scattered radiance times squared distance. Before the first
-    /// piece, and as long as there is room. Where pieces are lit, no beam
-    /// is taken to bring more than all of them: something may stand in it.
+    /// piece, and as long as there is room.
     void add_beam(const Equiangular& along, float strength);
     bool has_room_for_beam() const { return beam_count_ < most_beams; }
+    bool has_beam() const { return beam_count_ > 0; }
 
     /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
     /// There must be a piece. `level`: only whether to scatter follows the light, and where does not.

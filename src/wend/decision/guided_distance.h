@@ -65,6 +65,8 @@ public:
     }
 
 private:
+    /// How far beams are to be trusted, wherever the flight begins: something may stand in them.
+    static constexpr float trust_in_beams = 2.0f / 3;
     /// Of a flight, what cells on its way are told apart to.
     static constexpr float finest = 1.0f / 20;
 
@@ -80,8 +82,11 @@ private:
         // The kind of phase function is asked for once, not in every cell.
         medium.phase.visit([&](const auto& phase) {
             look_for_beams(start, phase, pieces);
-            confidence = volume_->is_trained() ? look_along(start, phase, reach, pieces) : 1.0f;
+            confidence = volume_->is_trained() ? look_along(start, phase, reach, pieces) : 0.0f;
         });
+        if (pieces.has_beam()) {
+            confidence = std::max(confidence, trust_in_beams);
+        }
         if (volume_->is_trained()) {
             pieces.finish(start.length, ahead(start), levels());
         } else {

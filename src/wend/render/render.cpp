@@ -49,8 +49,6 @@ Image as_in_scene(Image picture, const ColourMatrix& balance) {
 
 // A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
 constexpr float classical_flights = 0.25f;
-// Beams say nothing of what is beside them.
-constexpr float share_beside_beams = 0.5f;
 
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
@@ -463,7 +461,7 @@ private:
     const std::vector<Beam> beams_ = beams_of(scene_.lights());
     /// Fields that never learn, for flights that follow beams alone.
     const guide::Fields unknown_{guide::Field::empty(scene_.bounds()), guide::Field::empty(scene_.bounds())};
-    const GuidedDistance<guide::Field> towards_beams_{&unknown_.surface, &unknown_.volume, share_beside_beams,
+    const GuidedDistance<guide::Field> towards_beams_{&unknown_.surface, &unknown_.volume, classical_flights,
                                                       DistanceGuiding::scatter_and_distance, beams_};
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
