@@ -49,13 +49,13 @@ Expected read_expected(const std::string& scene) {
     return expected;
 }
 
-/// Renders with what the scene and the defaults of `wend render` say, twelve times; the samples are those of the scene.
-void expect_right_mean(const std::filesystem::path& file) {
-    constexpr std::uint64_t renders = 12;
+/// Renders with what the scene and the defaults of `wend render` say, so many times; the samples are those of the
+/// scene.
+void expect_right_mean(const std::filesystem::path& file, const char* preset = "full", std::uint64_t renders = 12) {
     const Expected expected = read_expected(test::read_text(file));
     LoadedScene loaded = load_scene(file);
     RenderSettings settings;
-    settings.preset = parse_preset("full");
+    settings.preset = parse_preset(preset);
     settings.subsurface = parse_subsurface("auto");
     settings.samples = loaded.samples;
     settings.sampler = loaded.sampler;
@@ -79,9 +79,13 @@ void expect_right_mean(const std::filesystem::path& file) {
     }
 }
 
-std::vector<std::string> cases() {
+std::filesystem::path cases_folder() {
+    return test::source_dir() / "tests" / "cases";
+}
+
+std::vector<std::string> cases(const std::filesystem::path& folder) {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "tests" / "cases")) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() == ".pbrt") {
             names.push_back(entry.path().stem().string());
         }
@@ -100,10 +104,22 @@ std::string test_name(const testing::TestParamInfo<std::string>& parameter) {
 class PublicCase : public testing::TestWithParam<std::string> {};
 
 TEST_P(PublicCase, HasItsRightMean) {
-    expect_right_mean(test::source_dir() / "tests" / "cases" / (GetParam() + ".pbrt"));
+    expect_right_mean(cases_folder() / (GetParam() + ".pbrt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(SlowScenes, PublicCase, testing::ValuesIn(cases()), test_name);
+INSTANTIATE_TEST_SUITE_P(SlowScenes, PublicCase, testing::ValuesIn(cases(cases_folder())), test_name);
+
+/// What pbrt-v4 makes of what its format has: a feature each, by any preset.
+class PbrtCase : public testing::TestWithParam<std::string> {};
+
+TEST_P(PbrtCase, HasTheMeanOfPbrt) {
+    for (const char* preset : {"classical", "full"}) {
+        SCOPED_TRACE(preset);
+        expect_right_mean(cases_folder() / "pbrt" / (GetParam() + ".pbrt"), preset, 5);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowScenes, PbrtCase, testing::ValuesIn(cases(cases_folder() / "pbrt")), test_name);
 
 /// openvdb issue 1840 (rotated transforms), unreal-vdb issue 78 (negative scale in a file's transform).
 TEST(PublicCases, AVolumeThatItsFileMirrorsAndTurns) {
