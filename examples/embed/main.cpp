@@ -1,6 +1,7 @@
 // A renderer of your own with Wend as its library: two foggy rooms joined by a door, the lamp in the far one. Rays,
 // surfaces and lights are written here, as a renderer has them; Wend learns where light comes from, chooses directions,
 // and decides which walks go on. The numbered comments are the steps of embedding it.
+#include <tbb/parallel_for.h>
 #include <wend/guide.hpp>
 
 #include <algorithm>
@@ -231,7 +232,7 @@ Vec3 camera_direction(float x, float y) {
 template <class Directions>
 PathRecords render(const Directions& directions, int first, int count, Picture& picture) {
     std::vector<PathRecords> rows(height);
-    wend::parallel_for(height, 0, [&](std::size_t row) {
+    tbb::parallel_for(std::size_t{0}, std::size_t(height), [&](std::size_t row) {
         PathLog log;
         for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
             for (int sample = first; sample < first + count; ++sample) {

@@ -2,7 +2,6 @@
 // docs/embedding.md and examples/embed show how.
 #pragma once
 
-#include <wend/core/parallel.h>
 #include <wend/decision/direction.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/decision/volume_scattering.h>

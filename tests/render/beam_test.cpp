@@ -20,8 +20,7 @@ constexpr float across = 0.02f, height = 0.5f;  // where the camera's ray passes
 
 /// A lamp above the ray of a picture of one pixel, shining down across it and along it.
 SpotLight lamp() {
-    const Transform light_from_world =
-        Transform::look_at({across, height, 3}, {across, -1, 3.6f}, {1, 0, 0});
+    const Transform light_from_world = Transform::look_at({across, height, 3}, {across, -1, 3.6f}, {1, 0, 0});
     SpotLight spot;
     spot.position = {across, height, 3};
     spot.intensity = Rgb(3, 2, 1);

@@ -415,7 +415,8 @@ private:
         } else if (preset.is_classical() && beams_.empty()) {
             run_with(ClassicalDecisions{{}, {}, unguided_walks_end});
         } else if (preset.is_classical()) {
-            run_with(GuidedDecisions{towards_beams_, GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
+            run_with(GuidedDecisions{towards_beams_,
+                                     GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
                                      unguided_walks_end});
         } else {
             walk_guided(preset, run_with);
