@@ -4,6 +4,7 @@
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
+#include <wend/render/team.h>
 
 #include <CLI/CLI.hpp>
 
@@ -35,11 +36,6 @@ private:
     double seconds_;
     Clock::time_point start_;
 };
-
-/// Whether the first rank says so; it alone looks at the clock and writes files.
-bool agreed(Ranks* ranks, bool mine) {
-    return ranks ? ranks->gather(mine ? "1" : "0").front() == "1" : mine;
-}
 
 /// Does what may fail without harm to the render; says so where it does.
 template <class Action>
@@ -91,7 +87,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     if (!options.resume.empty()) {
         resume_from(options.resume, render, session, settings);
     }
-    const bool is_first = !settings.ranks || settings.ranks->rank() == 0;
+    // The first rank alone looks at the clock and writes files.
+    Team team(settings.ranks);
+    const bool is_first = team.rank() == 0;
     std::optional<ProgressLines> lines;
     if (!is_first) {
         // One rank shows progress for all.
@@ -114,10 +112,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         if (!goes_on || render.is_stopped()) {
             break;
         }
-        const bool writes_picture =
-            agreed(settings.ranks,
-                   pictures.is_due() || (!has_picture && (progress.samples > 0 || progress.seconds > longest_wait)));
-        const bool writes_checkpoint = agreed(settings.ranks, checkpoints.is_due());
+        const bool writes_picture = team.agreed(
+            pictures.is_due() || (!has_picture && (progress.samples > 0 || progress.seconds > longest_wait)));
+        const bool writes_checkpoint = team.agreed(checkpoints.is_due());
         if (writes_picture || writes_checkpoint) {
             render.share();
         }

@@ -6,6 +6,7 @@
 #include <wend/render/pass.h>
 #include <wend/render/render.h>
 #include <wend/render/schedule.h>
+#include <wend/render/team.h>
 #include <wend/transport/path_tracer.h>
 
 #include <algorithm>
@@ -78,7 +79,7 @@ public:
         if (!is_within_pass_) {
             // What a pass begins with takes time, too.
             constexpr int stopped = -1;
-            const int count = agreed(settings_.stop && *settings_.stop ? stopped : next_count());
+            const int count = team_.agreed(settings_.stop && *settings_.stop ? stopped : next_count());
             is_stopped_ = count == stopped;
             if (count <= 0) {
                 return is_stopped_;
@@ -90,7 +91,7 @@ public:
             if (kind_ + 1 == choice_.kinds().size()) {
                 share();
                 end_pass();
-                return agreed(next_count()) > 0;
+                return team_.agreed(next_count()) > 0;
             }
             if (next_kind_begins_stage()) {
                 share();
@@ -112,7 +113,7 @@ public:
     bool is_stopped() const { return is_stopped_; }
 
     void share() {
-        if (!settings_.ranks || !is_within_pass_) {
+        if (team_.is_alone() || !is_within_pass_) {
             return;
         }
         ArchiveWriter mine;
@@ -121,9 +122,9 @@ public:
                 archive_tile(mine, *this, i);
             }
         }
-        const std::vector<std::string> all = gather(mine.take());
+        const std::vector<std::string> all = team_.gather(mine.take());
         for (std::size_t rank = 0; rank < all.size(); ++rank) {
-            if (static_cast<int>(rank) == settings_.ranks->rank()) {
+            if (static_cast<int>(rank) == team_.rank()) {
                 continue;
             }
             ArchiveReader bytes(all[rank]);
@@ -168,7 +169,9 @@ public:
             statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
         }
         statistics.interrupted = is_within_pass_ || next_count() > 0;
-        statistics.ranks = settings_.ranks ? settings_.ranks->size() : 1;
+        statistics.ranks = team_.size();
+        statistics.bytes_sent = team_.bytes_sent();
+        statistics.waiting_seconds = team_.waiting_seconds();
         return statistics;
     }
 
@@ -227,35 +230,16 @@ private:
         Film::archive_part(bytes, work.film_, work.tiles_[tile].pixels);
     }
 
-    bool owns(std::size_t tile) const { return !settings_.ranks || owners_[tile] == settings_.ranks->rank(); }
+    bool owns(std::size_t tile) const { return team_.is_alone() || owners_[tile] == team_.rank(); }
     /// Who walks which tile in the pass at hand.
     void share_out() {
-        if (settings_.ranks) {
+        if (!team_.is_alone()) {
             std::vector<std::uint64_t> work;
             for (const Tile& tile : tiles_) {
                 work.push_back(tile.counts.segments);
             }
-            owners_ = shares_of_ranks(work, settings_.ranks->size());
+            owners_ = shares_of_ranks(work, team_.size());
         }
-    }
-    std::vector<std::string> gather(const std::string& mine) {
-        const Clock::time_point start = Clock::now();
-        std::vector<std::string> all = settings_.ranks->gather(mine);
-        statistics_.bytes_sent += mine.size();
-        statistics_.waiting_seconds += seconds_since(start);
-        return all;
-    }
-    /// What the first rank says.
-    template <class T>
-    T agreed(T mine) {
-        if (settings_.ranks) {
-            ArchiveWriter bytes;
-            bytes(mine);
-            const std::string said = gather(bytes.take()).front();
-            ArchiveReader reader(said);
-            reader(mine);
-        }
-        return mine;
     }
     /// Goes on with walks of the kind at hand. Whether all ranks have walked theirs; where one is stopped, or time is
     /// over, all know what each has done.
@@ -263,17 +247,7 @@ private:
         struct Said {
             bool has_walked, is_stopped, is_time_over;
         };
-        std::vector<Said> all = {{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()}};
-        if (settings_.ranks) {
-            ArchiveWriter bytes;
-            bytes(all.front());
-            const std::vector<std::string> said = gather(bytes.take());
-            all.resize(said.size());
-            for (std::size_t rank = 0; rank < said.size(); ++rank) {
-                ArchiveReader reader(said[rank]);
-                reader(all[rank]);
-            }
-        }
+        const std::vector<Said> all = team_.all(Said{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()});
         const auto any = [&](bool Said::*what) {
             return std::any_of(all.begin(), all.end(), [what](const Said& said) { return said.*what; });
         };
@@ -457,6 +431,7 @@ private:
     const Scene& scene_;
     Film& film_;
     const RenderSettings settings_;
+    Team team_{settings_.ranks};
     Schedule schedule_;
     LearningContext context_;
     const std::vector<Beam> beams_ = beams_of(scene_.lights());

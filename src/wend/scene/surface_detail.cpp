@@ -39,8 +39,10 @@ std::optional<Frame> bumped(TextureId displacement, const Frame& shading, const 
                             const SurfaceDerivatives& s, const Textures& textures) {
     constexpr float step = 0.0005f;
     const float here = textures.evaluate_grey(displacement, p);
-    const float beyond_u = textures.evaluate_grey(displacement, {p.uv + Vec2(step, 0), p.position + s.dpdu * step});
-    const float beyond_v = textures.evaluate_grey(displacement, {p.uv + Vec2(0, step), p.position + s.dpdv * step});
+    const float beyond_u =
+        textures.evaluate_grey(displacement, {p.uv + Vec2(step, 0), p.position + s.dpdu * step, p.normal});
+    const float beyond_v =
+        textures.evaluate_grey(displacement, {p.uv + Vec2(0, step), p.position + s.dpdv * step, p.normal});
     const Vec3 dpdu = s.dpdu + shading.n * ((beyond_u - here) / step) + s.dndu * here;
     const Vec3 dpdv = s.dpdv + shading.n * ((beyond_v - here) / step) + s.dndv * here;
     return frame_around(cross(dpdu, dpdv), dpdu);
