@@ -318,10 +318,10 @@ TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
     EXPECT_EQ(presence("\"float alpha\" 0"), Presence::unseen);
     const Scene unseen(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0").scene);
     EXPECT_TRUE(unseen.has_point_like_lights());
-    EXPECT_EQ(unseen.presence(0, {0, 0}, {0, 0, 1}), 1);
+    EXPECT_EQ(unseen.presence(0, {{0, 0}, {0, 0, 1}}), 1);
     const Scene partly(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0.25").scene);
     EXPECT_FALSE(partly.has_point_like_lights());
-    EXPECT_EQ(partly.presence(0, {0, 0}, {0, 0, 1}), 0.25f);
+    EXPECT_EQ(partly.presence(0, {{0, 0}, {0, 0, 1}}), 0.25f);
 }
 
 TEST(LoadLights, InterfacesDoNotShine) {

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <vector>
 
 namespace wend {
@@ -173,6 +174,10 @@ TEST(LoadMaterials, Hair) {
               1);
 }
 
+TEST(LoadMaterials, AHairOfNoIndexIsRefused) {
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"hair\" \"float eta\" 0.5"); }), "index of a hair");
+}
+
 TEST(LoadMaterials, Mixtures) {
     const std::string parts =
         "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] "
@@ -194,6 +199,13 @@ TEST(LoadMaterials, Mixtures) {
     }
     EXPECT_NEAR(glass / static_cast<double>(points), 0.3, 0.015);
     EXPECT_EQ(warnings_with(mixed("[ \"none\" \"red\" ]").scene, "\"interface\" cannot be mixed"), 1);
+    // Two of them are one, also deep inside.
+    EXPECT_NO_THROW(mixed("[ \"none\" \"none\" ]").as<InterfaceMaterial>());
+    const Loaded nested(
+        parts +
+        "MakeNamedMaterial \"nothing\" \"string type\" \"mix\" \"string materials\" [ \"none\" \"none\" ] "
+        "Material \"mix\" \"string materials\" [ \"nothing\" \"glass\" ]");
+    EXPECT_EQ(nested.as<MixMaterial>().first, nested.as<MixMaterial>().second);
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" ]"); }), "two \"materials\"");
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" \"blue\" ]"); }), "\"blue\" is not defined");
 }
@@ -454,6 +466,21 @@ TEST(LoadTextures, SubstitutesAreNamedOnce) {
     expect_near(loaded.reflectance(), Rgb(0.5f));
     EXPECT_EQ(warnings_with(loaded.scene, "is not implemented"), 1);
     EXPECT_PRED2(contains, message_of([] { Loaded("Texture \"x\" \"float\" \"frob\""); }), "known are bilerp");
+}
+
+TEST(LoadTextures, PixelsThatAreNoNumbersAreBlack) {
+    const auto directory = std::filesystem::temp_directory_path();
+    std::ofstream file(directory / "wend_nan.pfm", std::ios::binary);
+    file << "PF\n1 1\n-1.0\n";
+    const float pixel[] = {std::numeric_limits<float>::quiet_NaN(), 1, 1};
+    file.write(reinterpret_cast<const char*>(pixel), sizeof(pixel));
+    file.close();
+    const Loaded loaded(
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wend_nan.pfm\" "
+        "Material \"diffuse\" \"texture reflectance\" \"t\"",
+        directory);
+    EXPECT_EQ(warnings_with(loaded.scene, "not finite numbers"), 1);
+    expect_near(loaded.reflectance(), Rgb(0.0f));
 }
 
 TEST(LoadTextures, RefusesTexturesThatGrowExponentially) {

@@ -67,6 +67,8 @@ public:
 private:
     /// How far beams are to be trusted, wherever the flight begins: something may stand in them.
     static constexpr float trust_in_beams = 2.0f / 3;
+    /// So close to a lamp, in lengths of the segment, a flight begins at it.
+    static constexpr float at_lamp = 1e-4f;
     /// Of a flight, what cells on its way are told apart to.
     static constexpr float finest = 1.0f / 20;
 
@@ -110,7 +112,9 @@ private:
     void look_for_beams(const FlightStart& start, const Phase& phase, FlightPieces& pieces) const {
         for (const Beam& beam : beams_) {
             const auto part = pieces.has_room_for_beam() ? crossing(beam, start.ray, start.length) : std::nullopt;
-            if (part) {
+            // Away from the lamp itself its light grows without end.
+            const bool starts_at_lamp = length_squared(start.ray.origin - beam.position) < sqr(at_lamp * start.length);
+            if (part && !starts_at_lamp) {
                 const Equiangular along(ClosestApproach(start.ray, beam.position, 0), part->t_in, part->t_out);
                 pieces.add_beam(along, beam.intensity * phase.evaluate(along.cosine()));
             }

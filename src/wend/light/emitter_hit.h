@@ -56,7 +56,7 @@ public:
             emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, hit.uv, -direction);
         if (last.unconnected) {
             // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark.
-            emitted *= scene_.presence(hit.light, hit.uv, hit.position);
+            emitted *= scene_.presence(hit.light, texture_point(hit));
         }
         if (!is_black(emitted)) {
             arriving.add(emitted, weight(hit.light, last, direction, hit.position, hit.normal));
@@ -64,7 +64,7 @@ public:
         return arriving;
     }
 
-    /// From beyond the scene, where the walk leaves it from a point.
+    /// From beyond the scene, as seen from where the walk has turned last.
     EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction) const {
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {

@@ -35,8 +35,8 @@ inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightS
     }
     auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
     if (light && light->distance < infinity) {
-        light->radiance *=
-            scene.presence(chosen.index, light->uv, receiver.position + light->direction * light->distance);
+        light->radiance *= scene.presence(
+            chosen.index, {light->uv, receiver.position + light->direction * light->distance, light->normal});
     }
     return light ? std::optional(ChosenSample{chosen.index, *light, chosen.probability}) : std::nullopt;
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr int most_refractions = 8;
 
 /// A ray and how it changes with two angles of the way's first direction (igehy1999).
-struct Beam {
+struct Pencil {
     TracedRay ray;
     std::array<Vec3, 2> origin_by{Vec3(0, 0, 0), Vec3(0, 0, 0)};
     std::array<Vec3, 2> direction_by;
@@ -41,7 +41,7 @@ struct Target {
 /// What following a first direction leads to.
 struct Trial {
     SpecularChain way;
-    Beam last;
+    Pencil last;
     /// By how much the last ray misses the target, across, and how that shrinks with the angles.
     Vec3 missed;
     std::array<Vec3, 2> approach;
@@ -59,13 +59,14 @@ struct Trial {
     }
 };
 
-const DielectricBsdf* smooth_dielectric(const Bsdf& bsdf) {
+/// None where another ray may find something else, or another normal than that of the shape.
+const DielectricBsdf* smooth_dielectric(const Scene& scene, const Hit& hit, const Bsdf& bsdf) {
     const auto* dielectric = std::get_if<DielectricBsdf>(&bsdf);
-    return dielectric && dielectric->is_specular() ? dielectric : nullptr;
+    return dielectric && dielectric->is_specular() && scene.is_plain(hit) ? dielectric : nullptr;
 }
 
 /// Refracts the beam, whose origin is at the hit. False where it is totally reflected.
-bool refract_at(const Scene& scene, const Hit& hit, float ior, Beam& beam, SpecularChain& way) {
+bool refract_at(const Scene& scene, const Hit& hit, float ior, Pencil& beam, SpecularChain& way) {
     const Vec3 before = beam.ray.direction;
     Vec3 n = hit.shading.n;
     const auto refracted = refract(-before, n, ior);
@@ -98,7 +99,7 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
                             MediumState medium, int refractions) {
     Trial trial;
     trial.way.direction = first.n;
-    Beam beam;
+    Pencil beam;
     beam.ray = Ray{from, first.n};
     beam.direction_by = {first.s, first.t};
     for (;;) {
@@ -112,7 +113,8 @@ std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& f
         const bool passes = hit && hit->light < 0 && hit->distance < *along * (1 - margin);
         const bool is_interface = passes && scene.is_interface(*hit);
         const Bsdf bsdf = passes && !is_interface ? scene.bsdf(*hit) : Bsdf();
-        const DielectricBsdf* const dielectric = smooth_dielectric(bsdf);
+        const DielectricBsdf* const dielectric =
+            passes && !is_interface ? smooth_dielectric(scene, *hit, bsdf) : nullptr;
         if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium.id})) {
             return std::nullopt;
         }
@@ -144,7 +146,7 @@ std::optional<Vec3> steeper(const Scene& scene, const Ray& straight, float dista
         return std::nullopt;
     }
     const Bsdf bsdf = scene.bsdf(*hit);
-    const DielectricBsdf* const dielectric = smooth_dielectric(bsdf);
+    const DielectricBsdf* const dielectric = smooth_dielectric(scene, *hit, bsdf);
     const auto inside = dielectric ? refract(straight.direction, hit->shading.n, dielectric->ior) : std::nullopt;
     return inside ? std::optional(-inside->direction) : std::nullopt;
 }

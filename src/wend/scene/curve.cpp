@@ -61,7 +61,7 @@ int halvings(const Bezier& c, float width) {
     }
     // The distance from the chord is at most sqrt(2) * 6 / 8 of that, and falls by four with each halving.
     const float ratio = bend * 1.0606602f / (tolerance * width);
-    return ratio > 1 ? std::clamp(static_cast<int>(std::log2(ratio) / 2), 0, most) : 0;
+    return ratio > 1 ? static_cast<int>(std::min(std::log2(ratio) / 2, static_cast<float>(most))) : 0;
 }
 
 /// A ray's search along a primitive, in a space whose z axis is the ray: it starts at the origin.

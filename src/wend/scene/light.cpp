@@ -24,7 +24,7 @@ std::optional<LightSample> connect(const Vec3& p, const Vec3& q, const Vec3& nor
     if (is_black(radiance) || !(cosine > 1e-7f)) {
         return std::nullopt;
     }
-    return LightSample{w, distance, radiance, area_density * d2 / cosine, is_point_like(light), -1, uv};
+    return LightSample{w, distance, radiance, area_density * d2 / cosine, is_point_like(light), -1, uv, normal};
 }
 
 /// To a point whose intensity towards p is `intensity(w)`, w pointing away from it.

@@ -27,6 +27,7 @@ struct LightSample {
     bool point_like = false;  ///< cannot be hit by a ray
     int medium = -1;          ///< of a medium that glows, its index: the light is where that medium is
     Vec2 uv{0, 0};            ///< surface parameters, on a lamp
+    Vec3 normal{0, 0, 0};     ///< geometric, of unit length, on a lamp
 };
 
 /// An isotropic point source; intensity in power per steradian.

@@ -407,7 +407,7 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
         const Vec3 in_world = ray.at(raw.distance);
         const Vec3 p = placement ? placement->object_from_world.point(in_world) : in_world;
         const Material& material = d_.materials[static_cast<std::size_t>(hit.surface->material)];
-        const bool has_uv = !std::holds_alternative<InterfaceMaterial>(material);
+        const bool has_uv = !std::holds_alternative<InterfaceMaterial>(material) || hit.surface->alpha >= 0;
         if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
             point = point_of(*quadric, p, has_uv, hit);
         } else if (const auto* cylinder = std::get_if<CylinderShell>(&hit.surface->shape)) {

@@ -163,9 +163,15 @@ Hit Scene::complete(const RayHit& found, const Ray& ray) const {
     return hit;
 }
 
-float Scene::presence(int light, const Vec2& uv, const Vec3& position) const {
+bool Scene::is_plain(const Hit& hit) const {
+    const auto material = static_cast<std::size_t>(hit.surface->material);
+    return hit.surface->alpha < 0 && !std::holds_alternative<MixMaterial>(d_.materials[material]) &&
+           (material >= d_.details.size() || d_.details[material].is_none());
+}
+
+float Scene::presence(int light, const TexturePoint& p) const {
     const TextureId alpha = light_alpha_[static_cast<std::size_t>(light)];
-    return alpha < 0 ? 1.0f : std::clamp(d_.textures.evaluate_grey(alpha, {uv, position}), 0.0f, 1.0f);
+    return alpha < 0 ? 1.0f : std::clamp(d_.textures.evaluate_grey(alpha, p), 0.0f, 1.0f);
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {

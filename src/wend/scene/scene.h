@@ -126,6 +126,8 @@ public:
     /// Whether intersect_interface() can return anything.
     bool has_interfaces() const { return has_interfaces_; }
 
+    /// Whether the surface is the same for every ray that comes near: neither a mixture, partly there, nor bumpy.
+    bool is_plain(const Hit& hit) const;
     /// What the surface is made of there: no mixture.
     const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(material_id(hit))]; }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
@@ -159,7 +161,7 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     /// The probability that a lamp's surface is there at a point of it; 1 for one that no ray meets, which shines with
     /// all that it has.
-    float presence(int light, const Vec2& uv, const Vec3& position) const;
+    float presence(int light, const TexturePoint& p) const;
     /// The light that a medium is, as an index of lights(); -1: none.
     int medium_light(MediumId id) const { return medium_lights_[static_cast<std::size_t>(id)]; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }

@@ -8,13 +8,15 @@ namespace {
 
 /// Bilinear, repeated, v upwards.
 Vec3 look_up(const Image& image, const Vec2& uv) {
-    const float x = uv.x * static_cast<float>(image.width) - 0.5f;
-    const float y = (1 - uv.y) * static_cast<float>(image.height) - 0.5f;
+    const auto repeated = [](float x) {
+        const float part = x - std::floor(x);
+        return part >= 0 && part < 1 ? part : 0.0f;  // as well for what is too large to have one
+    };
+    const float x = repeated(uv.x) * static_cast<float>(image.width) - 0.5f;
+    const float y = repeated(1 - uv.y) * static_cast<float>(image.height) - 0.5f;
     const float x0 = std::floor(x), y0 = std::floor(y);
     const auto at = [&](float column, float row) {
-        const auto wrapped = [](float i, int size) {
-            return static_cast<int>(i - std::floor(i / static_cast<float>(size)) * static_cast<float>(size)) % size;
-        };
+        const auto wrapped = [](float i, int size) { return (static_cast<int>(i) + size) % size; };
         return image.at(wrapped(column, image.width), wrapped(row, image.height));
     };
     const float fx = x - x0, fy = y - y0;

@@ -143,7 +143,7 @@ private:
             }
         }
         if (!ahead) {
-            path_.meet(emitters_.beyond(path_.now.last, path_.now.ray.origin, path_.now.ray.direction));
+            path_.meet(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction));
             return false;
         }
         const Hit& hit = ahead.hit();
@@ -198,7 +198,7 @@ private:
         FlightEnd end;
         if (!ahead) {
             end.emitted =
-                mean_value(emitters_.beyond(path_.now.last, path_.now.ray.origin, path_.now.ray.direction).radiance);
+                mean_value(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction).radiance);
             return end;
         }
         const Hit& hit = ahead.hit();

@@ -108,7 +108,7 @@ private:
 
     /// Of walks and of their steps, each of which costs time for every value.
     int load_count(const pbrt::ParameterSet& p, std::string_view name, int fallback) {
-        constexpr int most = 100000;
+        constexpr int most = 1000;
         const int count = p.get_int(name, fallback);
         if (count < 1 || count > most) {
             throw InputError(p.place_of(name), fmt::format("\"{}\" must be from 1 to {}, not {}", name, most, count));
@@ -139,6 +139,9 @@ private:
             hair.eumelanin = textures_.constant(Rgb(1.3f));
         }
         hair.ior = textures_.real(p, "eta", 1.55f);
+        if (!textures_.varies(hair.ior) && !(textures_.mean(hair.ior).r > 1)) {
+            throw InputError(p.place_of("eta"), "the index of a hair must be above 1");
+        }
         hair.roughness_along = textures_.real(p, "beta_m", 0.3f);
         hair.roughness_across = textures_.real(p, "beta_n", 0.3f);
         hair.tilt = textures_.real(p, "alpha", 2);
@@ -151,20 +154,7 @@ private:
         if (names.size() != 2) {
             throw InputError(p.place_of("materials"), "\"mix\" needs the names of two \"materials\"");
         }
-        MixMaterial mix{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f)};
-        if (is_interface(mix.first) || is_interface(mix.second)) {
-            context_.warnings.add(
-                p.place_of("materials"),
-                "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
-                "shape leaves a share of it out)");
-            (is_interface(mix.first) ? mix.first : mix.second) = is_interface(mix.first) ? mix.second : mix.first;
-        }
-        return {mix};
-    }
-
-    bool is_interface(int index) const {
-        const std::string& type = all_[static_cast<std::size_t>(index)].type;
-        return type.empty() || type == "none" || type == "interface";
+        return {MixMaterial{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f)}};
     }
 
     int index_of(const std::string& name, const pbrt::ParameterSet& p) const {
@@ -325,8 +315,27 @@ private:
     const std::vector<pbrt::MaterialEntity>& all_;
 };
 
+/// What a mixture becomes of which a part is an interface: the other part. Shadow rays could not tell which it is.
+void leave_out_interfaces(LoadContext& context, std::vector<LoadedMaterial>& loaded, std::size_t index,
+                          const pbrt::MaterialEntity& entity) {
+    auto& mix = std::get<MixMaterial>(loaded[index].material);
+    const auto is_interface = [&](int part) {
+        return std::holds_alternative<InterfaceMaterial>(loaded[static_cast<std::size_t>(part)].material);
+    };
+    const bool first = is_interface(mix.first), second = is_interface(mix.second);
+    if (first && second) {
+        loaded[index].material = InterfaceMaterial{};
+    } else if (first || second) {
+        context.warnings.add(entity.parameters.place_of("materials"),
+                             "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
+                             "shape leaves a share of it out)");
+        (first ? mix.first : mix.second) = first ? mix.second : mix.first;
+    }
+}
+
 /// Throws InputError where a mixture is made of itself; what fills a part of a mixture fills it all.
-void check_mixtures(std::vector<LoadedMaterial>& loaded, const std::vector<pbrt::MaterialEntity>& materials) {
+void check_mixtures(LoadContext& context, std::vector<LoadedMaterial>& loaded,
+                    const std::vector<pbrt::MaterialEntity>& materials) {
     enum class State : char { unseen, open, done };
     std::vector<State> states(loaded.size(), State::unseen);
     const std::function<void(std::size_t)> visit = [&](std::size_t index) {
@@ -345,6 +354,7 @@ void check_mixtures(std::vector<LoadedMaterial>& loaded, const std::vector<pbrt:
             }
         }
         states[index] = State::done;
+        leave_out_interfaces(context, loaded, index, materials[index]);
     };
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         visit(i);
@@ -377,7 +387,7 @@ std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& 
     for (const pbrt::MaterialEntity& material : materials) {
         loaded.push_back(loader.load(material));
     }
-    check_mixtures(loaded, materials);
+    check_mixtures(context, loaded, materials);
     return loaded;
 }
 

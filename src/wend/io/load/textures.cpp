@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -186,6 +188,16 @@ TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
         context_.warnings.add(p.place_of("encoding"),
                               "the encoding of a picture that is not PNG is not asked for: "
                               "numbers of 8 bits are sRGB, others linear");
+    }
+    const auto& pixels = image.image->pixels;
+    if (!std::all_of(pixels.begin(), pixels.end(), [](const Rgb& pixel) { return is_finite(pixel); })) {
+        context_.warnings.add(p.place_of("filename"),
+                              "pixels of the picture that are not finite numbers are taken for black");
+        auto mended = std::make_shared<Image>(*image.image);
+        std::replace_if(
+            mended->pixels.begin(), mended->pixels.end(), [](const Rgb& pixel) { return !is_finite(pixel); },
+            Rgb(0.0f));
+        image.image = std::move(mended);
     }
     image.mapping = load_mapping(texture);
     image.wrap = load_wrap(p);
