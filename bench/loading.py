@@ -106,9 +106,9 @@ def run(command, folder):
 def measure(programs, scene, repetitions, folder):
     rows = []
     for name, command in programs.items():
-        told = [run([*command, f"{scene}.pbrt"], folder) for _ in range(repetitions)]
-        rows.append({"scene": scene, "program": name, "seconds": statistics.median(t[0] for t in told),
-                     "megabytes": statistics.median(t[1] for t in told),
+        runs = [run([*command, f"{scene}.pbrt"], folder) for _ in range(repetitions)]
+        rows.append({"scene": scene, "program": name, "seconds": statistics.median(t[0] for t in runs),
+                     "megabytes": statistics.median(t[1] for t in runs),
                      "file_megabytes": sum(f.stat().st_size for f in folder.glob(f"{scene}.pbrt")) / 2**20})
     return rows
 

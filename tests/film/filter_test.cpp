@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,18 @@ double mitchell(double x) {
                  : (-7.0 / 3 * x * x * x + 12 * x * x - 20 * x + 32.0 / 3) / 6;
 }
 
+/// Windowed over three lobes.
+double sinc(double x) {
+    const double angle = x * std::numbers::pi;
+    return std::sin(angle) / angle * std::sin(angle / 3) / (angle / 3);
+}
+
 std::vector<Case> cases() {
     const auto gauss = [](double x) { return std::exp(-2 * x * x) - std::exp(-4.5); };
     return {{"box", Filter::box(0.5f, 0.5f), 0.5f, [](double) { return 1.0; }},
             {"triangle", Filter::triangle(2, 2), 2, [](double x) { return 2 - std::abs(x); }},
             {"gaussian", Filter::gaussian(1.5f, 1.5f, 0.5f), 1.5f, gauss},
+            {"sinc", Filter::sinc(4, 4, 3), 4, sinc},
             {"mitchell", Filter::mitchell(2, 2), 2, mitchell},
             {"mitchell_narrow", Filter::mitchell(1, 1), 1, [](double x) { return mitchell(2 * x); }}};
 }

@@ -80,21 +80,17 @@ private:
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
         float confidence = 0;
+        const bool is_trained = volume_->is_trained();
         const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
         medium.phase.visit([&](const auto& phase) {
             look_for_beams(start, phase, pieces);
-            confidence = volume_->is_trained() ? look_along(start, phase, reach, pieces) : 0.0f;
+            confidence = is_trained ? look_along(start, phase, reach, pieces) : look_nowhere(start, pieces);
         });
         if (pieces.has_beam()) {
             confidence = std::max(confidence, trust_in_beams);
         }
-        if (volume_->is_trained()) {
-            pieces.finish(start.length, ahead(start), levels());
-        } else {
-            pieces.add(start.length, 0);
-            pieces.finish(start.length, 0, false);
-        }
+        pieces.finish(start.length, is_trained ? ahead(start) : 0.0f, is_trained && levels());
         const FlightPieces::Outcome outcome =
             pieces.sample(pieces.is_lit() ? defensive_fraction(confidence, start.weight) : 1.0f, u);
         Flight flight;
@@ -148,6 +144,12 @@ private:
         };
         volume_->walk(start.ray, 0, start.length, look, finest * std::min(start.length, reach));
         return confidence;
+    }
+
+    /// One dark piece, and no trust in it.
+    static float look_nowhere(const FlightStart& start, FlightPieces& pieces) {
+        pieces.add(start.length, 0);
+        return 0;
     }
 
     bool levels() const { return guiding_ == DistanceGuiding::scatter_alone; }

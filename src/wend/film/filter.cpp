@@ -85,4 +85,13 @@ Filter Filter::mitchell(float x_radius, float y_radius, float b, float c) {
     return {axis(x_radius), axis(y_radius)};
 }
 
+Filter Filter::sinc(float x_radius, float y_radius, float tau) {
+    const auto wave = [](float x) {
+        const float angle = pi * x;
+        return std::abs(angle) < 1e-4f ? 1.0f : std::sin(angle) / angle;
+    };
+    const auto windowed = [=](float x) { return wave(x) * wave(x / tau); };
+    return {Axis(x_radius, windowed), Axis(y_radius, windowed)};
+}
+
 }  // namespace wend

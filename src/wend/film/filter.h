@@ -18,6 +18,9 @@ public:
     /// Mitchell and Netravali's cubic, which is negative in places.
     static Filter mitchell(float x_radius = 2, float y_radius = 2, float b = 1.0f / 3, float c = 1.0f / 3);
 
+    /// sin(pi x) / (pi x), windowed by the same of x / tau (Lanczos); negative in places.
+    static Filter sinc(float x_radius = 4, float y_radius = 4, float tau = 3);
+
     struct Sample {
         Vec2 offset;       ///< from the pixel's centre
         float weight = 1;  ///< filter over density; its mean is 1

@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/scene/light_picture.h>
+#include <wend/scene/picture_lookup.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +40,8 @@ const Rgb& LightPicture::nearest(const Vec2& point) const {
 }
 
 Rgb LightPicture::bilinear(const Vec2& point) const {
-    const float x = to_pixels(point.x, image_.width) - 0.5f, y = to_pixels(point.y, image_.height) - 0.5f;
-    const float left = std::floor(x), low = std::floor(y), fx = x - left, fy = y - low;
-    const int i = static_cast<int>(left), j = static_cast<int>(low);
-    return (clamped(i, j) * (1 - fx) + clamped(i + 1, j) * fx) * (1 - fy) +
-           (clamped(i, j + 1) * (1 - fx) + clamped(i + 1, j + 1) * fx) * fy;
+    return wend::bilinear(Vec2(to_pixels(point.x, image_.width), to_pixels(point.y, image_.height)),
+                          [this](int i, int j) { return clamped(i, j); });
 }
 
 }  // namespace wend

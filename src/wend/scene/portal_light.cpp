@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/scene/light.h>
+#include <wend/scene/picture_lookup.h>
 #include <wend/scene/portal_light.h>
 
 #include <algorithm>
@@ -12,28 +13,11 @@ namespace {
 /// A picture without detail still has to be drawn from evenly by solid angle.
 constexpr int fewest_pixels = 32;
 
-/// A pixel of an octahedral picture; past an edge the sphere goes on at another part of that edge.
-Rgb octahedral_pixel(const Image& sky, int x, int y) {
-    const int n = sky.width;
-    if (x < 0 || x >= n) {
-        x = x < 0 ? -x - 1 : 2 * n - 1 - x;
-        y = n - 1 - y;
-    }
-    if (y < 0 || y >= n) {
-        y = y < 0 ? -y - 1 : 2 * n - 1 - y;
-        x = n - 1 - x;
-    }
-    return sky.at(std::clamp(x, 0, n - 1), std::clamp(y, 0, n - 1));
-}
-
 /// Radiance from a direction of the sky, interpolated.
 Rgb interpolate(const Image& sky, const Vec3& direction) {
     const Vec2 uv = equal_area_sphere_to_square(direction);
-    const float x = uv.x * static_cast<float>(sky.width) - 0.5f, y = uv.y * static_cast<float>(sky.height) - 0.5f;
-    const float left = std::floor(x), low = std::floor(y), fx = x - left, fy = y - low;
-    const int i = static_cast<int>(left), j = static_cast<int>(low);
-    return (octahedral_pixel(sky, i, j) * (1 - fx) + octahedral_pixel(sky, i + 1, j) * fx) * (1 - fy) +
-           (octahedral_pixel(sky, i, j + 1) * (1 - fx) + octahedral_pixel(sky, i + 1, j + 1) * fx) * fy;
+    return bilinear(Vec2(uv.x * static_cast<float>(sky.width), uv.y * static_cast<float>(sky.height)),
+                    [&](int i, int j) { return octahedral_pixel(sky, i, j); });
 }
 
 /// Solid angle over area of the picture, at a unit direction in the rectangle's frame.

@@ -1,3 +1,4 @@
+#include <wend/scene/picture_lookup.h>
 #include <wend/scene/surface_detail.h>
 
 #include <cmath>
@@ -12,16 +13,11 @@ Vec3 look_up(const Image& image, const Vec2& uv) {
         const float part = x - std::floor(x);
         return part >= 0 && part < 1 ? part : 0.0f;  // as well for what is too large to have one
     };
-    const float x = repeated(uv.x) * static_cast<float>(image.width) - 0.5f;
-    const float y = repeated(1 - uv.y) * static_cast<float>(image.height) - 0.5f;
-    const float x0 = std::floor(x), y0 = std::floor(y);
-    const auto at = [&](float column, float row) {
-        const auto wrapped = [](float i, int size) { return (static_cast<int>(i) + size) % size; };
-        return image.at(wrapped(column, image.width), wrapped(row, image.height));
-    };
-    const float fx = x - x0, fy = y - y0;
-    const Rgb c = at(x0, y0) * ((1 - fx) * (1 - fy)) + at(x0 + 1, y0) * (fx * (1 - fy)) +
-                  at(x0, y0 + 1) * ((1 - fx) * fy) + at(x0 + 1, y0 + 1) * (fx * fy);
+    const Vec2 place(repeated(uv.x) * static_cast<float>(image.width),
+                     repeated(1 - uv.y) * static_cast<float>(image.height));
+    const Rgb c = bilinear(place, [&](int i, int j) {
+        return image.at((i + image.width) % image.width, (j + image.height) % image.height);
+    });
     return {c.r, c.g, c.b};
 }
 

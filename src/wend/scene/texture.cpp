@@ -1,5 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/planar/albedo_inversion.h>
+#include <wend/scene/picture_lookup.h>
 #include <wend/scene/texture.h>
 
 #include <algorithm>
@@ -7,23 +8,6 @@
 
 namespace wend {
 namespace {
-
-/// Onto the octahedral picture of a sphere, from a place beyond one of its borders: there the sphere goes on behind
-/// that border, mirrored about its middle.
-void wrap_octahedral(int& x, int& y, int width, int height) {
-    const auto mirrored = [](int i, int n) { return i < 0 ? -i - 1 : 2 * n - 1 - i; };
-    if (x < 0 || x >= width) {
-        x = mirrored(x, width);
-        y = height - 1 - y;
-    }
-    if (y < 0 || y >= height) {
-        y = mirrored(y, height);
-        x = width - 1 - x;
-    }
-    // Further away than the picture is wide, there is nothing that makes sense.
-    x = std::clamp(x, 0, width - 1);
-    y = std::clamp(y, 0, height - 1);
-}
 
 /// The pixel at (x, y), which may lie outside.
 Rgb texel(const ImageTexture& t, int x, int y) {
@@ -41,8 +25,7 @@ Rgb texel(const ImageTexture& t, int x, int y) {
             }
             break;
         case ImageTexture::Wrap::octahedral_sphere:
-            wrap_octahedral(x, y, image.width, image.height);
-            break;
+            return octahedral_pixel(image, x, y);
         case ImageTexture::Wrap::clamp:
             break;
     }
@@ -50,19 +33,17 @@ Rgb texel(const ImageTexture& t, int x, int y) {
 }
 
 Rgb look_up(const ImageTexture& t, const Vec2& st) {
-    constexpr float far_away = 1e6f;  // keeps the conversion to int defined
-    const float x = std::clamp(st.x, -far_away, far_away) * static_cast<float>(t.image->width) - 0.5f;
-    const float y = (1 - std::clamp(st.y, -far_away, far_away)) * static_cast<float>(t.image->height) - 0.5f;
-    const auto floor_of = [](float v) { return static_cast<int>(std::clamp(std::floor(v), -2e9f, 2e9f)); };
+    // Keeps the conversion to int defined.
+    constexpr float far_away = 1e6f, farthest_pixel = 2e9f;
+    const auto in_pixels = [=](float x, int pixels) {
+        const float near = std::isnan(x) ? 0.0f : std::clamp(x, -far_away, far_away);
+        return std::clamp(near * static_cast<float>(pixels), -farthest_pixel, farthest_pixel);
+    };
+    const Vec2 place(in_pixels(st.x, t.image->width), in_pixels(1 - st.y, t.image->height));
     if (t.nearest) {
-        return texel(t, floor_of(x + 0.5f), floor_of(y + 0.5f));
+        return texel(t, static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
     }
-    const int x0 = floor_of(x);
-    const int y0 = floor_of(y);
-    const float fx = x - std::floor(x);
-    const float fy = y - std::floor(y);
-    return (texel(t, x0, y0) * (1 - fx) + texel(t, x0 + 1, y0) * fx) * (1 - fy) +
-           (texel(t, x0, y0 + 1) * (1 - fx) + texel(t, x0 + 1, y0 + 1) * fx) * fy;
+    return bilinear(place, [&](int i, int j) { return texel(t, i, j); });
 }
 
 bool is_odd(float x) {

@@ -248,8 +248,7 @@ Filter load_filter(LoadContext& context, const pbrt::Entity& filter) {
             return Filter::mitchell(radius("xradius", 2), radius("yradius", 2), b, c);
         }
         if (filter.type == "sinc") {
-            context.warnings.add(filter.place, "PixelFilter \"sinc\" is not implemented: \"mitchell\" takes its place");
-            return Filter::mitchell();
+            return Filter::sinc(radius("xradius", 4), radius("yradius", 4), positive_float(p, "tau", 3));
         }
         refuse_type("PixelFilter", filter, {"box", "gaussian", "mitchell", "sinc", "triangle"});
     };

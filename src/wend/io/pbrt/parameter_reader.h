@@ -7,7 +7,7 @@
 
 namespace wend::pbrt {
 
-/// Told of each parameter that takes the place of an earlier one of its name.
+/// Called for each parameter that takes the place of an earlier one of its name.
 using OnRepeated = std::function<void(const Parameter& last, const Parameter& earlier)>;
 
 /// Reads the parameters of the directive at `directive`: any number of `"type name" value` and `"type name" [ values

@@ -14,7 +14,7 @@ namespace wend::pbrt {
 /// since throws InputError.
 class Version3 {
 public:
-    /// `warn` is told what was taken for what.
+    /// `warn` is called with what was taken for what.
     using Warn = std::function<void(const Location& place, const std::string& text)>;
     explicit Version3(Warn warn) : warn_(std::move(warn)) {}
 
