@@ -27,10 +27,10 @@ double mitchell(double x) {
                  : (-7.0 / 3 * x * x * x + 12 * x * x - 20 * x + 32.0 / 3) / 6;
 }
 
-/// Windowed over three lobes.
-double sinc(double x) {
+/// Windowed over tau lobes.
+double sinc(double x, double tau) {
     const double angle = x * std::numbers::pi;
-    return std::sin(angle) / angle * std::sin(angle / 3) / (angle / 3);
+    return std::sin(angle) / angle * std::sin(angle / tau) / (angle / tau);
 }
 
 std::vector<Case> cases() {
@@ -38,7 +38,8 @@ std::vector<Case> cases() {
     return {{"box", Filter::box(0.5f, 0.5f), 0.5f, [](double) { return 1.0; }},
             {"triangle", Filter::triangle(2, 2), 2, [](double x) { return 2 - std::abs(x); }},
             {"gaussian", Filter::gaussian(1.5f, 1.5f, 0.5f), 1.5f, gauss},
-            {"sinc", Filter::sinc(4, 4, 3), 4, sinc},
+            {"sinc", Filter::sinc(4, 4, 3), 4, [](double x) { return sinc(x, 3); }},
+            {"sinc_narrow", Filter::sinc(1.5f, 1.5f, 2), 1.5f, [](double x) { return sinc(x, 2); }},
             {"mitchell", Filter::mitchell(2, 2), 2, mitchell},
             {"mitchell_narrow", Filter::mitchell(1, 1), 1, [](double x) { return mitchell(2 * x); }}};
 }

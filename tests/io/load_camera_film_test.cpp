@@ -203,7 +203,6 @@ TEST(LoadFilter, WeightsAverageToOneWithinTheRadius) {
                           {"PixelFilter \"gaussian\" \"float xradius\" 1 \"float yradius\" 1", 1},
                           {"PixelFilter \"mitchell\"", 2},
                           {"PixelFilter \"sinc\"", 4},
-                          {"PixelFilter \"sinc\" \"float xradius\" 2 \"float yradius\" 2 \"float tau\" 2", 2},
                           {"", 1.5f}}) {
         const LoadedScene loaded = load_text("", c.text);
         float furthest = 0;
