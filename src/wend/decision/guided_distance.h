@@ -67,8 +67,8 @@ public:
 private:
     /// How far beams are to be trusted, wherever the flight begins: something may stand in them.
     static constexpr float trust_in_beams = 2.0f / 3;
-    /// So close to a lamp, in lengths of the segment, a flight begins at it.
-    static constexpr float at_lamp = 1e-4f;
+    /// So close to a lamp, in lengths of a flight, it begins at the lamp.
+    static constexpr float closest = 1e-4f;
     /// Of a flight, what cells on its way are told apart to.
     static constexpr float finest = 1.0f / 20;
 
@@ -84,7 +84,7 @@ private:
         const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
         medium.phase.visit([&](const auto& phase) {
-            look_for_beams(start, phase, pieces);
+            look_for_beams(start, phase, reach, pieces);
             confidence = is_trained ? look_along(start, phase, reach, pieces) : look_nowhere(start, pieces);
         });
         if (pieces.has_beam()) {
@@ -105,11 +105,13 @@ private:
     }
 
     template <class Phase>
-    void look_for_beams(const FlightStart& start, const Phase& phase, FlightPieces& pieces) const {
+    void look_for_beams(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
+        // A segment may be longer than any scene.
+        const float at_lamp = closest * std::min(start.length, reach);
         for (const Beam& beam : beams_) {
             const auto part = pieces.has_room_for_beam() ? crossing(beam, start.ray, start.length) : std::nullopt;
             // Away from the lamp itself its light grows without end.
-            const bool starts_at_lamp = length_squared(start.ray.origin - beam.position) < sqr(at_lamp * start.length);
+            const bool starts_at_lamp = length_squared(start.ray.origin - beam.position) < sqr(at_lamp);
             if (part && !starts_at_lamp) {
                 const Equiangular along(ClosestApproach(start.ray, beam.position, 0), part->t_in, part->t_out);
                 pieces.add_beam(along, beam.intensity * phase.evaluate(along.cosine()));
