@@ -1,6 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
 #include <wend/app/comparison_page.h>
+#include <wend/app/progress.h>
 #include <wend/app/reference.h>
 #include <wend/app/reference_render.h>
 #include <wend/app/report_folder.h>
@@ -62,7 +63,14 @@ Reference make_reference(const Session& session, const CompareOptions& options, 
         streams, fmt::format("{} beside the scene: rendering a reference, two halves of {:g} s each{}",
                              what_is_missing(scene.parent_path() / scene.stem()), reference_effort * options.seconds,
                              name.empty() ? " (--out keeps it)" : ", for --reference " + name.string() + " next time"));
-    return render_reference(session, options.seconds, name, options.common, streams);
+    std::optional<ProgressBar> bar;
+    return render_reference(session, options.seconds, name, [&](int half, const RenderProgress& progress) {
+        if (progress.seconds == 0) {
+            bar.emplace(streams.err, !options.common.quiet, fmt::format("reference {}/2", half + 1));
+        } else {
+            bar->update(progress);
+        }
+    });
 }
 
 void compare_scene(const CompareOptions& options, const Streams& streams) {
@@ -79,8 +87,8 @@ void compare_scene(const CompareOptions& options, const Streams& streams) {
     if (!reference) {
         reference = make_reference(session, options, streams);
     }
-    const auto rows =
-        compare_presets(session, ways, options.seconds, options.seeds, *reference, options.common, streams);
+    const auto rows = compare_presets(session, ways, options.seconds, options.seeds, *reference,
+                                      comparison_bars(options.seeds, options.common, streams));
     if (!options.folder.empty()) {
         write_comparison(options.folder, session, rows, *reference, options.seconds, options.seeds);
     }

@@ -50,7 +50,7 @@ void run_demo(const DemoOptions& options, const Streams& streams) {
                                              scene.file, options.seconds, options.seconds, seeds));
     const Preset guided = parse_preset("full");
     const auto rows = compare_presets(session, {WayOfSampling{}, WayOfSampling{guided, {}}}, options.seconds, seeds,
-                                      reference, options.common, streams);
+                                      reference, comparison_bars(seeds, options.common, streams));
     write_comparison(options.folder, session, rows, reference, options.seconds, seeds);
     if (options.common.json != "-") {
         streams.out << comparison_table(rows) << "\npictures and the page index.html are in " << options.folder << '\n'

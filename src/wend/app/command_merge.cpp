@@ -1,8 +1,7 @@
 #include <wend/app/commands.h>
-#include <wend/app/render_origin.h>
+#include <wend/app/merged_renders.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
-#include <wend/film/merge.h>
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
@@ -41,26 +40,6 @@ void require_no_other_render(const std::string& output, const RenderOrigins& ori
     }
 }
 
-/// Merges the inputs; whatever is wrong with one is told with its name.
-MergedPictures merge_inputs(const std::vector<std::string>& inputs, RenderOrigins& origins) {
-    std::size_t current = 0, known = 0;
-    const auto read = [&](std::size_t k) {
-        current = k;
-        Picture picture = read_picture(inputs[k]);
-        if (k == known) {
-            origins.add(render_origin(inputs[k], picture));
-            ++known;
-        }
-        return picture;
-    };
-    try {
-        return merge_pictures(inputs.size(), read);
-    } catch (const InputError& error) {
-        const std::string what = error.what();
-        throw what.starts_with(inputs[current]) ? error : InputError(Place{inputs[current]}, what);
-    }
-}
-
 void note_result(const MergeOptions& options, const Streams& streams, const RenderOrigins& origins,
                  const MergedPictures& merged) {
     for (const std::string& layer : merged.left_out) {
@@ -77,13 +56,13 @@ void note_result(const MergeOptions& options, const Streams& streams, const Rend
     }
 }
 
-void merge_renders(const MergeOptions& options, const Streams& streams) {
+void merge_files(const MergeOptions& options, const Streams& streams) {
     require_writable_picture(options.output);
     require_distinct(options.inputs, {options.output, options.common.json});
-    RenderOrigins origins;
-    MergedPictures merged = merge_inputs(options.inputs, origins);
+    const auto [merged, origins] = merge_renders(
+        options.inputs.size(), [&](std::size_t k) { return options.inputs[k]; },
+        [&](std::size_t k) { return read_picture(options.inputs[k]); });
     require_no_other_render(options.output, origins);
-    merged.picture.metadata = origins.metadata();
     write_picture(options.output, merged.picture);
     note_result(options, streams, origins, merged);
     options.common.write_json(streams, {{"inputs", options.inputs},
@@ -103,7 +82,7 @@ Action add_merge_command(CLI::App& program) {
         ->required()
         ->expected(2, CLI::detail::expected_max_vector_size);
     options->common.add_to(command);
-    return [options](const Streams& streams) { merge_renders(*options, streams); };
+    return [options](const Streams& streams) { merge_files(*options, streams); };
 }
 
 }  // namespace wend

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace wend {
@@ -20,17 +21,18 @@ struct Run {
     std::vector<Layer> walks;
     Metrics metrics;
     std::vector<float> errors;
+    std::vector<ConvergenceSeries::Point> points;
 };
 
-Run run_once(const Session& session, const RenderSettings& settings, const Reference& reference, ProgressBar& bar,
-             std::vector<ConvergenceSeries::Point>& points) {
+Run run_once(const Session& session, const RenderSettings& settings, const Reference& reference,
+             const std::function<void(const RenderProgress&)>& watch) {
     Film film = session.new_film();
     // Pictures on the way are kept at times that double, and measured when the clock has stopped.
     std::vector<std::pair<double, Image>> snapshots;
     double next_snapshot = 0;
     Run run;
     run.statistics = render(session.scene(), film, settings, [&](const RenderProgress& progress) {
-        bar.update(progress);
+        watch(progress);
         if (progress.seconds >= next_snapshot) {
             snapshots.emplace_back(progress.seconds, film.beauty());
             next_snapshot = progress.seconds * 2;
@@ -42,9 +44,9 @@ Run run_once(const Session& session, const RenderSettings& settings, const Refer
     run.metrics = measure(run.image, reference);
     run.errors = relative_squared_errors(run.image, reference);
     for (const auto& [seconds, image] : snapshots) {
-        points.push_back({seconds, measure(image, reference).relmse});
+        run.points.push_back({seconds, measure(image, reference).relmse});
     }
-    points.push_back({run.statistics.seconds, run.metrics.relmse});
+    run.points.push_back({run.statistics.seconds, run.metrics.relmse});
     return run;
 }
 
@@ -64,9 +66,20 @@ std::string to_string(const WayOfSampling& way) {
     return way.subsurface == SubsurfacePreset() ? name : name + "/" + to_string(way.subsurface);
 }
 
+ComparisonWatcher comparison_bars(int seeds, const CommonOptions& common, const Streams& streams) {
+    const auto bar = std::make_shared<std::optional<ProgressBar>>();
+    return [=](const WayOfSampling& way, int seed, const RenderProgress& progress) {
+        if (progress.seconds == 0) {
+            bar->emplace(streams.err, !common.quiet, fmt::format("{} {}/{}", to_string(way), seed + 1, seeds));
+        } else {
+            (*bar)->update(progress);
+        }
+    };
+}
+
 std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<WayOfSampling>& ways,
                                            double seconds, int seeds, const Reference& reference,
-                                           const CommonOptions& common, const Streams& streams) {
+                                           const ComparisonWatcher& watcher) {
     const Film film = session.new_film();
     if (reference.a.width != film.crop().width() || reference.a.height != film.crop().height()) {
         throw InputError(
@@ -74,7 +87,6 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
                         reference.a.width, reference.a.height, film.crop().width(), film.crop().height()));
     }
     std::vector<std::vector<Run>> runs(ways.size());
-    std::vector<std::vector<std::vector<ConvergenceSeries::Point>>> points(ways.size());
     for (int seed = 0; seed < seeds; ++seed) {
         for (std::size_t p = 0; p < ways.size(); ++p) {
             RenderSettings settings = session.settings();
@@ -82,9 +94,9 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
             settings.subsurface = ways[p].subsurface;
             settings.seconds = seconds;
             settings.seed += static_cast<std::uint64_t>(seed) + 1;
-            ProgressBar bar(streams.err, !common.quiet, fmt::format("{} {}/{}", to_string(ways[p]), seed + 1, seeds));
-            points[p].emplace_back();
-            runs[p].push_back(run_once(session, settings, reference, bar, points[p].back()));
+            watcher(ways[p], seed, {});
+            runs[p].push_back(run_once(session, settings, reference,
+                                       [&](const RenderProgress& progress) { watcher(ways[p], seed, progress); }));
         }
     }
     std::vector<ComparisonRow> rows;
@@ -107,7 +119,11 @@ std::vector<ComparisonRow> compare_presets(const Session& session, const std::ve
         row.image = std::move(run.image);
         row.walks = std::move(run.walks);
         row.kinds = run.statistics.kinds;
-        row.convergence = {to_string(ways[p]), points[p][median]};
+        row.convergence = {to_string(ways[p]), run.points};
+        for (Run& one : runs[p]) {
+            row.runs.push_back({static_cast<double>(one.statistics.samples), one.statistics.seconds, one.metrics,
+                                std::move(one.points)});
+        }
         rows.push_back(std::move(row));
     }
     const auto classical =

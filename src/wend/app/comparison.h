@@ -5,6 +5,7 @@
 #include <wend/app/session.h>
 #include <wend/film/metrics.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,14 @@ struct WayOfSampling {
 /// "full", or "full/dwivedi" where the subsurface sampling is not the default.
 std::string to_string(const WayOfSampling& way);
 
+/// One render of a comparison, in numbers.
+struct ComparisonRun {
+    double samples = 0;
+    double seconds = 0;
+    Metrics metrics;
+    std::vector<ConvergenceSeries::Point> points;  ///< on its way
+};
+
 /// One way of sampling: its median run over the seeds.
 struct ComparisonRow {
     WayOfSampling way;
@@ -34,13 +43,20 @@ struct ComparisonRow {
     std::vector<Layer> walks;  ///< Film::walk_layers()
     std::vector<WalkKindStatistics> kinds;
     ConvergenceSeries convergence;
+    std::vector<ComparisonRun> runs;  ///< in the order of the seeds
 };
+
+/// Is told of a render as it goes on, first at its start; may throw, which ends the comparison.
+using ComparisonWatcher = std::function<void(const WayOfSampling& way, int seed, const RenderProgress& progress)>;
+
+/// Shows the progress of a comparison by so many seeds as bars.
+ComparisonWatcher comparison_bars(int seeds, const CommonOptions& common, const Streams& streams);
 
 /// Renders the scene in every way for `seconds` each, ways taking turns, once a seed, and measures against the
 /// reference.
 std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<WayOfSampling>& ways,
                                            double seconds, int seeds, const Reference& reference,
-                                           const CommonOptions& common, const Streams& streams);
+                                           const ComparisonWatcher& watcher);
 
 /// How walks were guided: as JSON, the gain of each kind over the first one among it.
 nlohmann::json kinds_json(const std::vector<WalkKindStatistics>& kinds);

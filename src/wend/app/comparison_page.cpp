@@ -53,6 +53,10 @@ std::vector<WalkMap> walk_maps(const std::vector<ComparisonRow>& rows) {
         {"branches", {"Splitting", "branches a sample", common_scale(rows, "branches", Kind::logarithmic, 1.0f)}}};
 }
 
+Image error_map(const ComparisonRow& row, const Reference& reference) {
+    return false_colour(relative_squared_errors(row.image, reference), row.image.width, row.image.height, error_scale);
+}
+
 ReportRow report_row(const ComparisonRow& r) {
     return {to_string(r.way),         ablation_role(r.way.preset), r.samples,     r.seconds, r.metrics.relmse,
             r.metrics.relmse_trimmed, r.metrics.error_p9999,       r.metrics.mse, r.flip,    r.ratio};
@@ -60,8 +64,8 @@ ReportRow report_row(const ComparisonRow& r) {
 
 }  // namespace
 
-void write_comparison(const std::filesystem::path& folder, const Session& session,
-                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds) {
+std::string comparison_page(const Session& session, const std::vector<ComparisonRow>& rows, const Reference& reference,
+                            double seconds, int seeds) {
     const std::vector<WalkMap> walks = walk_maps(rows);
     Report report;
     report.scene = std::filesystem::path(session.scene_file()).filename().string();
@@ -77,14 +81,8 @@ void write_comparison(const std::filesystem::path& folder, const Session& sessio
     }
     report.pictures.push_back({"reference", "", png_bytes(reference.average()), {}});
     for (const ComparisonRow& r : rows) {
-        const std::string name = file_name(r.way);
         const int width = r.image.width, height = r.image.height;
-        const Image errors = false_colour(relative_squared_errors(r.image, reference), width, height, error_scale);
-        for (const auto& [file, image] : {std::pair{name, &r.image}, {name + "-error", &errors}}) {
-            write_picture(folder / (file + ".png"), {*image, {}, {}, {0, 0}, {width, height}});
-        }
-        write_picture(folder / (name + ".exr"), {r.image, r.walks, {}, {0, 0}, {width, height}});
-        std::vector<std::string> maps = {png_bytes(errors)};
+        std::vector<std::string> maps = {png_bytes(error_map(r, reference))};
         for (const WalkMap& map : walks) {
             maps.push_back(png_bytes(false_colour(values_of(r, map.layer), width, height, map.shown.scale)));
         }
@@ -97,7 +95,21 @@ void write_comparison(const std::filesystem::path& folder, const Session& sessio
     // The first way of sampling against the last; a lone one against the reference.
     report.left = rows.size() > 1 ? 1 : 0;
     report.right = rows.size();
-    write_atomically(folder / "index.html", report_page(report));
+    return report_page(report);
+}
+
+void write_comparison(const std::filesystem::path& folder, const Session& session,
+                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds) {
+    for (const ComparisonRow& r : rows) {
+        const std::string name = file_name(r.way);
+        const int width = r.image.width, height = r.image.height;
+        const Image errors = error_map(r, reference);
+        for (const auto& [file, image] : {std::pair{name, &r.image}, {name + "-error", &errors}}) {
+            write_picture(folder / (file + ".png"), {*image, {}, {}, {0, 0}, {width, height}});
+        }
+        write_picture(folder / (name + ".exr"), {r.image, r.walks, {}, {0, 0}, {width, height}});
+    }
+    write_atomically(folder / "index.html", comparison_page(session, rows, reference, seconds, seeds));
 }
 
 }  // namespace wend

@@ -5,6 +5,7 @@
 #include <wend/film/metrics.h>
 
 #include <filesystem>
+#include <functional>
 
 namespace wend {
 
@@ -12,8 +13,9 @@ namespace wend {
 inline constexpr int reference_effort = 8;
 
 /// Renders two independent halves with full guiding, for `reference_effort` times `seconds` each. Where `name` is not
-/// empty, it keeps them as the pair of that name.
+/// empty, it keeps them as the pair of that name. `watch` is told of each half, 0 or 1, as it goes on, first at its
+/// start; it may throw.
 Reference render_reference(const Session& session, double seconds, const std::filesystem::path& name,
-                           const CommonOptions& common, const Streams& streams);
+                           const std::function<void(int half, const RenderProgress& progress)>& watch);
 
 }  // namespace wend

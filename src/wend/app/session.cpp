@@ -2,6 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
+#include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -13,13 +14,13 @@
 namespace wend {
 namespace {
 
-LoadedScene load(const SceneOptions& options) {
+LoadedScene load(const SceneOptions& options, pbrt::Description description) {
     LoadOverrides overrides;
     if (!options.resolution.empty()) {
         const auto [width, height] = parse_resolution(options.resolution);
         overrides.resolution = Vec2i(width, height);
     }
-    return load_scene(options.file, overrides);
+    return load_scene(std::move(description), overrides);
 }
 
 SamplerKind parse_sampler(const std::string& name) {
@@ -73,19 +74,28 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, streams, load(options)) {
+    : Session(options, common, pbrt::parse_file(options.file), {}) {
+    for (const std::string& warning : warnings_) {
+        common.note(streams, warning);
+    }
 }
 
-Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams, LoadedScene loaded)
+Session::Session(const SceneOptions& options, const CommonOptions& common, pbrt::Description description,
+                 const std::string& changes)
+    : Session(options, common, load(options, std::move(description))) {
+    if (!changes.empty()) {
+        files_.push_back(stamp_of(changes, "changes"));
+    }
+}
+
+Session::Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded)
     : scene_file_(options.file),
       film_file_(loaded.film_file),
       resolution_(loaded.resolution),
       crop_(options.crop.empty() ? loaded.crop : parse_crop(options.crop, loaded.resolution)),
       files_(stamps_of(loaded.files, std::filesystem::path(options.file).parent_path())),
+      warnings_(std::move(loaded.warnings)),
       scene_(std::move(loaded.scene)) {
-    for (const std::string& warning : loaded.warnings) {
-        common.note(streams, warning);
-    }
     settings_.samples = loaded.samples;
     settings_.sampler = options.sampler.empty() ? loaded.sampler : parse_sampler(options.sampler);
     settings_.seed = common.seed.value_or(loaded.seed);

@@ -32,6 +32,10 @@ class Session {
 public:
     /// Loads the scene; warnings go to the notes. Throws InputError.
     Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams);
+    /// Of a scene that has been parsed, and perhaps changed. `changes` says in which way: it tells the scene from that
+    /// of the files; empty: in none. Throws InputError.
+    Session(const SceneOptions& options, const CommonOptions& common, pbrt::Description description,
+            const std::string& changes);
 
     const Scene& scene() const { return scene_; }
     const RenderSettings& settings() const { return settings_; }
@@ -39,8 +43,10 @@ public:
     const std::string& film_file() const { return film_file_; }
     const std::string& scene_file() const { return scene_file_; }
     const Vec2i& resolution() const { return resolution_; }
-    /// Of all the files that the scene consists of.
+    /// Of all the files that the scene consists of, and of what was changed.
     const std::vector<FileStamp>& files() const { return files_; }
+    /// LoadedScene::warnings.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// The settings as JSON, as the "settings" key of results has them.
     nlohmann::json describe(const RenderSettings& settings) const;
@@ -48,13 +54,14 @@ public:
     Picture picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const;
 
 private:
-    Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams, LoadedScene loaded);
+    Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded);
 
     std::string scene_file_;
     std::string film_file_;
     Vec2i resolution_;
     PixelRect crop_;
     std::vector<FileStamp> files_;
+    std::vector<std::string> warnings_;
     RenderSettings settings_;
     Scene scene_;
 };

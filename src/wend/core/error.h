@@ -21,7 +21,13 @@ class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message) : std::runtime_error(message) {}
     InputError(const Place& place, const std::string& message)
-        : std::runtime_error(to_string(place) + ": error: " + message) {}
+        : std::runtime_error(to_string(place) + ": error: " + message), place_(place) {}
+
+    /// Where it is, as far as is known.
+    const Place& place() const { return place_; }
+
+private:
+    Place place_;
 };
 
 }  // namespace wend

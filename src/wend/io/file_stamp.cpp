@@ -11,7 +11,7 @@
 namespace wend {
 namespace {
 
-FileStamp stamp_of(const std::filesystem::path& file, const std::filesystem::path& folder) {
+FileStamp read_stamp(const std::filesystem::path& file, const std::filesystem::path& folder) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
@@ -35,9 +35,14 @@ FileStamp stamp_of(const std::filesystem::path& file, const std::filesystem::pat
 std::vector<FileStamp> stamps_of(std::span<const std::filesystem::path> files, const std::filesystem::path& folder) {
     std::vector<FileStamp> stamps;
     for (const std::filesystem::path& file : files) {
-        stamps.push_back(stamp_of(file, folder));
+        stamps.push_back(read_stamp(file, folder));
     }
     return stamps;
+}
+
+FileStamp stamp_of(const std::string& text, const std::string& name) {
+    const uLong checksum = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(text.data()), text.size());
+    return {name, text.size(), static_cast<std::uint32_t>(checksum)};
 }
 
 std::string digest_of(std::span<const FileStamp> stamps) {

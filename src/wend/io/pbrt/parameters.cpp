@@ -339,11 +339,16 @@ std::vector<const Parameter*> ParameterSet::unused() const {
     return found;
 }
 
-std::vector<const Parameter*> ParameterSet::all() const {
+std::vector<const Parameter*> ParameterSet::own() const {
     std::vector<const Parameter*> found;
     for (const auto& parameter : own_) {
         found.push_back(parameter.get());
     }
+    return found;
+}
+
+std::vector<const Parameter*> ParameterSet::all() const {
+    std::vector<const Parameter*> found = own();
     if (defaults_) {
         for (const auto& parameter : defaults_->own_) {
             if (find(parameter->name) == parameter) {

@@ -81,6 +81,9 @@ public:
     /// they are meant for some directives and not for others.
     std::vector<const Parameter*> unused() const;
 
+    /// The directive's own, in the order of the file.
+    std::vector<const Parameter*> own() const;
+
     /// Own parameters and then defaults that are not overridden.
     std::vector<const Parameter*> all() const;
 

@@ -1,0 +1,85 @@
+"""The one-dimensional laboratory: half-spaces and slabs, where the exact answer is known."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from . import _wend
+from ._table import Table
+
+#: Names of the samplers.
+samplers: list[str] = list(_wend.planar_samplers)
+
+
+def halfspace(**parameters: Any) -> Table:
+    """Walks in an endlessly deep medium under a uniform sky of radiance 1, against the exact answer.
+
+    Every parameter takes one value, or an array or list of values: all combinations are run, one row each. A tuple of
+    three numbers is one value: a chromatic medium.
+
+    Args:
+        albedo: share of collisions that scatter, 0 to 1 (0.8).
+        extinction: collisions per length of each channel, relative to the first (1).
+        g: mean cosine of the scattering angle, -0.95 to 0.95 (0).
+        ior: refractive index, inside over outside, 1 to 3 (1).
+        roughness: alpha of the GGX boundary (0).
+        mu0: cosine to the normal at which walks enter (1).
+        incidence: "normal" or "diffuse", in place of mu0.
+        sampler: one of `wend.samplers` ("classical"); stretch, first_flight, exponentials, moments, modes and
+            guide_albedo are options of some.
+        window: "none", "adjoint" or "weight": what ends walks early or splits them.
+        walks: how many (1e5).
+        seed: of the random numbers (0).
+        threads: 0: all.
+
+    Returns:
+        A table: what was varied, then `mean`, `std_error`, `variance` of one walk, `exact`, `collisions_per_walk`,
+        `seconds` and `fom`, the figure of merit in 1/s.
+
+    Raises:
+        InputError: for values out of their ranges, with the range.
+    """
+    return _run(parameters, slab=False)
+
+
+def slab(**parameters: Any) -> Table:
+    """Walks through a layer lit by a uniform sky from one side.
+
+    Args:
+        thickness: in mean free paths; required.
+        tally: "reflectance" or "transmittance".
+
+    The others, and what comes back, are those of `halfspace`.
+    """
+    return _run(parameters, slab=True)
+
+
+_RESULTS = ("mean", "std_error", "variance", "exact", "collisions_per_walk", "seconds", "fom")
+
+
+def _choices(value: Any) -> list[Any]:
+    if isinstance(value, (str, tuple)) or not isinstance(value, (Iterable, np.ndarray)):
+        return [value]
+    return list(value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ",".join(map(_text, value))
+    return value if isinstance(value, str) else repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+
+
+def _run(parameters: dict[str, Any], slab: bool) -> Table:
+    rows = []
+    choices = {name: _choices(value) for name, value in parameters.items()}
+    for values in itertools.product(*choices.values()):
+        varied = dict(zip(choices, values))
+        options = [part for name, value in varied.items() for part in ("--" + name.replace("_", "-"), _text(value))]
+        found = json.loads(_wend.run_experiment(options, slab))
+        rows.append(varied | {"sampler": found["sampler"]} | {name: found[name] for name in _RESULTS})
+    return Table.of(rows)

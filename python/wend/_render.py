@@ -1,0 +1,195 @@
+"""Rendering: in one call, or step by step."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from typing import Any
+
+from . import _wend
+from ._errors import InputError
+from ._film import Film
+from ._progress import Bar
+from ._scene import Scene, load
+from .guide import Fields
+
+#: Seconds between looks at the keyboard.
+_STEP = 0.2
+
+
+class Render:
+    """A render that is stepped, looked at, saved and resumed.
+
+    The picture does not depend on how it is stepped, nor on the number of threads, unless time ends it.
+
+    Args:
+        scene: what to render.
+        spp: samples per pixel; None: the scene's.
+        time: seconds to spend, training included, in place of `spp`.
+        noise: end where the estimated relative noise of the picture is this, such as 0.02.
+        passes: repeat these passes of an earlier render (its `statistics["passes"]`).
+        sampling: "classical"; "full", whatever pays, where it pays; or decisions to guide everywhere, joined by "+":
+            scatter, distance, direction, roulette, splitting.
+        subsurface: walks inside dense media: "auto", "classical" or the name of a technique.
+        fields: what an earlier render of the scene learned.
+        seed: of the random numbers; None: the scene's.
+        threads: 0: all.
+        keep_fields: whether `fields` is wanted at the end: then the last pass teaches them, too.
+
+    Raises:
+        InputError: for a value that there is not.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        spp: int | None = None,
+        time: float | None = None,
+        noise: float | None = None,
+        passes: list[int] | None = None,
+        sampling: str = "full",
+        subsurface: str = "auto",
+        fields: Fields | None = None,
+        seed: int | None = None,
+        threads: int = 0,
+        keep_fields: bool = True,
+    ) -> None:
+        if sum(x is not None for x in (spp, time, passes)) > 1:
+            raise InputError("give one of spp, time and passes")
+        for name, value in (("spp", spp), ("time", time), ("noise", noise)):
+            if value is not None and not (value > 0 and math.isfinite(value)):
+                raise InputError(f"{name}: expected a positive number, not {value}")
+        self._scene = scene
+        self._native = _wend.Render(
+            scene._native,
+            int(spp or 0),
+            float(time or 0),
+            float(noise or 0),
+            passes or [],
+            sampling,
+            subsurface,
+            None if fields is None else fields._native,
+            keep_fields and sampling != "classical",
+            seed,
+            threads,
+        )
+        self._ended = False
+
+    @property
+    def scene(self) -> Scene:
+        """What is rendered."""
+        return self._scene
+
+    def step(self, seconds: float = math.inf) -> bool:
+        """Go on for about so many seconds, or to the end of a pass if that comes first.
+
+        Returns:
+            Whether there is more to do. Other Python threads run meanwhile.
+        """
+        self._ended = not self._native.step(seconds)
+        return not self._ended
+
+    def passes(self) -> Iterator[Film]:
+        """Go on pass by pass, giving the film after each one. A pass has twice the samples of the one before, up to
+        32; what was learned in it guides the next."""
+        while not self._ended:
+            self._to_end_of_pass()
+            yield self.film
+
+    def run(self, *, progress: bool = False) -> Film:
+        """Go on to the end, where Ctrl-C stops within a second: the render can be gone on with.
+
+        Args:
+            progress: show a bar (tqdm).
+        """
+        bar = Bar(os.path.basename(self._scene.file), progress)
+        try:
+            while not self._ended:
+                self.step(_STEP)
+                state = self._native.progress()
+                bar.update(state["fraction"], f"{state['spp']} spp, noise {100 * state['relative_noise']:.1f} %")
+        finally:
+            bar.close()
+        return self.film
+
+    def stop(self) -> None:
+        """Let a step that is under way in another thread end within a second; `resume_stepping` undoes it."""
+        self._native.set_stop(True)
+
+    def resume_stepping(self) -> None:
+        """Undo `stop`: the next step goes on."""
+        self._native.set_stop(False)
+
+    @property
+    def film(self) -> Film:
+        """The picture so far, a copy: all samples that have ended."""
+        return Film(self._native.picture(), self.statistics)
+
+    @property
+    def progress(self) -> dict[str, float]:
+        """`fraction` of the whole, `seconds` so far, `seconds_left`, `spp` and `relative_noise`."""
+        return self._native.progress()
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """What it did so far: `spp`, `seconds`, `training_seconds`, `paths`, `segments`, `passes`, `guiding`."""
+        return self._native.statistics()
+
+    @property
+    def fields(self) -> Fields | None:
+        """What was learned, a copy; None for classical sampling."""
+        native = self._native.fields()
+        return None if native is None else Fields._of(native)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a checkpoint: all that is needed to go on, the film included. `wend render --resume` takes it, too."""
+        self._native.save(os.fspath(path))
+
+    def resume(self, path: str | os.PathLike[str]) -> None:
+        """Go on from a checkpoint; before the first step.
+
+        Raises:
+            InputError: for a checkpoint of another scene or other settings, naming what differs.
+        """
+        self._native.resume(os.fspath(path))
+
+    def _to_end_of_pass(self) -> None:
+        while self.step(_STEP) and self._native.is_within_pass and not self._native.is_stopped:
+            pass
+
+
+def render(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    spp: int | None = None,
+    time: float | None = None,
+    noise: float | None = None,
+    passes: list[int] | None = None,
+    sampling: str = "full",
+    subsurface: str = "auto",
+    fields: Fields | None = None,
+    seed: int | None = None,
+    threads: int = 0,
+    progress: bool = True,
+) -> Film:
+    """Render a scene, or a scene file. The arguments are those of `Render`; `progress` shows a bar (tqdm).
+
+    The same scene, samples and seed give the same bits as `wend render`, by any number of threads.
+    """
+    if not isinstance(scene, Scene):
+        scene = load(scene)
+    return Render(
+        scene,
+        spp=spp,
+        time=time,
+        noise=noise,
+        passes=passes,
+        sampling=sampling,
+        subsurface=subsurface,
+        fields=fields,
+        seed=seed,
+        threads=threads,
+        keep_fields=False,
+    ).run(progress=progress)

@@ -1,0 +1,29 @@
+#include <wend/app/merged_renders.h>
+#include <wend/core/error.h>
+
+namespace wend {
+
+MergedRenders merge_renders(std::size_t count, const std::function<std::string(std::size_t)>& name,
+                            const std::function<Picture(std::size_t)>& read) {
+    MergedRenders result;
+    std::size_t current = 0, known = 0;
+    const auto read_once_more = [&](std::size_t k) {
+        current = k;
+        Picture picture = read(k);
+        if (k == known) {
+            result.origins.add(render_origin(name(k), picture));
+            ++known;
+        }
+        return picture;
+    };
+    try {
+        result.merged = merge_pictures(count, read_once_more);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        throw what.starts_with(name(current)) ? error : InputError(Place{name(current)}, what);
+    }
+    result.merged.picture.metadata = result.origins.metadata();
+    return result;
+}
+
+}  // namespace wend
