@@ -11,7 +11,7 @@
 namespace wend::python {
 namespace {
 
-using Watcher = nb::callable;
+using Watcher = nb::typed<nb::callable, void(std::string, int, double, double)>;
 
 /// A comparison and what it was judged by.
 class PythonComparison {
@@ -24,14 +24,16 @@ public:
           reference_(std::move(reference)),
           rows_(std::move(rows)) {}
 
-    nb::object rows() const { return nb::module_::import_("json").attr("loads")(comparison_json(rows_).dump()); }
+    Rows rows() const {
+        return nb::cast<Rows>(nb::module_::import_("json").attr("loads")(comparison_json(rows_).dump()));
+    }
 
-    nb::list runs() const {
-        nb::list all;
+    Rows runs() const {
+        Rows all;
         for (const ComparisonRow& row : rows_) {
             for (std::size_t seed = 0; seed < row.runs.size(); ++seed) {
                 const ComparisonRun& run = row.runs[seed];
-                nb::dict one;
+                Values one;
                 one["sampling"] = to_string(row.way);
                 one["seed"] = seed;
                 one["spp"] = run.samples;
@@ -46,12 +48,12 @@ public:
         return all;
     }
 
-    nb::list curves() const {
-        nb::list all;
+    Rows curves() const {
+        Rows all;
         for (const ComparisonRow& row : rows_) {
             for (std::size_t seed = 0; seed < row.runs.size(); ++seed) {
                 for (const ConvergenceSeries::Point& point : row.runs[seed].points) {
-                    nb::dict one;
+                    Values one;
                     one["sampling"] = to_string(row.way);
                     one["seed"] = seed;
                     one["seconds"] = point.seconds;
@@ -65,7 +67,7 @@ public:
 
     std::string table() const { return comparison_table(rows_); }
     std::string page() const { return comparison_page(scene_->session(), rows_, reference_, seconds_, seeds_); }
-    void save(const std::filesystem::path& folder) const {
+    void save(const std::string& folder) const {
         const nb::gil_scoped_release release;
         make_report_folder(folder);
         write_comparison(folder, scene_->session(), rows_, reference_, seconds_, seeds_);

@@ -247,8 +247,8 @@ FieldPointer empty_field(const std::tuple<float, float, float>& min, const std::
     return std::make_shared<const Field>(Field::empty(Box3(vector_of(min), vector_of(max))));
 }
 
-nb::tuple fit(const Field& field, const RecordRows& rows, int lobes, double leaf_samples, int max_depth,
-              std::size_t max_bytes, double decay, int threads) {
+std::pair<FieldPointer, Values> fit(const Field& field, const RecordRows& rows, int lobes, double leaf_samples,
+                                    int max_depth, std::size_t max_bytes, double decay, int threads) {
     const std::span records(reinterpret_cast<const guide::Record*>(rows.data()), rows.shape(0));
     guide::FitSettings settings;
     settings.lobes = lobes;
@@ -261,14 +261,14 @@ nb::tuple fit(const Field& field, const RecordRows& rows, int lobes, double leaf
         const nb::gil_scoped_release release;
         result = guide::fit(field, records, settings, threads);
     }
-    nb::dict report;
+    Values report;
     report["records"] = result->report.records;
     report["ignored"] = result->report.ignored;
     report["dark"] = result->report.dark;
     report["cells"] = result->report.cells;
     report["bytes"] = result->report.bytes;
     report["memory_limited"] = result->report.memory_limited;
-    return nb::make_tuple(std::make_shared<const Field>(std::move(result->field)), report);
+    return {std::make_shared<const Field>(std::move(result->field)), report};
 }
 
 /// Boxes (two corners each), fluence, number of lobes, classical share and records, by cell.
@@ -447,14 +447,14 @@ void bind_fields(nb::module_& module) {
         .def_prop_ro("volume", [](const Fields& f) { return std::make_shared<const Field>(f.volume); })
         .def(
             "save",
-            [](const Fields& fields, const std::filesystem::path& file) {
+            [](const Fields& fields, const std::string& file) {
                 const nb::gil_scoped_release release;
                 write_fields(file, fields);
             },
             nb::arg("file"))
         .def_static(
             "load",
-            [](const std::filesystem::path& file) {
+            [](const std::string& file) {
                 const nb::gil_scoped_release release;
                 return std::make_shared<Fields>(read_fields(file));
             },

@@ -34,7 +34,7 @@ std::string run_experiment(std::vector<std::string> options, bool slab) {
 
 void bind_laboratory(nb::module_& module) {
     module.def("run_experiment", &run_experiment, nb::arg("options"), nb::arg("slab"));
-    module.attr("planar_samplers") = planar_samplers();
+    module.def("planar_samplers", &planar_samplers);
 }
 
 }  // namespace wend::python

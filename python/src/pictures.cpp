@@ -50,7 +50,7 @@ Picture picture_of(const Pixels& pixels) {
     return {std::move(image), {}, {}, {0, 0}, size};
 }
 
-nb::dict metrics_of(const Pixels& pixels, const Pixels& a, const Pixels& b) {
+Values metrics_of(const Pixels& pixels, const Pixels& a, const Pixels& b) {
     const Image image = to_image(pixels);
     const Reference reference{to_image(a), to_image(b)};
     Metrics m;
@@ -60,7 +60,7 @@ nb::dict metrics_of(const Pixels& pixels, const Pixels& a, const Pixels& b) {
         m = measure(image, reference);
         difference = flip(image, reference.average()).mean;
     }
-    nb::dict result;
+    Values result;
     result["relmse"] = m.relmse;
     result["relmse_std_error"] = m.relmse_std_error;
     result["relmse_trimmed"] = m.relmse_trimmed;
@@ -73,14 +73,14 @@ nb::dict metrics_of(const Pixels& pixels, const Pixels& a, const Pixels& b) {
 
 /// Joins renders, files or in memory; the picture, each one's share and the layers left out.
 std::tuple<Picture, std::vector<double>, std::vector<std::string>> merge(
-    const std::vector<std::variant<std::filesystem::path, const Picture*>>& renders) {
+    const std::vector<std::variant<std::string, const Picture*>>& renders) {
     const nb::gil_scoped_release release;
     const auto name = [&](std::size_t k) {
-        const auto* file = std::get_if<std::filesystem::path>(&renders[k]);
-        return file ? file->string() : "film " + std::to_string(k);
+        const auto* file = std::get_if<std::string>(&renders[k]);
+        return file ? *file : "film " + std::to_string(k);
     };
     const auto read = [&](std::size_t k) {
-        const auto* file = std::get_if<std::filesystem::path>(&renders[k]);
+        const auto* file = std::get_if<std::string>(&renders[k]);
         return file ? read_picture(*file) : *std::get<const Picture*>(renders[k]);
     };
     MergedRenders joined = merge_renders(renders.size(), name, read);
@@ -99,7 +99,7 @@ void bind_pictures(nb::module_& module) {
         .def_prop_ro("full_size", [](const Picture& p) { return std::pair(p.full_size.x, p.full_size.y); })
         .def(
             "save",
-            [](const Picture& picture, const std::filesystem::path& file, bool half) {
+            [](const Picture& picture, const std::string& file, bool half) {
                 const nb::gil_scoped_release release;
                 if (half) {
                     require_exr_extension(file);
@@ -117,14 +117,14 @@ void bind_pictures(nb::module_& module) {
     module.def("picture_of", &picture_of, nb::arg("image"), "A picture of colours alone.");
     module.def(
         "read_picture",
-        [](const std::filesystem::path& file) {
+        [](const std::string& file) {
             const nb::gil_scoped_release release;
             return read_picture(file);
         },
         nb::arg("file"));
     module.def(
         "read_image",
-        [](const std::filesystem::path& file) {
+        [](const std::string& file) {
             const nb::gil_scoped_release release;
             Image image = read_image(file);
             const Vec2i size(image.width, image.height);

@@ -62,9 +62,9 @@ public:
     }
     void set_stop(bool stop) { stop_ = stop; }
 
-    nb::dict progress() {
+    Values progress() {
         const RenderProgress p = locked([&] { return render_->progress(); });
-        nb::dict result;
+        Values result;
         result["fraction"] = p.fraction;
         result["seconds"] = p.seconds;
         result["seconds_left"] = p.seconds_left;
@@ -73,9 +73,9 @@ public:
         return result;
     }
 
-    nb::dict statistics() {
+    Values statistics() {
         const RenderStatistics s = locked([&] { return render_->statistics(); });
-        nb::dict result;
+        Values result;
         result["spp"] = s.samples;
         result["seconds"] = s.seconds;
         result["training_seconds"] = s.training_seconds;
@@ -98,10 +98,10 @@ public:
         return learned ? std::make_shared<guide::Fields>(*learned) : nullptr;
     }
 
-    void save(const std::filesystem::path& file) {
+    void save(const std::string& file) {
         locked([&] { save_checkpoint(file, *render_, scene_->session(), settings_); });
     }
-    void resume(const std::filesystem::path& file) {
+    void resume(const std::string& file) {
         locked([&] { resume_from(file, *render_, scene_->session(), settings_); });
     }
     std::shared_ptr<PythonScene> scene() const { return scene_; }

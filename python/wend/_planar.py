@@ -13,7 +13,7 @@ from . import _wend
 from ._table import Table
 
 #: Names of the samplers.
-samplers: list[str] = list(_wend.planar_samplers)
+samplers: list[str] = _wend.planar_samplers()
 
 
 def halfspace(**parameters: Any) -> Table:

@@ -94,7 +94,7 @@ class Render:
     def passes(self) -> Iterator[Film]:
         """Go on pass by pass, giving the film after each one. A pass has twice the samples of the one before, up to
         32; what was learned in it guides the next."""
-        while not self._ended:
+        while not self._ended and not self._native.is_stopped:
             self._to_end_of_pass()
             yield self.film
 
@@ -106,7 +106,7 @@ class Render:
         """
         bar = Bar(os.path.basename(self._scene.file), progress)
         try:
-            while not self._ended:
+            while not self._ended and not self._native.is_stopped:
                 self.step(_STEP)
                 state = self._native.progress()
                 bar.update(state["fraction"], f"{state['spp']} spp, noise {100 * state['relative_noise']:.1f} %")
@@ -115,12 +115,9 @@ class Render:
         return self.film
 
     def stop(self) -> None:
-        """Let a step that is under way in another thread end within a second; `resume_stepping` undoes it."""
+        """Let what is under way in another thread, `step`, `run` or `passes`, end within a second, and do nothing from
+        then on."""
         self._native.set_stop(True)
-
-    def resume_stepping(self) -> None:
-        """Undo `stop`: the next step goes on."""
-        self._native.set_stop(False)
 
     @property
     def film(self) -> Film:

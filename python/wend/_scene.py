@@ -169,10 +169,9 @@ def _change(name: str, value: Any, kind: str | None) -> tuple[str, str, list[flo
         explicit = True
     else:
         explicit = False
-    if isinstance(value, str):
-        return name, kind if kind in _TEXT_TYPES else "string", [value]
-    if isinstance(value, Sequence) and value and all(isinstance(item, str) for item in value):
-        return name, kind if kind in _TEXT_TYPES else "string", list(value)
+    texts = [value] if isinstance(value, str) else value
+    if isinstance(texts, Sequence) and texts and all(isinstance(text, str) for text in texts):
+        return name, kind if kind and (explicit or kind in _TEXT_TYPES) else "string", list(texts)
     try:
         numbers = [float(x) for x in np.asarray(value, dtype=np.float64).reshape(-1)]
     except (TypeError, ValueError):

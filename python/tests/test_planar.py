@@ -1,0 +1,36 @@
+import numpy as np
+import pytest
+import wend
+
+
+def test_all_combinations_against_the_exact_answer():
+    table = wend.halfspace(albedo=[0.5, 0.9], sampler=["classical", "modes"], walks=20000)
+    assert len(table["mean"]) == 4 and list(table["albedo"]) == [0.5, 0.5, 0.9, 0.9]
+    assert np.all(np.abs(table["mean"] - table["exact"]) < 4.5 * table["std_error"] + 1e-9)
+    assert table["variance"][1] < 1e-4 * table["variance"][0]
+    assert "albedo" in repr(table) and "<table>" in table._repr_html_()
+    assert table.rows[0]["sampler"] == "classical"
+
+
+def test_a_slab_wants_a_thickness():
+    table = wend.slab(thickness=np.array([1.0, 2.0]), tally="transmittance", walks=20000, seed=3)
+    assert np.all(np.abs(table["mean"] - table["exact"]) < 4.5 * table["std_error"])
+    with pytest.raises(wend.InputError, match="thickness"):
+        wend.slab(albedo=0.5)
+
+
+def test_colours_are_tuples():
+    table = wend.halfspace(albedo=(0.9, 0.8, 0.7), walks=2000)
+    assert len(table["mean"]) == 1 and len(table["mean"][0]) == 3
+
+
+@pytest.mark.parametrize("wrong", [{"albedo": 2}, {"sampler": "magic"}, {"nothing": 1}, {"walks": 0}, {"g": "x"}])
+def test_values_are_checked(wrong):
+    with pytest.raises(wend.InputError):
+        wend.halfspace(**wrong)
+
+
+def test_tables_become_dataframes():
+    pandas = pytest.importorskip("pandas")
+    frame = wend.halfspace(albedo=[0.5, 0.9], walks=1000).dataframe()
+    assert isinstance(frame, pandas.DataFrame) and list(frame["albedo"]) == [0.5, 0.9]

@@ -1,0 +1,196 @@
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+import wend
+
+from conftest import SCENES
+
+
+def same(a: wend.Film, b: wend.Film) -> bool:
+    return set(a) == set(b) and all(np.array_equal(a[name], b[name]) for name in a)
+
+
+def test_the_same_bits_as_the_program(program, tmp_path):
+    scene = SCENES / "demo.pbrt"
+    for sampling in ("classical", "full"):
+        file = tmp_path / f"{sampling}.exr"
+        options = ["--spp", "7", "--resolution", "32x18", "--sampling", sampling, "--seed", "3", "--quiet"]
+        subprocess.run([program, "render", scene, *options, "-o", file], check=True)
+        film = wend.render(
+            wend.load(scene, resolution=(32, 18)), spp=7, sampling=sampling, seed=3, progress=False
+        )
+        written = wend.read(file)
+        assert same(film, written)
+        assert film.metadata == written.metadata
+
+
+def test_a_furnace_is_white(furnace):
+    for sampling in ("classical", "full", "distance+direction"):
+        film = wend.render(furnace, spp=64, sampling=sampling, progress=False)
+        # The mean of 64 pixels; each one's variance is on the film.
+        error = float(np.sqrt(film["variance"].mean(axis=2).sum())) / 64
+        assert float(film.image.mean()) == pytest.approx(1, abs=4 * error + 1e-4)
+
+
+def test_a_film_is_arrays(demo):
+    film = wend.render(demo, spp=3, progress=False)
+    assert film.image.shape == (18, 32, 3) and film.image.dtype == np.float32
+    assert film["variance"].shape == (18, 32, 3) and film["depth"].shape == (18, 32)
+    assert np.shares_memory(film.image, film.image)
+    assert "albedo" in film and "nothing" not in film
+    with pytest.raises(KeyError, match="albedo"):
+        film["nothing"]
+    assert np.array_equal(np.asarray(film), film.image)
+    assert film._repr_png_().startswith(b"\x89PNG")
+    assert film.statistics["spp"] == 3 and film.statistics["passes"] == [1, 2]
+
+
+def test_saving_and_reading(demo, tmp_path):
+    film = wend.render(demo, spp=2, progress=False)
+    film.save(tmp_path / "a.exr")
+    assert same(film, wend.read(tmp_path / "a.exr"))
+    film.save(tmp_path / "a.png")
+    assert wend.read(tmp_path / "a.png").image.shape == film.image.shape
+    film.save(tmp_path / "half.exr", half=True)
+    with pytest.raises(wend.InputError):
+        film.save(tmp_path / "a.txt")
+    with pytest.raises(wend.InputError):
+        wend.read(tmp_path / "missing.exr")
+
+
+def test_steps_passes_and_the_whole_agree(demo):
+    whole = wend.render(demo, spp=15, progress=False)
+    render = wend.Render(demo, spp=15)
+    spp = [film.statistics["spp"] for film in render.passes()]
+    assert spp == [1, 3, 7, 15]
+    assert same(whole, render.film)
+    again = wend.Render(demo, spp=15)
+    while again.step(0.001):
+        assert 0 <= again.progress["fraction"] <= 1
+    assert same(whole, again.film)
+
+
+def test_threads_do_not_matter(demo):
+    assert same(
+        wend.render(demo, spp=7, threads=1, progress=False), wend.render(demo, spp=7, threads=2, progress=False)
+    )
+
+
+def test_saved_and_resumed(demo, tmp_path):
+    whole = wend.render(demo, spp=15, progress=False)
+    first = wend.Render(demo, spp=15, keep_fields=False)
+    first.step()
+    first.step(0.001)
+    first.save(tmp_path / "checkpoint")
+    second = wend.Render(demo, spp=15, keep_fields=False)
+    second.resume(tmp_path / "checkpoint")
+    assert same(whole, second.run())
+    other = wend.Render(demo, spp=15, seed=99)
+    with pytest.raises(wend.InputError, match="seed"):
+        other.resume(tmp_path / "checkpoint")
+
+
+def test_fields_carry_over(demo, tmp_path):
+    render = wend.Render(demo, spp=15)
+    render.run()
+    fields = render.fields
+    assert fields.surface.is_trained and len(fields.volume) > 0
+    fields.save(tmp_path / "field")
+    loaded = wend.guide.Fields.load(tmp_path / "field")
+    assert loaded.volume.to_bytes() == fields.volume.to_bytes()
+    film = wend.render(demo, spp=4, fields=loaded, progress=False)
+    assert np.isfinite(film.image).all()
+    assert wend.Render(demo, spp=1, sampling="classical").fields is None
+    with pytest.raises(wend.InputError, match="classical"):
+        wend.Render(demo, sampling="classical", fields=loaded)
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"spp": 1, "time": 1}, "one of"),
+        ({"spp": -1}, "positive"),
+        ({"time": float("nan")}, "positive"),
+        ({"sampling": "magic"}, "magic"),
+        ({"subsurface": "magic"}, "magic"),
+    ],
+)
+def test_arguments_are_checked(demo, options, message):
+    with pytest.raises(wend.InputError, match=message):
+        wend.Render(demo, **options)
+
+
+def test_another_thread_may_stop_it(demo):
+    render = wend.Render(demo, spp=1 << 20)
+    worker = threading.Thread(target=render.run)
+    worker.start()
+    time.sleep(0.3)
+    render.stop()
+    # `run` looks whether it was stopped.
+    worker.join(timeout=30)
+    assert not worker.is_alive()
+    assert render.film.statistics["spp"] < 1 << 20
+
+
+def test_control_c_ends_it(tmp_path):
+    code = (
+        "import wend\n"
+        "scene = wend.load(wend.demo_scene(), resolution=(32, 18))\n"
+        "print('go', flush=True)\n"
+        "try:\n"
+        "    wend.render(scene, spp=1 << 20, progress=False)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted')\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "go\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert out == "interrupted\n"
+
+
+def test_merging(demo):
+    films = [wend.render(demo, spp=8, seed=seed, progress=False) for seed in (1, 2, 3)]
+    merged = wend.merge(films)
+    assert sum(merged.statistics["shares"]) == pytest.approx(1)
+    assert merged["variance"].mean() < films[0]["variance"].mean()
+    with pytest.raises(wend.InputError, match="seed"):
+        wend.merge([films[0], films[0]])
+    with pytest.raises(wend.InputError, match="two"):
+        wend.merge(films[:1])
+
+
+def test_metrics():
+    reference = np.full((20, 30, 3), 2.0, dtype=np.float32)
+    measured = wend.metric(reference * 1.1, reference)
+    assert measured["mse"] == pytest.approx(0.04, rel=1e-4)
+    assert measured["relmse"] == pytest.approx(0.04 / (4 + 0.01 * 4), rel=1e-4)
+    assert wend.metric(reference, (reference, reference))["flip"] == 0
+    with pytest.raises(wend.InputError, match="size|20|30"):
+        wend.metric(reference[:10], reference)
+    with pytest.raises(wend.InputError, match="shape"):
+        wend.metric(np.zeros(5), reference)
+
+
+def test_comparing(demo, tmp_path):
+    reference = wend.render(demo, spp=32, progress=False)
+    comparison = wend.compare(
+        demo, time=0.3, seeds=2, sampling=["classical", "full"], reference=reference, progress=False
+    )
+    rows = comparison.rows
+    assert list(rows["sampling"]) == ["classical", "full"]
+    assert rows["ratio"][0] == pytest.approx(1)
+    assert len(comparison.runs["seed"]) == 4
+    assert set(comparison.curves) == {"sampling", "seed", "seconds", "relmse"}
+    assert comparison.films["full"].image.shape == (18, 32, 3)
+    assert "iframe" in comparison._repr_html_()
+    comparison.save(tmp_path / "page")
+    assert (tmp_path / "page" / "index.html").exists()
+    with pytest.raises(wend.InputError, match="magic"):
+        wend.compare(demo, sampling=["magic"], reference=reference, progress=False)

@@ -1,0 +1,87 @@
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+import wend
+
+
+def test_loading_says_what_is_there(demo):
+    assert demo.resolution == (32, 18)
+    assert demo.spp == 64
+    lower, upper = demo.bounds
+    assert all(a < b for a, b in zip(lower, upper))
+    assert demo.parameters["medium.fog.g"] == pytest.approx(0.3)
+    assert "demo.pbrt" in repr(demo)
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"resolution": (0, 5)}, "resolution"),
+        ({"crop": (0.5, 0.2, 0, 1)}, "crop"),
+        ({"sampler": "dice"}, "sampler"),
+    ],
+)
+def test_options_are_checked(options, message):
+    with pytest.raises(wend.InputError, match=message):
+        wend.load(wend.demo_scene(), **options)
+
+
+def test_errors_have_a_place(tmp_path):
+    broken = tmp_path / "broken.pbrt"
+    broken.write_text('WorldBegin\nShape "sphere" "float radius" [ 1 ')
+    with pytest.raises(wend.InputError) as caught:
+        wend.load(broken)
+    error = caught.value
+    assert error.file == str(broken)
+    assert error.line == 2 and error.column > 0
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.line) == (str(error), error.line)
+    with pytest.raises(wend.InputError, match="missing.pbrt"):
+        wend.load(tmp_path / "missing.pbrt")
+
+
+def test_what_is_done_otherwise_is_warned_of():
+    with pytest.warns(wend.SceneWarning, match="spoke"):
+        scene = wend.loads('WorldBegin\nLightSource "infinite"\nShape "sphere" "float spoke" 1\n')
+    assert len(scene.warnings) == 1
+
+
+def test_parameters_change_in_a_copy(furnace):
+    black = furnace.with_({"light[0].L": (0, 0, 0)})
+    dim = furnace.with_({"light[0].L": 0.5 * np.ones(3), "camera.fov": 30})
+    assert furnace.parameters["light[0].L"] == (1, 1, 1)
+    assert dim.parameters["camera.fov"] == 30
+    for scene, value in ((furnace, 1), (dim, 0.5), (black, 0)):
+        image = wend.render(scene, spp=16, progress=False).image
+        assert np.mean(image) == pytest.approx(value, rel=0.02)
+
+
+def test_types_are_kept_or_said(furnace):
+    assert furnace.with_({"integrator.maxdepth": 7}).max_depth == 7
+    gold = furnace.with_({"medium.fog.sigma_s": ("spectrum", "metal-Au-eta")})
+    assert gold.parameters["medium.fog.sigma_s"] == "metal-Au-eta"
+    with pytest.raises(wend.InputError, match="no whole"):
+        furnace.with_({"light[0].L": ("rgb", [1, 2])})
+    with pytest.raises(wend.InputError, match="numbers"):
+        furnace.with_({"camera.fov": ("float", "wide")})
+
+
+def test_unknown_names_are_refused_or_warned_of(furnace):
+    with pytest.raises(wend.InputError, match="medium.fog"):
+        furnace.with_({"medium.smoke.g": 0})
+    with pytest.raises(wend.InputError, match="no such directive"):
+        furnace.with_({"fov": 30})
+    with pytest.warns(wend.SceneWarning, match="fovv"):
+        furnace.with_({"camera.fovv": 30})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        furnace.with_({"camera.fov": 30})
+
+
+def test_changed_scenes_are_other_scenes(furnace):
+    a = wend.render(furnace, spp=1, seed=1, progress=False)
+    b = wend.render(furnace.with_({"camera.fov": 40}), spp=1, seed=2, progress=False)
+    with pytest.raises(wend.InputError, match="scene"):
+        wend.merge([a, b])

@@ -1,0 +1,106 @@
+"""Builds the wheel, makes it independent of the system's libraries, and renders with it where nothing else is.
+
+usage: wheel.py SOURCE BUILD PROGRAM
+
+SOURCE is the checkout, BUILD a folder for what is made, PROGRAM the wend program whose picture must be the same bits.
+As root, the wheel runs in a folder that holds Python and the C library alone (chroot); otherwise in an environment of
+its own. Ends with status 77 where auditwheel is absent.
+"""
+
+import glob
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+RENDER = """
+import wend
+film = wend.render(wend.load(wend.demo_scene(), resolution=(64, 36)), spp=3, progress=False)
+film.save("{picture}")
+"""
+
+
+def run(*command: object, **options: object) -> str:
+    print("+", *command, flush=True)
+    return subprocess.run([str(c) for c in command], check=True, stdout=subprocess.PIPE, text=True, **options).stdout
+
+
+def make_wheel(source: Path, build: Path) -> Path:
+    for old in build.glob("*/*.whl"):
+        old.unlink()
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
+    run(*pip, "wheel", source, "--no-build-isolation", "--no-deps", "-w", build / "raw", "-C",
+        f"build-dir={build / 'tree'}", "-C", "cmake.define.WEND_WARNINGS_AS_ERRORS="
+        + os.environ.get("WEND_WARNINGS_AS_ERRORS", "OFF"))
+    (raw,) = (build / "raw").glob("wend-*.whl")
+    run(sys.executable, "-m", "auditwheel", "repair", raw, "-w", build / "dist", "--strip",
+        env=os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"})
+    (wheel,) = (build / "dist").glob("wend-*manylinux*.whl")
+    run(*pip, "install", "--quiet", "--upgrade", "--target", build / "site", "--no-deps", wheel)
+    run(*pip, "install", "--quiet", "--upgrade", "--target", build / "site", "numpy")
+    return wheel
+
+
+def libraries_of(files: list[str]) -> set[str]:
+    found = set()
+    for file in files:
+        listed = subprocess.run(["ldd", file], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
+        found.update(re.findall(r"(/\S+) \(0x", listed))
+    return found
+
+
+def bare_system(folder: Path, site: Path) -> None:
+    """Python, what it is linked with, and the packages: no other file."""
+    shutil.rmtree(folder, ignore_errors=True)
+    prefix = Path(sys.base_prefix)
+    python = Path(os.path.realpath(sys.executable))
+    standard = Path(sysconfig.get_paths()["stdlib"])
+    extensions = glob.glob(str(standard / "lib-dynload" / "*.so"))
+    for library in libraries_of([str(python), *extensions]):
+        target = folder / library.lstrip("/")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(library, target)
+    (folder / "python").mkdir(parents=True, exist_ok=True)
+    target = folder / str(prefix).lstrip("/")
+    (target / "bin").mkdir(parents=True, exist_ok=True)
+    shutil.copy2(python, target / "bin" / "python")
+    shutil.copytree(standard, folder / str(standard).lstrip("/"), dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("site-packages", "test", "__pycache__", "config-*"))
+    shutil.copytree(site, folder / "site")
+
+
+def main() -> int:
+    source, build, program = (Path(argument).resolve() for argument in sys.argv[1:])
+    if importlib.util.find_spec("auditwheel") is None or shutil.which("ldd") is None:
+        print("skipped: auditwheel is absent")
+        return 77
+    build.mkdir(parents=True, exist_ok=True)
+    wheel = make_wheel(source, build)
+    print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB")
+    expected, found = build / "program.exr", build / "wheel.exr"
+    run(program, "render", source / "scenes" / "demo.pbrt", "--resolution", "64x36", "--spp", "3", "-o", expected,
+        "--quiet")
+    if os.geteuid() == 0:
+        system = build / "system"
+        bare_system(system, build / "site")
+        run("chroot", system, Path(sys.base_prefix) / "bin" / "python", "-c", RENDER.format(picture="/found.exr"),
+            env={"PYTHONPATH": "/site", "PYTHONHOME": sys.base_prefix})
+        shutil.move(system / "found.exr", found)
+        shutil.rmtree(system)
+    else:
+        run(sys.executable, "-c", RENDER.format(picture=found), env={"PYTHONPATH": str(build / "site")})
+    compare = (
+        "import sys, numpy, wend; a, b = map(wend.read, sys.argv[1:]);"
+        "sys.exit(0 if all(numpy.array_equal(a[name], b[name]) for name in a) else 'other bits than the program')"
+    )
+    run(sys.executable, "-c", compare, expected, found, env={"PYTHONPATH": str(build / "site")})
+    print("the same bits as the program")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
