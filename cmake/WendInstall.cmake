@@ -4,7 +4,9 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wend)
 
-install(TARGETS wend_guide EXPORT wend-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+install(TARGETS wend_guide wend_guide_shared EXPORT wend-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT library)
 # What is promised, and what that includes (tests/layers/check_public.py keeps the list).
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/public-headers.txt wend_public_headers)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/public-headers.txt)
@@ -12,7 +14,13 @@ foreach(header IN LISTS wend_public_headers)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT library)
 endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/include/wend/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library)
 install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)
+
+# For builds that know no CMake: pkg-config gives the shared library, pkg-config --static the other one.
+file(RELATIVE_PATH wend_include_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/wend-guide.pc.in ${PROJECT_BINARY_DIR}/wend-guide.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/wend-guide.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wend-config.cmake.in ${PROJECT_BINARY_DIR}/wend-config.cmake
   INSTALL_DESTINATION ${package_dir})

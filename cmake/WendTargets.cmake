@@ -4,7 +4,7 @@ function(wend_target_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Pictures are reproducible bit for bit: no fused operations that depend on the compiler's choice. Nobody reads errno or the
   # floating-point exception flags, and loops vectorize only without them; results are the same.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off -fno-math-errno -fno-trapping-math
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms on std::string in GCC 12 (its bug 105651)
     $<$<BOOL:${WEND_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
@@ -21,5 +21,5 @@ function(wend_add_library target)
   add_library(${target} STATIC ${sources})
   wend_target_options(${target})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
 endfunction()

@@ -1,5 +1,6 @@
 // The module wend._wend: what the package's Python is written on. Arguments are checked and named by the Python above.
 #include <wend/core/error.h>
+#include <wend/version.h>
 
 #include "bindings.h"
 

@@ -4,6 +4,7 @@
 usage: check_public.py ROOT    reads cmake/public-headers.txt; exit status 1 and one line per offence
 
 Promised are the umbrella headers src/wend/*.hpp and those of capi. What they include comes with them, and nothing else.
+wend/version.h, which CMake writes, is not counted.
 """
 
 import re
@@ -11,14 +12,15 @@ import sys
 from pathlib import Path
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*<(wend/[^>]+)>", re.MULTILINE)
-MOST = 40
+MADE = "wend/version.h"
+MOST = 41
 
 
 def closure(source, headers):
     found, todo = set(), list(headers)
     while todo:
         header = todo.pop()
-        if header not in found:
+        if header not in found and header != MADE:
             found.add(header)
             todo += INCLUDE.findall((source / header).read_text())
     return found

@@ -4,6 +4,7 @@
 #include <wend/app/program.h>
 #include <wend/core/error.h>
 #include <wend/render/preset.h>
+#include <wend/version.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>

@@ -2,6 +2,7 @@
 #include <wend/app/render_origin.h>
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
+#include <wend/version.h>
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/pbrt/parser.h>
+#include <wend/version.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

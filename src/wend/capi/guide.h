@@ -26,6 +26,9 @@
 #ifndef WEND_CAPI_GUIDE_H
 #define WEND_CAPI_GUIDE_H
 
+#include <wend/core/export.h>
+#include <wend/version.h>
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -63,6 +66,9 @@ typedef enum wend_status {
 typedef struct wend_error {
     char message[256]; /**< a sentence that ends with a null byte; empty after success */
 } wend_error;
+
+/** The library's version, "MAJOR.MINOR.PATCH": that of wend/version.h unless another library was loaded. */
+WEND_API const char* wend_version(void) WEND_NOEXCEPT;
 
 /* ---- Plain values ---- */
 
@@ -135,47 +141,49 @@ typedef struct wend_field_summary {
 typedef struct wend_field wend_field;
 
 /** A field that knows nothing yet about a scene of these bounds. It belongs to the caller: wend_field_destroy(). */
-wend_status wend_field_create(wend_bounds bounds, wend_field** field, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_create(wend_bounds bounds, wend_field** field, wend_error* error) WEND_NOEXCEPT;
 
 /** Ends a field; what was made from it stays. Null is allowed. */
-void wend_field_destroy(wend_field* field) WEND_NOEXCEPT;
+WEND_API void wend_field_destroy(wend_field* field) WEND_NOEXCEPT;
 
 /** The settings that wend_field_fit() takes for null. */
-wend_fit_settings wend_fit_settings_default(void) WEND_NOEXCEPT;
+WEND_API wend_fit_settings wend_fit_settings_default(void) WEND_NOEXCEPT;
 
 /** Makes the next field of the previous one, which stays as it is, and `count` records (fewer than 2^32 - 1; `records`
  * may be null if there are none). The result depends on the order of the records but not on the number of threads, bit
  * for bit. `settings` may be null for the default, `threads` is 0 (all) to 1024, `report` may be null. The next field
  * belongs to the caller; `next` may be where `previous` is kept, but then destroy the previous one by another pointer.
  */
-wend_status wend_field_fit(const wend_field* previous, const wend_record* records, size_t count,
-                           const wend_fit_settings* settings, int threads, wend_field** next, wend_fit_report* report,
-                           wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_fit(const wend_field* previous, const wend_record* records, size_t count,
+                                    const wend_fit_settings* settings, int threads, wend_field** next,
+                                    wend_fit_report* report, wend_error* error) WEND_NOEXCEPT;
 
 /** What the field holds; cost is proportional to the number of cells. */
-wend_status wend_field_summarize(const wend_field* field, wend_field_summary* summary, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_summarize(const wend_field* field, wend_field_summary* summary,
+                                          wend_error* error) WEND_NOEXCEPT;
 
 /** The integral of the radiance over all directions, averaged over the position's cell: radiance times sr. */
-wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, float* fluence,
-                               wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_fluence(const wend_field* field, wend_vec3 position, float* fluence,
+                                        wend_error* error) WEND_NOEXCEPT;
 
 /** The radiance that arrives at a position from a unit direction, by colour channel (red, green, blue). */
-wend_status wend_field_radiance(const wend_field* field, wend_vec3 position, wend_vec3 direction, float radiance[3],
-                                wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_radiance(const wend_field* field, wend_vec3 position, wend_vec3 direction,
+                                         float radiance[3], wend_error* error) WEND_NOEXCEPT;
 
 /** How much of the directions around a position is best drawn by your own sampling of what scatters, the rest being
  * guided: learned from records that know both densities, 0.1 to 0.9, and 0.3 without them. */
-wend_status wend_field_classical_share(const wend_field* field, wend_vec3 position, float* share,
-                                       wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_classical_share(const wend_field* field, wend_vec3 position, float* share,
+                                                wend_error* error) WEND_NOEXCEPT;
 
 /** Writes the field to `buffer` and the number of bytes to `size`. A null buffer only asks for the size; one with a
  * `capacity` that is too small is left alone and answered with WEND_BUFFER_TOO_SMALL and the size. The bytes have a
  * version and a checksum. */
-wend_status wend_field_save(const wend_field* field, void* buffer, size_t capacity, size_t* size,
-                            wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_save(const wend_field* field, void* buffer, size_t capacity, size_t* size,
+                                     wend_error* error) WEND_NOEXCEPT;
 
 /** The field again: it answers the same, bit for bit, and can be fitted further. */
-wend_status wend_field_load(const void* bytes, size_t size, wend_field** field, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_load(const void* bytes, size_t size, wend_field** field,
+                                     wend_error* error) WEND_NOEXCEPT;
 
 /* ---- Distributions of directions ---- */
 
@@ -194,7 +202,7 @@ typedef union wend_lobes {
 
 /** The cosine at a surface that reflects diffusely; its axis is the normal on the side where light arrives. A cosine is
  * not quite a lobe, so the product reaches a little below the horizon: draws from there have the value 0. */
-wend_status wend_lobes_cosine(wend_lobes* lobes, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_lobes_cosine(wend_lobes* lobes, wend_error* error) WEND_NOEXCEPT;
 
 /** A part of a phase function, of Henyey and Greenstein's kind. */
 typedef struct wend_phase_part {
@@ -204,8 +212,8 @@ typedef struct wend_phase_part {
 
 /** A phase function of 1 to 4 parts; the axis is the direction in which the walk flew before the collision. The lobes
  * stay within 2 % of the function up to |g| = 0.9 and within 25 % up to 0.99; beyond, they are those of 0.99. */
-wend_status wend_lobes_phase(const wend_phase_part* parts, size_t count, wend_lobes* lobes,
-                             wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_lobes_phase(const wend_phase_part* parts, size_t count, wend_lobes* lobes,
+                                      wend_error* error) WEND_NOEXCEPT;
 
 /** A part of any shape: a von Mises-Fisher lobe along the axis. */
 typedef struct wend_axial_lobe {
@@ -214,32 +222,34 @@ typedef struct wend_axial_lobe {
 } wend_axial_lobe;
 
 /** A shape of 1 to 24 lobes, one of which at least has a positive weight. */
-wend_status wend_lobes_custom(const wend_axial_lobe* parts, size_t count, wend_lobes* lobes,
-                              wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_lobes_custom(const wend_axial_lobe* parts, size_t count, wend_lobes* lobes,
+                                       wend_error* error) WEND_NOEXCEPT;
 
 /** Directions in proportion to the incident radiance at a position. */
-wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wend_distribution* incident,
-                                wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_incident(const wend_field* field, wend_vec3 position, wend_distribution* incident,
+                                         wend_error* error) WEND_NOEXCEPT;
 
 /** Directions in proportion to the incident radiance times the lobes, normalized. `integral` may be null; it is that of
  * the product of both densities, in 1/sr, so times the fluence it estimates the in-scattered radiance. Where the
  * product is too small to tell, the integral is 0 and the product is the incident distribution. `product` may be
  * `incident`; what is a product already has no further one. */
-wend_status wend_distribution_product(const wend_distribution* incident, const wend_lobes* lobes, wend_vec3 axis,
-                                      wend_distribution* product, float* integral, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_distribution_product(const wend_distribution* incident, const wend_lobes* lobes,
+                                               wend_vec3 axis, wend_distribution* product, float* integral,
+                                               wend_error* error) WEND_NOEXCEPT;
 
 /** The integral of the incident radiance at a position times the lobes of a product that was made there, by colour
  * channel (red, green, blue): the radiance that is scattered on to a walk, but for its albedo. */
-wend_status wend_field_in_scattered(const wend_field* field, wend_vec3 position, const wend_distribution* product,
-                                    float in_scattered[3], wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_field_in_scattered(const wend_field* field, wend_vec3 position,
+                                             const wend_distribution* product, float in_scattered[3],
+                                             wend_error* error) WEND_NOEXCEPT;
 
 /** The direction that belongs to a point of the unit square, [0,1)^2, and its density, which may be null. */
-wend_status wend_distribution_sample(const wend_distribution* distribution, float u, float v, wend_vec3* direction,
-                                     float* density, wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_distribution_sample(const wend_distribution* distribution, float u, float v,
+                                              wend_vec3* direction, float* density, wend_error* error) WEND_NOEXCEPT;
 
 /** The density of any direction. */
-wend_status wend_distribution_density(const wend_distribution* distribution, wend_vec3 direction, float* density,
-                                      wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_distribution_density(const wend_distribution* distribution, wend_vec3 direction,
+                                               float* density, wend_error* error) WEND_NOEXCEPT;
 
 /* ---- Records of walks ---- */
 
@@ -264,8 +274,8 @@ typedef struct wend_path_vertex {
 /** Makes a record of each vertex, in the same order, in time proportional to their number. Those of mirrors have
  * density 0: leave them out, and give the others to the field of surfaces or of volumes. Nothing is clamped;
  * wend_field_fit() ignores and counts records that are not finite. */
-wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wend_record* records,
-                                 wend_error* error) WEND_NOEXCEPT;
+WEND_API wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wend_record* records,
+                                          wend_error* error) WEND_NOEXCEPT;
 
 /** @} */
 

@@ -2,6 +2,8 @@
 // (which throws InputError, see core/error.h). They are checked in debug builds and vanish in release builds.
 #pragma once
 
+#include <wend/core/export.h>
+
 #ifdef NDEBUG
 #define WEND_CONTRACT_(kind, condition) static_cast<void>(sizeof((condition) ? 1 : 0))
 #else
@@ -19,6 +21,6 @@
 namespace wend {
 
 /// Prints the broken contract with its place and aborts.
-[[noreturn]] void contract_violated(const char* kind, const char* condition, const char* file, int line);
+[[noreturn]] WEND_API void contract_violated(const char* kind, const char* condition, const char* file, int line);
 
 }  // namespace wend

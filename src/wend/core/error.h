@@ -1,6 +1,8 @@
 // Errors that a user can cause. Nothing in the path loop throws these; scene loading and the command line do.
 #pragma once
 
+#include <wend/core/export.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -14,10 +16,10 @@ struct Place {
 };
 
 /// `file:line:column`, or as much of it as is known.
-std::string to_string(const Place& place);
+WEND_API std::string to_string(const Place& place);
 
 /// Bad input: the message says what is wrong, where, and what would be right. The program ends with exit status 2.
-class InputError : public std::runtime_error {
+class WEND_API InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message) : std::runtime_error(message) {}
     InputError(const Place& place, const std::string& message)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 #include <wend/sampling/vmf.h>
 
@@ -23,7 +24,7 @@ struct CausticLobe {
 
 /// CausticLobes by place: cells of a few that arrived next to each other, in groups of similar directions, of which
 /// each is mostly one way to one light.
-class CausticMap {
+class WEND_API CausticMap {
 public:
     /// Most groups of a cell.
     static constexpr std::size_t most_groups = 8;
@@ -97,7 +98,7 @@ private:
 };
 
 /// Directions towards the groups of a cell, by how much of their light a scattering function scatters.
-class CausticLobeMixture {
+class WEND_API CausticLobeMixture {
 public:
     /// None.
     CausticLobeMixture() = default;

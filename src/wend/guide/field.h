@@ -1,6 +1,7 @@
 // The learned field: space divided into cells, each with a mixture of incident radiance.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/ray.h>
 #include <wend/core/vector.h>
 #include <wend/guide/region.h>
@@ -19,7 +20,7 @@ struct LobeSums;
 
 /// A kd-tree whose leaves are regions. A value: built by fit(), never changed afterwards, hence free to be read by any
 /// number of threads.
-class Field {
+class WEND_API Field {
 public:
     /// As large as the other, and independent of it.
     Field(const Field& other);

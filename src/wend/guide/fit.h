@@ -1,6 +1,7 @@
 // Training: a new field from the previous one and the records of a pass.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/guide/field.h>
 #include <wend/guide/path_records.h>
 #include <wend/guide/records.h>
@@ -77,7 +78,8 @@ struct FitResult {
 /// Refines the previous field by the records, on at most `threads` threads (0: all). The result depends on the order of
 /// the records but not on the threads, bit for bit. Cost is proportional to the number of records times the depth of
 /// the tree. Throws InputError for settings out of range.
-FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads = 0);
+WEND_API FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings,
+                       int threads = 0);
 
 /// The two learned fields: surfaces and volumes in the same place see different light.
 struct Fields {
@@ -89,6 +91,6 @@ struct Fields {
 };
 
 /// The next fields, learned from the records of all producers in the order given.
-Fields learn(const Fields& fields, std::vector<PathRecords> records, int threads);
+WEND_API Fields learn(const Fields& fields, std::vector<PathRecords> records, int threads);
 
 }  // namespace wend::guide

@@ -1,6 +1,7 @@
 // A mixture of von Mises–Fisher lobes: what a learned field says about the incident radiance at a point.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/guide/lanes.h>
 #include <wend/sampling/axial_lobes.h>
 #include <wend/sampling/vmf.h>
@@ -21,7 +22,7 @@ class MixtureProduct;
 
 /// A density over directions, Σ w_i vMF_i, of at most max_lobes lobes whose weights add up to 1. A value of fixed size
 /// without heap memory.
-class VmfMixture {
+class WEND_API VmfMixture {
 public:
     /// The uniform distribution: one lobe of concentration 0.
     VmfMixture();
@@ -62,7 +63,7 @@ private:
 /// A mixture as seen from a displaced point (VmfMixture::re_aimed), before it is turned: its product comes cheaper
 /// than that of a mixture turned first. Refers to the mixture and the distances, which must outlive it; the other
 /// questions turn the mixture each time, so whoever has many of them should make a VmfMixture of this.
-class MixtureView {
+class WEND_API MixtureView {
 public:
     /// The arguments of VmfMixture::re_aimed().
     MixtureView(const VmfMixture& mixture, const Vec3& offset, const Lanes& inverse_distance)

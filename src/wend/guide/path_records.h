@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/export.h>
 #include <wend/guide/records.h>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ struct PathVertex {
 ///     L_i = gathered_i + Σ_children arrival_j scattering_j L_j.
 /// Returns the same sum over the roots, which is what the vertices' directions brought to where the walk began. Costs
 /// O(vertices); `incident` is resized.
-Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident);
+WEND_API Rgb incident_radiance(std::span<const PathVertex> path, std::vector<Rgb>& incident);
 
 /// The distance that radiance arrived from along a vertex's direction: the harmonic mean of those of its parts.
 inline float distance_of(const PathVertex& vertex, float arrived) {
@@ -97,7 +98,7 @@ inline ScatterRecord scatter_record_of(const PathVertex& vertex, const Rgb& inci
 }
 
 /// Records of many walks, kept apart by the field they belong to.
-class PathRecords {
+class WEND_API PathRecords {
 public:
     /// Appends the records of a walk: one for each vertex whose direction has a density, with the mean of the colour
     /// channels as radiance, and one of the scattered light for every vertex. Of more than `most` vertices with a

@@ -1,6 +1,7 @@
 // Incident radiance times what scatters it: the distribution that guided directions are drawn from.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/guide/lanes.h>
 #include <wend/guide/mixture.h>
 #include <wend/sampling/axial_lobes.h>
@@ -45,7 +46,7 @@ struct ProductLanes {
 /// pairs of their lobes, which are lobes again; the density asks V and H alone. Where the product is too small to tell
 /// (Z below 1e-20), it is V instead, and the integral 0. Two kilobytes, filled where it is constructed: to be passed by
 /// reference.
-class MixtureProduct {
+class WEND_API MixtureProduct {
 public:
     /// The product of a mixture as it is. Refers to neither afterwards.
     MixtureProduct(const VmfMixture& mixture, const AxialLobes& lobes);

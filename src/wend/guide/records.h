@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 
 #include <limits>
@@ -60,9 +61,9 @@ using ScatterRecords = std::vector<ScatterRecord>;
 
 /// Whether the field can learn from a record: finite numbers in their ranges (the distance may be infinite),
 /// coordinates up to 1e15 and a weight up to 1e30.
-bool is_usable(const Record& record);
+WEND_API bool is_usable(const Record& record);
 /// The same for what a vertex says about scattered light.
-bool is_usable(const ScatterRecord& record);
+WEND_API bool is_usable(const ScatterRecord& record);
 
 /// The record's share in ∫ L dω: radiance / density, in radiance times sr.
 inline double weight_of(const Record& record) {

@@ -1,6 +1,7 @@
 // Draine's phase function (draine2003), which fits fog and clouds (jendersie2023). Conventions as in phase.h.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 #include <wend/sampling/axial_lobes.h>
 
@@ -11,7 +12,7 @@ namespace wend {
 
 /// Henyey and Greenstein's function of `g` times 1 + alpha cosine², normalized. Of alpha = 0 it is theirs, of 1 that of
 /// Cornette and Shanks, and with g = 0 Rayleigh's. `g` is not its mean cosine.
-class Draine {
+class WEND_API Draine {
 public:
     /// Throws InputError unless g is in (-1, 1) and alpha in [0, largest_alpha].
     Draine(float g, float alpha);

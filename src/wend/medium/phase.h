@@ -2,6 +2,7 @@
 // on. All densities are per steradian and normalized, so evaluate() is also the density of sample().
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/frame.h>
 #include <wend/medium/draine.h>
 #include <wend/medium/tabulated_phase.h>
@@ -18,7 +19,7 @@ namespace wend {
 inline constexpr float largest_pictured_g = 0.99f;
 
 /// Henyey and Greenstein's phase function with mean cosine g in (-1, 1).
-struct HenyeyGreenstein {
+struct WEND_API HenyeyGreenstein {
     float g = 0;  ///< mean cosine: positive scatters forwards
 
     /// Density per steradian.
@@ -60,7 +61,7 @@ struct HenyeyGreenstein {
 };
 
 /// A convex combination of up to four Henyey-Greenstein functions.
-class HenyeyGreensteinMixture {
+class WEND_API HenyeyGreensteinMixture {
 public:
     /// Most functions that can be added.
     static constexpr int max_lobes = 4;
@@ -117,7 +118,7 @@ concept PhaseFunctionKind = requires(const P& phase, float number, int degree, c
 };
 
 /// The closed set of phase functions.
-class PhaseFunction {
+class WEND_API PhaseFunction {
 public:
     /// Any of the kinds.
     using Variant = std::variant<HenyeyGreenstein, HenyeyGreensteinMixture, Draine, TabulatedPhase>;

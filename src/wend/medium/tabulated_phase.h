@@ -1,6 +1,7 @@
 // Phase functions by a table: measured ones, Mie's, Fournier and Forand's. Conventions as in phase.h.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 #include <wend/sampling/axial_lobes.h>
 
@@ -11,7 +12,7 @@
 namespace wend {
 
 /// A function that is linear in the scattering cosine between the nodes of a table, normalized. Copies share the table.
-class TabulatedPhase {
+class WEND_API TabulatedPhase {
 public:
     /// `cosines` increase from -1 to 1, `values` are relative to each other. Throws InputError unless there are two or
     /// more nodes, and the values are finite, not negative and not all 0.
@@ -43,14 +44,14 @@ private:
 
 /// The table of a function of the scattering angle (radians), dense towards forward scattering. Below a thousandth of a
 /// radian, where single precision ends, it keeps the share of all light, but not the shape.
-TabulatedPhase tabulate_phase(const std::function<double(double)>& by_angle);
+WEND_API TabulatedPhase tabulate_phase(const std::function<double(double)>& by_angle);
 
 /// Fournier and Forand's function (fournier1999) of particles in water whose sizes follow a power law. `index` of
 /// refraction relative to the water, above 1; `slope` of the law, in (3, 5). Throws InputError otherwise.
-TabulatedPhase fournier_forand(double index, double slope);
+WEND_API TabulatedPhase fournier_forand(double index, double slope);
 
 /// Mie's function of the droplets of fog or clouds by their diameter in micrometres, from 5 to 50, as a mixture of
 /// Henyey and Greenstein's function with Draine's (jendersie2023). Throws InputError beyond.
-TabulatedPhase fog_droplets(double diameter);
+WEND_API TabulatedPhase fog_droplets(double diameter);
 
 }  // namespace wend

@@ -2,6 +2,7 @@
 // whoever multiplies it with a mixture of incident radiance (docs/theory/learned_field.md).
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 
 #include <cstring>
@@ -19,7 +20,7 @@ struct AxialLobe {
 
 /// A density over directions, Σ w_j vMF_j with all means on one axis, of at most `capacity` lobes whose weights add up
 /// to 1. A value of fixed size without heap memory.
-class AxialLobes {
+class WEND_API AxialLobes {
 public:
     /// Most lobes.
     static constexpr int capacity = 24;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/contracts.h>
+#include <wend/core/export.h>
 #include <wend/core/frame.h>
 #include <wend/core/vector.h>
 #include <wend/numeric/fast_math.h>
@@ -33,7 +34,7 @@ struct Vmf {
 };
 
 /// The density at the mean, kappa / (2 pi (1 - e^{-2 kappa})), in 1/sr.
-float vmf_peak(float kappa);
+WEND_API float vmf_peak(float kappa);
 
 /// (1 - e^{-2 kappa}) / kappa, which is 1 / (2 pi) over the peak; relative error below 2e-6, no branch and no call.
 inline float vmf_spread(float kappa) {
@@ -59,14 +60,14 @@ inline Vec3 Vmf::sample(Vec2 u, float inverse_kappa) const {
 }
 
 /// Mean cosine coth(kappa) - 1/kappa, in [0, 1).
-float vmf_mean_cosine(float kappa);
+WEND_API float vmf_mean_cosine(float kappa);
 
 /// The inverse of vmf_mean_cosine: Newton's method from the start r(3 - r²)/(1 - r²) (banerjee2005). Mean cosines
 /// outside [0, 1) are clamped; the result is at most Vmf::max_kappa.
-float vmf_kappa(float mean_cosine);
+WEND_API float vmf_kappa(float mean_cosine);
 
 /// The lobe convolved by another of concentration `kappa`, approximately: the kind is not closed under convolution, but
 /// mean cosines multiply exactly.
-Vmf convolve(const Vmf& lobe, float kappa);
+WEND_API Vmf convolve(const Vmf& lobe, float kappa);
 
 }  // namespace wend

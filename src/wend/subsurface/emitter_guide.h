@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/export.h>
 #include <wend/medium/phase.h>
 #include <wend/sampling/vmf.h>
 
@@ -27,7 +28,7 @@ struct EmitterView {
 
 /// The part of the light that has not been scattered yet: that of each lamp falls off as exp(-extinction depth /
 /// cosine), and is seen within its lobe.
-class EmitterGuide {
+class WEND_API EmitterGuide {
 public:
     /// Most lamps; those beyond are left out.
     static constexpr std::size_t most = 4;

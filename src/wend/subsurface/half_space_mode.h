@@ -1,6 +1,7 @@
 // Directions and flights of a zero-variance walk for one exponential mode of a slab: Dwivedi's, for any phase function.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/random.h>
 #include <wend/medium/homogeneous.h>
 #include <wend/medium/phase.h>
@@ -17,7 +18,7 @@ namespace wend {
 /// walk that arrives along mu, S(mu), which is I convolved with the phase function. The zero-variance walk draws
 /// directions with the density phase function times I(after) / S(before), which is normalized, and distances with the
 /// rate 1 - k mu (dwivedi1982, krivanek2014; docs/theory/subsurface.md).
-class HalfSpaceMode {
+class WEND_API HalfSpaceMode {
 public:
     /// No preference: classical sampling.
     HalfSpaceMode() = default;
@@ -68,10 +69,10 @@ private:
 /// Modes of media with this phase function from no decay (the first) to the decay of the given albedo in [0, 1] (the
 /// last), evenly spaced in the rate of decay as far as diffusion theory goes. Of much absorption less is taken: such
 /// modes would have a walk go straight for the boundary, and sample all else too rarely.
-std::vector<HalfSpaceMode> half_space_modes(double albedo, const PhaseFunction& phase);
+WEND_API std::vector<HalfSpaceMode> half_space_modes(double albedo, const PhaseFunction& phase);
 
 /// The same for a medium, channel by channel, or for one channel where all are alike. Throws InputError for
 /// coefficients that are negative or not finite.
-std::vector<std::vector<HalfSpaceMode>> half_space_modes(const HomogeneousMedium& medium);
+WEND_API std::vector<std::vector<HalfSpaceMode>> half_space_modes(const HomogeneousMedium& medium);
 
 }  // namespace wend

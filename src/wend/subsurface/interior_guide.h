@@ -1,6 +1,7 @@
 // What walks in one dense medium know about it beforehand.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/medium/homogeneous.h>
 #include <wend/subsurface/half_space_mode.h>
 
@@ -56,7 +57,7 @@ inline InteriorGuide::PerTechnique mix(const InteriorGuide::PerTechnique& a, con
 /// A guide with this probability of classical sampling, in (0, 1]; `modes` are those of the medium
 /// (subsurface/half_space_mode.h has them). Throws InputError for numbers out of range, and for modes that are not as
 /// InteriorGuide has them.
-InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
-                             float defensive_fraction = 0.25f);
+WEND_API InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
+                                      float defensive_fraction = 0.25f);
 
 }  // namespace wend

@@ -2,6 +2,7 @@
 // sampling.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/random.h>
 #include <wend/decision/direction.h>
 #include <wend/decision/flight.h>
@@ -27,7 +28,7 @@ struct InteriorFlight {
 ///
 /// Enter, aim, head; then fly, and at a collision aim again, draw a direction and turn. A value: a walk that splits
 /// copies it.
-class InteriorWalk {
+class WEND_API InteriorWalk {
 public:
     /// Null before enter().
     const InteriorGuide* guide() const { return guide_; }
