@@ -1,11 +1,13 @@
-// A renderer of your own with Wend as its library: two foggy rooms joined by a door, the lamp in the far one. Rays,
-// surfaces and lights are written here, as a renderer has them; Wend learns where light comes from, chooses directions,
-// and decides which walks go on. The numbered comments are the steps of embedding it.
+// A renderer of your own with Wend as its library: two foggy rooms joined by a door, the lamps in the far one. Rays,
+// surfaces and lights are written here, as a renderer has them; Wend learns where light comes from. It chooses how far
+// walks fly, which way they scatter, which lamp they are connected to, and which of them go on or are split. The
+// numbered comments are the steps of embedding it.
 #include <tbb/parallel_for.h>
 #include <wend/guide.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -16,7 +18,7 @@
 
 namespace {
 
-using wend::dot, wend::length, wend::normalize;
+using wend::dot, wend::length, wend::normalize, wend::mean_value;
 using wend::Rgb, wend::Vec2, wend::Vec3;
 using wend::guide::Field, wend::guide::PathLog, wend::guide::PathRecords;
 
@@ -27,10 +29,20 @@ struct Wall {
     float at;
     Vec2 min, max;  ///< along the next two axes
     Rgb albedo;
+    int lamp = -1;      ///< which, if it is one
+    float shines = -1;  ///< along the axis: on this side
+    Rgb radiance{0.0f};
+
+    float area() const { return (max.x - min.x) * (max.y - min.y); }
+    Vec3 at_point(const Vec2& q) const {
+        Vec3 p;
+        p[axis] = at, p[(axis + 1) % 3] = q.x, p[(axis + 2) % 3] = q.y;
+        return p;
+    }
 };
 
-const Rgb white(0.75f), red(0.6f, 0.2f, 0.15f);
-const std::array<Wall, 10> walls = {{
+const Rgb white(0.75f), red(0.6f, 0.2f, 0.15f), black(0.0f);
+const std::array<Wall, 11> walls = {{
     {0, 0, {0, 0}, {2.5f, 4}, red},
     {0, 6, {0, 0}, {2.5f, 4}, white},
     {1, 0, {0, 0}, {4, 6}, white},
@@ -41,20 +53,20 @@ const std::array<Wall, 10> walls = {{
     {0, 3, {0, 0}, {2.5f, 0.3f}, white},
     {0, 3, {0, 0.7f}, {2.5f, 4}, white},
     {0, 3, {2, 0.3f}, {2.5f, 0.7f}, white},
-    // The lamp shines towards the door.
-    {0, 5.99f, {0.8f, 0.2f}, {1.6f, 0.8f}, Rgb()},
+    // One lamp shines towards the door, a stronger one from the wall between the rooms, where nobody sees it.
+    {0, 5.99f, {0.8f, 0.2f}, {1.6f, 0.8f}, black, 0, -1, {15, 13, 10}},
+    {0, 3.01f, {1, 2}, {2, 3.5f}, black, 1, 1, {8, 9, 12}},
 }};
-const Wall& lamp = walls.back();
-const float lamp_area = (lamp.max.x - lamp.min.x) * (lamp.max.y - lamp.min.y);
-const Rgb lamp_radiance(15, 13, 10);
-const float extinction = 0.2f;
-const Rgb fog_albedo(0.95f);
+const std::array<const Wall*, 2> lamps = {&walls[9], &walls[10]};
 const wend::PhaseFunction fog_phase(wend::HenyeyGreenstein{0.6f});
+const wend::Medium fog(wend::HomogeneousMedium{Rgb(0.01f), Rgb(0.19f), black, fog_phase});
+const float extinction = 0.2f;
 const wend::Box3 bounds(Vec3(0, 0, 0), Vec3(6, 2.5f, 4));
 
 struct Hit {
     const Wall* wall = nullptr;
     float distance = std::numeric_limits<float>::infinity();
+    Vec3 normal;  ///< towards where the ray came from
 };
 Hit intersect(const Vec3& origin, const Vec3& direction) {
     Hit nearest;
@@ -63,94 +75,221 @@ Hit intersect(const Vec3& origin, const Vec3& direction) {
         const Vec3 p = origin + direction * distance;
         const Vec2 q(p[(wall.axis + 1) % 3], p[(wall.axis + 2) % 3]);
         if (distance > 1e-5f && distance < nearest.distance && Imath::Box2f(wall.min, wall.max).intersects(q)) {
-            nearest = {&wall, distance};
+            nearest = {&wall, distance, Vec3(0, 0, 0)};
+            nearest.normal[wall.axis] = direction[wall.axis] > 0 ? -1.0f : 1.0f;
         }
     }
     return nearest;
 }
 
-/// Of choosing a direction by choosing a point of the lamp, per steradian; `cosine` is the lamp's.
-float emitter_density(float distance, float cosine) {
-    return distance * distance / (cosine * lamp_area);
+/// The cosine at a lamp on its bright side of a direction towards it; 0 on its back.
+float cosine_at(const Wall& lamp, const Vec3& direction) {
+    return std::max(0.0f, -lamp.shines * direction[lamp.axis]);
 }
+/// Of choosing a direction by choosing a point of a lamp, per steradian.
+float emitter_density(const Wall& lamp, float distance, float cosine) {
+    return distance * distance / (cosine * lamp.area());
+}
+
+/// Which lamp is connected to, as long as nothing is learned: by power. (wend::LightChoice)
+struct ByPower {
+    static float power(int light) {
+        const Wall& lamp = *lamps[static_cast<std::size_t>(light)];
+        return mean_value(lamp.radiance) * lamp.area();
+    }
+    float probability(const wend::LightReceiver&, int light) const { return power(light) / (power(0) + power(1)); }
+    wend::ChosenLight sample(const wend::LightReceiver& receiver, float u) const {
+        const int light = u < probability(receiver, 0) ? 0 : 1;
+        return {light, probability(receiver, light)};
+    }
+};
 
 // ---- 1. Tell Wend how things scatter: any class with these functions will do (wend::ScatteringFunction) ----
 
 /// A matt surface. Its lobes are what the guide multiplies incident radiance with. (Fog: wend::VolumeScattering.)
 struct Matt {
     static constexpr bool in_volume = false;
-    Rgb albedo;
+    Rgb reflectance;
     Vec3 normal;
 
-    Rgb evaluate(const Vec3& w) const { return albedo * density(w); }
+    Rgb albedo() const { return reflectance; }
+    Rgb evaluate(const Vec3& w) const { return reflectance * density(w); }
     float density(const Vec3& w) const { return std::max(0.0f, dot(normal, w)) * wend::inv_pi; }
     std::optional<wend::DirectionSample> sample(float, const Vec2& u) const {
         const Vec3 w = wend::Frame::from_z(normal).to_world(wend::to_cosine_hemisphere(u));
-        return wend::DirectionSample{w, evaluate(w), density(w)};
+        // Along the surface, where rounding may put it, a direction carries nothing.
+        return density(w) > 0 ? std::optional(wend::DirectionSample{w, evaluate(w), density(w)}) : std::nullopt;
     }
     wend::AxialLobes lobes() const { return wend::AxialLobes::cosine().around(normal); }
     bool is_specular() const { return false; }
     bool is_guidable() const { return true; }
 };
 
-// ---- 2. Walk, let a decision choose directions, and tell the log what happens ----
+// ---- 2. Walk, let decisions choose, and tell the log what happens ----
 
-/// One walk. `Directions` is wend::ClassicalDirection or wend::GuidedDirection: the walk cannot tell.
-template <class Directions>
+/// What a walk asks, classical or guided: it cannot tell which.
+template <class Distances, class Directions, class Survival>
+struct Decisions {
+    Distances distances;
+    Directions directions;
+    Survival survival;
+    const wend::LearnedLights& lights;
+};
+
+/// What walks tell: records for the fields, and what connections brought.
+struct Told {
+    PathRecords records;
+    std::vector<wend::LightRecord> lights;
+};
+
+/// One walk from the camera, with all its branches.
+template <class Decisions>
 class Walk {
 public:
-    Walk(const Directions& directions, const Vec3& origin, const Vec3& direction, wend::Pcg32& random, PathLog& log)
-        : directions_(directions), random_(random), log_(log), origin_(origin), direction_(direction) {}
+    /// `expected`: what the pixel will be, as far as is known; 0: not at all.
+    Walk(const Decisions& d, float expected, wend::Pcg32& random, PathLog& log, std::vector<wend::LightRecord>& lights)
+        : d_(d), expected_(expected), random_(random), log_(log), lights_(lights) {}
 
-    Rgb run() {
+    Rgb run(const Vec3& origin, const Vec3& direction) {
         log_.start();
-        while (fly()) {
+        now_.ray = {origin, direction};
+        for (;;) {
+            while (fly()) {
+            }
+            if (pending_.empty()) {
+                return radiance_;
+            }
+            now_ = pending_.back().first;
+            log_.resume(pending_.back().second);
+            pending_.pop_back();
         }
-        return radiance_;
     }
 
 private:
-    /// To the next collision or surface; false where the walk ends.
-    bool fly() {
-        const Hit hit = intersect(origin_, direction_);
-        const float flight = wend::to_exponential(random_.uniform(), extinction);
-        log_.meet(std::min(flight, hit.distance));
-        if (flight < hit.distance) {
-            weigh(fog_albedo);  // transmittance times scattering coefficient over the density of the flight
-            return scatter(wend::VolumeScattering(fog_phase, direction_), origin_ + direction_ * flight);
+    /// Where a branch of the walk is.
+    struct State {
+        wend::Ray ray;
+        Rgb throughput{1.0f};
+        wend::LightReceiver last;  ///< where the direction was drawn
+        float density = 0;         ///< of the direction
+        float ratio = 1;  ///< how much likelier the walk is for being guided: roulette must not end it for that
+        float copies = 1;
+        int depth = 0;
+    };
+
+    /// Radiance of a lamp that is met, weighted against connect(), which might have found it (balance heuristic).
+    Rgb met(const Hit& hit) const {
+        const float cosine = hit.wall->lamp < 0 ? 0.0f : cosine_at(*hit.wall, now_.ray.direction);
+        if (cosine == 0 || now_.depth == 0) {
+            return cosine > 0 ? hit.wall->radiance : black;
         }
-        const float cosine = direction_[hit.wall->axis];
-        if (hit.wall == &lamp) {
-            if (cosine > 0) {
-                // The balance heuristic against connect(): the walk might have been connected to this point.
-                const float own = density_ * std::exp(-extinction * hit.distance);
-                gather(lamp_radiance * (depth_ == 0 ? 1 : own / (own + emitter_density(hit.distance, cosine))));
-            }
-            return false;
-        }
-        Vec3 normal(0, 0, 0);
-        normal[hit.wall->axis] = cosine > 0 ? -1.0f : 1.0f;
-        return scatter(Matt{hit.wall->albedo, normal}, origin_ + direction_ * hit.distance + normal * 1e-4f);
+        const float own = now_.density * std::exp(-extinction * hit.distance);
+        const float other = d_.lights.probability(ByPower(), now_.last, hit.wall->lamp) *
+                            emitter_density(*hit.wall, hit.distance, cosine);
+        return hit.wall->radiance * (own / (own + other));
     }
 
+    /// To the next collision or surface; false where the branch ends.
+    bool fly() {
+        const Hit hit = intersect(now_.ray.origin, now_.ray.direction);
+        const Vec3 there = now_.ray.at(hit.distance);
+        const Rgb light = met(hit);
+        const wend::FlightStart start{now_.ray,
+                                      hit.distance,
+                                      now_.throughput,
+                                      mean_value(now_.throughput),
+                                      {wend::FlightEnd::Kind::surface, there, hit.normal, mean_value(light)}};
+        const wend::Flight flight = d_.distances.sample(fog, start, random_.uniform(), random_);
+        weigh(flight.weight);
+        now_.ratio *= flight.density_ratio;
+        log_.meet(flight.scatters ? flight.distance : hit.distance);
+        if (flight.scatters) {
+            const Vec3 p = now_.ray.at(flight.distance);
+            return scatter(wend::VolumeScattering(fog_phase, now_.ray.direction), {p, {0, 0, 0}}, p);
+        }
+        gather(light);
+        if (hit.wall->lamp >= 0) {
+            return false;
+        }
+        log_.face(hit.normal);
+        return scatter(Matt{hit.wall->albedo, hit.normal}, {there, hit.normal}, there + hit.normal * 1e-4f);
+    }
+
+    /// Connects to a lamp, decides how many directions to draw, and leaves all but one of them pending.
     template <class F>
-    bool scatter(const F& f, const Vec3& position) {
-        const auto distribution = directions_.at(position, f, mean_value(throughput_));
-        gather(connect(f, distribution, position));
+    bool scatter(const F& f, const wend::LightReceiver& here, const Vec3& position) {
+        ++now_.depth;
+        const auto directions = d_.directions.at(position, f, mean_value(now_.throughput));
+        connect(f, directions, here);
+        std::optional<float> ratio;
+        const auto in_scattered = directions.in_scattered();
+        if (in_scattered && expected_ > 0) {
+            ratio = mean_value(now_.throughput * f.albedo() * *in_scattered) / expected_;
+        }
+        const auto outcome = d_.survival.before_direction(
+            {ratio, mean_value(now_.throughput), static_cast<int>(64 / now_.copies) + 1}, random_);
+        if (!outcome) {
+            return draw(f, directions, here, position) && survives(F::in_volume);
+        }
+        const auto expected = static_cast<float>(outcome->expected);
+        weigh(Rgb(1 / expected));
+        now_.ratio *= expected;
+        now_.copies *= std::max(1.0f, expected);
+        for (int i = 1; i < outcome->copies; ++i) {
+            const State before = now_;
+            const PathLog::Branch branch = log_.branch();
+            if (draw(f, directions, here, position)) {
+                pending_.emplace_back(now_, log_.branch());
+            }
+            now_ = before;
+            log_.resume(branch);
+        }
+        return outcome->copies > 0 && draw(f, directions, here, position);
+    }
+
+    template <class F, class Distribution>
+    bool draw(const F&, const Distribution& directions, const wend::LightReceiver& here, const Vec3& position) {
         const float u = random_.uniform();
-        const auto s = distribution.sample(u, random_.uniform2());
+        const auto s = directions.sample(u, random_.uniform2());
         if (!s) {
             return false;
         }
         // The weight is the scattering function over the density that was used, so no field can bias the picture.
-        throughput_ *= s->weight();
-        log_.scatter(position, s->direction, s->density, s->weight(), F::in_volume, s->classical_density,
+        now_.throughput *= s->weight();
+        log_.scatter(here.position, s->direction, s->density, s->weight(), F::in_volume, s->classical_density,
                      s->guided_density);
-        boost_ *= s->density_ratio;
-        origin_ = position;
-        direction_ = s->direction;
-        density_ = s->density;
-        const float survival = wend::ClassicalRoulette().after_direction({throughput_, boost_, 1, ++depth_});
+        now_.ratio *= s->density_ratio;
+        now_.ray = {position, s->direction};
+        now_.last = here;
+        now_.density = s->density;
+        return true;
+    }
+
+    /// Next-event estimation. Directions could have found the lamp as well: the balance heuristic asks their density.
+    template <class F, class Distribution>
+    void connect(const F& f, const Distribution& directions, const wend::LightReceiver& here) {
+        const wend::ChosenLight chosen = d_.lights.sample(ByPower(), here, random_.uniform());
+        const Wall& lamp = *lamps[static_cast<std::size_t>(chosen.index)];
+        const Vec3 to_lamp = lamp.at_point(lamp.min + random_.uniform2() * (lamp.max - lamp.min)) - here.position;
+        const float distance = length(to_lamp);
+        const Vec3 w = to_lamp / distance;
+        const float cosine = cosine_at(lamp, w);
+        Rgb brought;
+        if (cosine > 0 && intersect(here.position + here.normal * 1e-4f, w).wall == &lamp) {
+            const float transmittance = std::exp(-extinction * distance);
+            const float both =
+                chosen.probability * emitter_density(lamp, distance, cosine) + directions.density(w) * transmittance;
+            const Rgb fluence = lamp.radiance * (transmittance / both);
+            brought = f.evaluate(w) * fluence;
+            log_.connect(w, distance, mean_value(fluence), brought);
+            gather(brought);
+        }
+        lights_.push_back(d_.lights.record(here, chosen.index, mean_value(brought) * chosen.probability));
+    }
+
+    bool survives(bool in_volume) {
+        const float survival =
+            d_.survival.after_direction({now_.throughput, now_.ratio, 1, now_.depth, false, in_volume});
         if (random_.uniform() >= survival) {
             return false;
         }
@@ -158,80 +297,70 @@ private:
         return true;
     }
 
-    /// Next-event estimation. Directions could have found the lamp as well: the balance heuristic asks their density.
-    template <class F, class Distribution>
-    Rgb connect(const F& f, const Distribution& distribution, const Vec3& position) {
-        const Vec2 q = lamp.min + random_.uniform2() * (lamp.max - lamp.min);
-        const Vec3 to_lamp = Vec3(lamp.at, q.x, q.y) - position;
-        const float distance = length(to_lamp);
-        const Vec3 w = to_lamp / distance;
-        if (w.x <= 0 || intersect(position, w).wall != &lamp) {
-            return Rgb();
-        }
-        const float transmittance = std::exp(-extinction * distance);
-        const float both = emitter_density(distance, w.x) + distribution.density(w) * transmittance;
-        return f.evaluate(w) * lamp_radiance * (transmittance / both);
-    }
-
     // Every factor and every radiance goes to the log as well. That is all that training asks of a walk.
     void weigh(const Rgb& weight) {
-        throughput_ *= weight;
+        now_.throughput *= weight;
         log_.weigh(weight);
     }
     void gather(const Rgb& radiance) {
-        radiance_ += throughput_ * radiance;
+        radiance_ += now_.throughput * radiance;
         log_.gather(radiance);
     }
 
-    const Directions& directions_;
+    const Decisions& d_;
+    float expected_;
     wend::Pcg32& random_;
     PathLog& log_;
-    Vec3 origin_, direction_;
-    Rgb throughput_{1.0f}, radiance_;
-    float density_ = 0;  ///< of the direction drawn last
-    float boost_ = 1;    ///< how much likelier the walk is for being guided: roulette must not end it for that
-    int depth_ = 0;
+    std::vector<wend::LightRecord>& lights_;
+    State now_;
+    std::vector<std::pair<State, PathLog::Branch>> pending_;
+    Rgb radiance_;
 };
 
 // ---- 3. Render in passes ----
 
 constexpr int width = 64, height = 36;
 
-/// Mean and variance of a stream of values.
-class Moments {
-public:
-    void add(double value) {
-        const double before = value - mean_;
-        mean_ += before / static_cast<double>(++count_);
-        squares_ += before * (value - mean_);
+/// Sums over the samples of each pixel.
+struct Picture {
+    wend::Image sum{width, height}, squares{width, height};
+    int samples = 0;
+    double seconds = 0;
+
+    double mean(std::size_t i) const { return static_cast<double>(mean_value(sum.pixels[i])) / samples; }
+    /// Of one sample.
+    double variance(std::size_t i) const {
+        return static_cast<double>(mean_value(squares.pixels[i])) / samples - mean(i) * mean(i);
     }
-    long count() const { return count_; }
-    double mean() const { return mean_; }
-    double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
-    double standard_error() const { return std::sqrt(variance() / static_cast<double>(count_)); }
-
-private:
-    long count_ = 0;
-    double mean_ = 0, squares_ = 0;
+    template <class Quantity>
+    static double average(const Quantity& quantity) {
+        double total = 0;
+        for (std::size_t i = 0; i < width * height; ++i) {
+            total += quantity(i);
+        }
+        return total / (width * height);
+    }
+    double mean() const {
+        return average([&](std::size_t i) { return mean(i); });
+    }
+    double variance() const {
+        return average([&](std::size_t i) { return variance(i); });
+    }
 };
 
-struct Pixel {
-    Rgb sum;
-    Moments grey;
-};
-using Picture = std::vector<Pixel>;
-
-const Vec3 camera(0.4f, 1.3f, 3.6f);
 Vec3 camera_direction(float x, float y) {
-    const Vec3 forward(0.67f, -0.08f, -0.74f), right(0.74f, 0, 0.67f), down(0, -1, 0);
-    return normalize(forward + right * (1.6f * (x / width - 0.5f)) + down * (0.9f * (y / height - 0.5f)));
+    const Vec3 forward = normalize(Vec3(0.67f, -0.08f, -0.74f)), right = normalize(forward.cross(Vec3(0, 1, 0)));
+    return normalize(forward + right * (1.6f * (x / width - 0.5f)) +
+                     forward.cross(right) * (0.9f * (y / height - 0.5f)));
 }
 
-/// Adds `count` samples to every pixel, and returns what the walks recorded. A random number depends on pixel and
-/// sample, and records are put in the order of rows: so the result is the same for any number of threads.
-template <class Directions>
-PathRecords render(const Directions& directions, int first, int count, Picture& picture) {
-    std::vector<PathRecords> rows(height);
+/// Adds samples to every pixel, and returns what the walks told. A random number depends on pixel and sample, and what
+/// is told is put in the order of rows: so the result is the same for any number of threads.
+template <class Decisions>
+std::vector<Told> render(const Decisions& decisions, const std::vector<float>& expected, int first, int count,
+                         Picture& picture) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Told> rows(height);
     tbb::parallel_for(std::size_t{0}, std::size_t(height), [&](std::size_t row) {
         PathLog log;
         for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
@@ -239,38 +368,25 @@ PathRecords render(const Directions& directions, int first, int count, Picture& 
                 wend::Pcg32 random(wend::hash_of(i, sample));
                 const float x = static_cast<float>(i % width) + random.uniform();
                 const float y = static_cast<float>(row) + random.uniform();
-                const Rgb radiance = Walk(directions, camera, camera_direction(x, y), random, log).run();
-                picture[i].sum += radiance;
-                picture[i].grey.add(mean(radiance));
-                rows[row].add(log.vertices());
+                Walk walk(decisions, expected.empty() ? 0.0f : expected[i], random, log, rows[row].lights);
+                const Rgb radiance = walk.run(Vec3(0.4f, 1.3f, 3.6f), camera_direction(x, y));
+                picture.sum.pixels[i] += radiance;
+                picture.squares.pixels[i] += Rgb(mean_value(radiance) * mean_value(radiance));
+                rows[row].records.add(log.vertices(), 64);
             }
         }
     });
-    return PathRecords::joined(std::move(rows));
-}
-
-/// Over the picture: its pixels, and the squares of their standard errors.
-struct Quality {
-    Moments radiance, variance;
-};
-Quality report(const char* name, const Picture& picture) {
-    Quality q;
-    for (const Pixel& pixel : picture) {
-        q.radiance.add(pixel.grey.mean());
-        q.variance.add(std::pow(pixel.grey.standard_error(), 2));
-    }
-    std::printf("%-9s  mean %.4f, relative error of a pixel %.1f %%\n", name, q.radiance.mean(),
-                100 * std::sqrt(q.variance.mean()) / q.radiance.mean());
-    return q;
+    picture.samples += count;
+    picture.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return rows;
 }
 
 void write_pfm(const char* file, const Picture& picture) {
     std::ofstream out(file, std::ios::binary);
     out << "PF\n" << width << ' ' << height << "\n-1\n";  // little-endian; rows from the bottom up
-    for (std::size_t y = height; y-- > 0;) {
-        for (std::size_t x = 0; x < width; ++x) {
-            const Pixel& pixel = picture[y * width + x];
-            const Rgb colour = pixel.sum / static_cast<float>(pixel.grey.count());
+    for (int y = height; y-- > 0;) {
+        for (int x = 0; x < width; ++x) {
+            const Rgb colour = picture.sum.at(x, y) / static_cast<float>(picture.samples);
             out.write(reinterpret_cast<const char*>(&colour), sizeof colour);
         }
     }
@@ -279,31 +395,50 @@ void write_pfm(const char* file, const Picture& picture) {
 }  // namespace
 
 int main() {
-    constexpr int samples = 128, passes = 7;
-    Picture classical(width * height), guided(width * height), training(width * height);
-    render(wend::ClassicalDirection(), 0, samples, classical);
-    // Surfaces and volumes have a field each: what they see differs. Some directions stay classical, the defence
-    // against what the fields do not know yet. (The decision refers to the fields: new ones are assigned to them.)
-    Field surface = Field::empty(bounds), volume = Field::empty(bounds);
-    const wend::GuidedDirection<Field> directions(&surface, &volume);
+    constexpr int samples = 128, passes = 6;
+    Picture classical, guided, training;
+    wend::LearnedLights lights(bounds, lamps.size());
+    const Decisions unguided{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights};
+    render(unguided, {}, 0, samples, classical);
     // ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
-    int sample = samples;
+    // Surfaces and volumes have a field each: what they see differs. Decisions refer to the fields: new ones are
+    // assigned to them. What pixels will be is known from those passes, too.
+    wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
+    std::vector<float> expected;
+    const auto decide = [&] {
+        const double noise = training.samples > 1 ? training.variance() / std::pow(training.mean(), 2) : 1;
+        return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
+                                                     wend::DistanceGuiding::scatter_and_distance),
+                         wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
+                         wend::AdjointRouletteSplitting(true, true, noise), lights};
+    };
     for (int pass = 0; pass < passes; ++pass) {
-        const PathRecords records = render(directions, sample, 1 << pass, training);
-        surface = wend::guide::fit(surface, records.surface(), {}).field;
-        volume = wend::guide::fit(volume, records.volume(), {}).field;
-        sample += 1 << pass;
+        std::vector<PathRecords> records;
+        for (Told& told : render(decide(), expected, samples + training.samples, 1 << pass, training)) {
+            records.push_back(std::move(told.records));
+            lights.add(told.lights);
+        }
+        fields = wend::guide::learn(fields, std::move(records), 0);
+        lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
+        wend::Image mean = training.sum;
+        for (Rgb& pixel : mean.pixels) {
+            pixel *= 1 / static_cast<float>(training.samples);
+        }
+        expected = wend::pixel_estimates(mean, training.samples);
     }
     // Training pictures are right, but noisier than what follows: this one shows what has been learned.
-    render(directions, sample, samples, guided);
+    render(decide(), expected, samples + training.samples, samples, guided);
     write_pfm("classical.pfm", classical);
     write_pfm("guided.pfm", guided);
 
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
-    const Quality a = report("classical", classical), b = report("guided", guided);
-    const double gain = a.variance.mean() / b.variance.mean();
-    std::printf("%.2f times less variance by %d samples per pixel, after %d of training\n", gain, samples,
-                sample - samples);
-    const double error = std::sqrt((a.variance.mean() + b.variance.mean()) / (width * height));
-    return std::abs(a.radiance.mean() - b.radiance.mean()) < 4 * error && gain > 1 ? 0 : 1;
+    for (const auto& [name, picture] : {std::pair("classical", &classical), {"guided", &guided}}) {
+        std::printf("%-9s  mean %.4f, relative error of a sample %.2f, %.2f s\n", name, picture->mean(),
+                    std::sqrt(picture->variance()) / picture->mean(), picture->seconds);
+    }
+    const double gain = classical.variance() / guided.variance();
+    std::printf("%.1f times less variance by as many samples, %.1f times by as much time; %d samples of training\n",
+                gain, gain * classical.seconds / guided.seconds, training.samples);
+    const double error = std::sqrt((classical.variance() + guided.variance()) / (samples * width * height));
+    return std::abs(classical.mean() - guided.mean()) < 4 * error && gain > 4 ? 0 : 1;
 }

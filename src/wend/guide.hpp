@@ -3,6 +3,9 @@
 #pragma once
 
 #include <wend/decision/direction.h>
+#include <wend/decision/guided_distance.h>
+#include <wend/decision/learned_lights.h>
+#include <wend/decision/pixel_estimate.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/decision/volume_scattering.h>
 #include <wend/guide/field.h>

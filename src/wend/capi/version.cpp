@@ -1,5 +1,5 @@
 #include <wend/capi/guide.h>
 
-const char* wend_version(void) WEND_NOEXCEPT {
+const char* wend_version() noexcept {
     return WEND_VERSION;
 }

@@ -2,7 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/film/chess_board.h>
 #include <wend/film/merge.h>
-#include <wend/film/pixel_estimate.h>
+#include <wend/decision/pixel_estimate.h>
 #include <wend/stats/moments.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <wend/core/parallel.h>
 #include <wend/decision/guided_distance.h>
-#include <wend/film/pixel_estimate.h>
+#include <wend/decision/pixel_estimate.h>
 #include <wend/light/beams.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/pass.h>

@@ -1,6 +1,7 @@
 // Which light to connect to: by power, or by a hierarchy that weighs power, distance and orientation (estevez2018).
 #pragma once
 
+#include <wend/decision/light_choice.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/light.h>
 
@@ -9,17 +10,6 @@
 #include <vector>
 
 namespace wend {
-
-/// A vertex that wants light. `normal` is zero in a medium.
-struct LightReceiver {
-    Vec3 position;
-    Vec3 normal{0, 0, 0};
-};
-
-struct ChosenLight {
-    int index = -1;
-    float probability = 0;
-};
 
 /// In proportion to power, wherever the receiver is.
 class PowerLightSampler {

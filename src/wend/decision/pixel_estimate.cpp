@@ -1,4 +1,4 @@
-#include <wend/film/pixel_estimate.h>
+#include <wend/decision/pixel_estimate.h>
 
 #include <algorithm>
 #include <cmath>

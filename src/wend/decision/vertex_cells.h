@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/scene/light_sampler.h>
+#include <wend/decision/light_choice.h>
 
 #include <algorithm>
 #include <cmath>
