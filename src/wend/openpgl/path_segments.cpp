@@ -53,8 +53,8 @@ std::uint32_t flags_of(const PGLPathSegmentData& segment, const PGLPathSegmentDa
 
 void PathSegments::reserve(std::size_t most) {
     if (most != segments_.size()) {
-        clear();
         segments_ = std::vector<PGLPathSegmentData>(most);
+        clear();
     }
 }
 
