@@ -29,6 +29,7 @@ struct PGLSurfaceSamplingDistributionObject {
 };
 struct PGLVolumeSamplingDistributionObject {
     wend::openpgl::Directions value;
+    wend::openpgl::PhaseLobes phase;
 };
 
 namespace wend::openpgl {

@@ -26,7 +26,10 @@ bool Directions::init(const guide::Field* field, const Vec3& position) {
         clear();
         return false;
     }
-    here_ = guide::Region(position, region->incident(position), guide::Lanes{}, region->fluence(), region->colours());
+    position_ = position;
+    incident_ = region->incident(position);
+    fluence_ = region->fluence();
+    colours_ = region->colours();
     product_.reset();
     cell_ = static_cast<std::uint32_t>(field->index_of(*region));
     return initialized_ = true;
@@ -37,24 +40,16 @@ void Directions::clear() {
 }
 
 void Directions::multiply(const AxialLobes& lobes) {
-    product_.emplace(here_.mixture(), lobes);
+    product_.emplace(incident_, lobes);
 }
 
 Vec3 Directions::sample(const Vec2& u) const {
     const Vec2 point(to_unit(u.x), to_unit(u.y));
-    return product_ ? product_->sample(point) : here_.mixture().sample(point);
+    return product_ ? product_->sample(point) : incident_.sample(point);
 }
 
 float Directions::density(const Vec3& direction) const {
-    return product_ ? product_->density(direction) : here_.mixture().density(direction);
-}
-
-Rgb Directions::fluence() const {
-    Rgb sum;
-    for (int i = 0; i < here_.mixture().size(); ++i) {
-        sum += here_.colours()[i] * (here_.fluence() * here_.mixture().lobe(i).weight);
-    }
-    return sum;
+    return product_ ? product_->density(direction) : incident_.density(direction);
 }
 
 std::optional<AxialLobes> cosine_lobes(const Vec3& normal) {
@@ -62,13 +57,17 @@ std::optional<AxialLobes> cosine_lobes(const Vec3& normal) {
     return axis ? std::optional(AxialLobes::cosine().around(*axis)) : std::nullopt;
 }
 
-std::optional<AxialLobes> phase_lobes(const Vec3& before, float mean_cosine) {
+std::optional<AxialLobes> PhaseLobes::around(const Vec3& before, float mean_cosine) {
     constexpr float most = 0.999f;
     const auto axis = to_unit_length(before);
     if (!axis || std::isnan(mean_cosine)) {
         return std::nullopt;
     }
-    return HenyeyGreenstein{std::clamp(mean_cosine, -most, most)}.lobes().around(*axis);
+    if (mean_cosine != mean_cosine_) {
+        lobes_ = HenyeyGreenstein{std::clamp(mean_cosine, -most, most)}.lobes();
+        mean_cosine_ = mean_cosine;
+    }
+    return lobes_.around(*axis);
 }
 
 }  // namespace wend::openpgl

@@ -29,22 +29,25 @@ public:
     /// Density of a unit direction, in 1/sr.
     float density(const Vec3& direction) const;
     /// The same in proportion to the radiance alone.
-    float incident_density(const Vec3& direction) const { return here_.mixture().density(direction); }
+    float incident_density(const Vec3& direction) const { return incident_.density(direction); }
 
     /// The radiance that arrives from a unit direction.
-    Rgb radiance(const Vec3& direction) const { return here_.radiance(here_.reference(), direction); }
+    Rgb radiance(const Vec3& direction) const { return here().radiance(position_, direction); }
     /// The integral of the radiance.
-    Rgb fluence() const;
+    Rgb fluence() const { return here().in_scattered(incident_.product(AxialLobes())) * (4 * pi); }
     /// The integral of the radiance times the lobes.
-    Rgb scattered(const AxialLobes& lobes) const {
-        return here_.in_scattered(guide::MixtureProduct(here_.mixture(), lobes));
-    }
+    Rgb scattered(const AxialLobes& lobes) const { return here().in_scattered(incident_.product(lobes)); }
     /// The field's cell.
     std::uint32_t cell() const { return cell_; }
 
 private:
     /// The field's region as seen from the position.
-    guide::Region here_;
+    guide::Region here() const { return {position_, incident_, guide::Lanes{}, fluence_, colours_}; }
+
+    Vec3 position_{0, 0, 0};
+    guide::VmfMixture incident_;
+    float fluence_ = 0;
+    guide::LobeColours colours_;
     std::optional<guide::MixtureProduct> product_;
     std::uint32_t cell_ = 0;
     bool initialized_ = false;
@@ -52,8 +55,16 @@ private:
 
 /// The cosine to a normal, which is scaled to unit length; nothing if it has none.
 std::optional<AxialLobes> cosine_lobes(const Vec3& normal);
-/// Henyey and Greenstein's phase function of a mean cosine, around the direction of flight before the collision, which
-/// is scaled to unit length; nothing if it has none or the mean cosine is no number.
-std::optional<AxialLobes> phase_lobes(const Vec3& before, float mean_cosine);
+/// Henyey and Greenstein's phase function as lobes. It keeps the last, since media seldom change their mean cosine.
+class PhaseLobes {
+public:
+    /// Around the direction of flight before the collision, which is scaled to unit length; nothing if it has none or
+    /// the mean cosine is no number.
+    std::optional<AxialLobes> around(const Vec3& before, float mean_cosine);
+
+private:
+    float mean_cosine_ = 0;
+    AxialLobes lobes_;
+};
 
 }  // namespace wend::openpgl

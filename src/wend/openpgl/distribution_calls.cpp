@@ -153,7 +153,9 @@ bool pglFieldInitVolumeSamplingDistribution(PGLField field, PGLVolumeSamplingDis
 
 void pglVolumeSamplingDistributionApplySingleLobeHenyeyGreensteinProduct(
     PGLVolumeSamplingDistribution volumeSamplingDistribution, pgl_vec3f dir, float meanCosine) noexcept {
-    multiply(volumeSamplingDistribution, phase_lobes(to_vector(dir), meanCosine));
+    if (volumeSamplingDistribution) {
+        multiply(volumeSamplingDistribution, volumeSamplingDistribution->phase.around(to_vector(dir), meanCosine));
+    }
 }
 
 bool pglVolumeSamplingDistributionSupportsApplySingleLobeHenyeyGreensteinProduct(
@@ -207,7 +209,9 @@ pgl_vec3f pglVolumeSamplingDistributionIncomingRadiance(PGLVolumeSamplingDistrib
 pgl_vec3f pglVolumeSamplingDistributionInscatteredRadiance(PGLVolumeSamplingDistribution volumeSamplingDistribution,
                                                            pgl_vec3f direction, float g,
                                                            bool /*directLightMIS*/) noexcept {
-    return scattered(volumeSamplingDistribution, phase_lobes(-to_vector(direction), g), 1);
+    return volumeSamplingDistribution ? scattered(volumeSamplingDistribution,
+                                                  volumeSamplingDistribution->phase.around(-to_vector(direction), g), 1)
+                                      : unknown;
 }
 
 pgl_vec3f pglVolumeSamplingDistributionFluence(PGLVolumeSamplingDistribution volumeSamplingDistribution,
