@@ -31,15 +31,34 @@ std::size_t half_of(const PGLSampleData& sample) {
     return index_of(sample.flags & PGLSampleData::EInsideVolume ? Half::volume : Half::surface);
 }
 
-/// Sorts values, which are words of four bytes without gaps, by a hash of them; equal hashes by the words themselves.
+/// What decides about the place of a value, and where it is now.
+struct Key {
+    std::uint64_t hash;
+    std::size_t place;
+};
+
+/// Moves each value to where its key is. Afterwards the keys' places are in order.
 template <class T>
-std::vector<T> sorted_by_content(std::vector<T> values) {
+void permute(std::vector<T>& values, std::vector<Key>& keys) {
+    for (std::size_t first = 0; first < keys.size(); ++first) {
+        const T moved = values[first];
+        std::size_t i = first;
+        while (keys[i].place != first) {
+            const std::size_t next = std::exchange(keys[i].place, i);
+            values[i] = values[next];
+            i = next;
+        }
+        values[i] = moved;
+        keys[i].place = i;
+    }
+}
+
+/// Sorts values, which are words of four bytes without gaps, by a hash of them; equal hashes by the words themselves.
+/// In place but for the keys, since there may be many.
+template <class T>
+void sort_by_content(std::vector<T>& values) {
     constexpr std::size_t words = sizeof(T) / sizeof(std::uint32_t);
     static_assert(PlainValue<T> && sizeof(T) % sizeof(std::uint32_t) == 0);
-    struct Key {
-        std::uint64_t hash;
-        std::size_t place;
-    };
     std::vector<Key> keys(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         std::array<std::uint32_t, words> bits;
@@ -50,17 +69,11 @@ std::vector<T> sorted_by_content(std::vector<T> values) {
         }
         keys[i] = {hash, i};
     }
+    const auto bytes = [&](const Key& key) { return static_cast<const void*>(&values[key.place]); };
     tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-        return a.hash != b.hash ? a.hash < b.hash
-                                : std::memcmp(static_cast<const void*>(&values[a.place]),
-                                              static_cast<const void*>(&values[b.place]), sizeof(T)) < 0;
+        return a.hash != b.hash ? a.hash < b.hash : std::memcmp(bytes(a), bytes(b), sizeof(T)) < 0;
     });
-    std::vector<T> sorted;
-    sorted.reserve(values.size());
-    for (const Key& key : keys) {
-        sorted.push_back(values[key.place]);
-    }
-    return sorted;
+    permute(values, keys);
 }
 
 }  // namespace
@@ -178,16 +191,19 @@ PGLZeroValueSampleData SampleStore::zero(Half half, std::size_t i) const {
 }
 
 guide::Records SampleStore::records(Half half) const {
-    const Samples samples = all(half);
     guide::Records records;
-    records.reserve(samples.lit.size() + samples.zero.size());
-    for (const Sample& sample : samples.lit) {
-        records.push_back(record_of(sample));
+    records.reserve(size(half) + zeros(half));
+    for (const Shard& shard : *shards_) {
+        const std::lock_guard lock(shard.mutex);
+        for (const Sample& sample : shard.halves[index_of(half)].lit) {
+            records.push_back(record_of(sample));
+        }
+        for (const PGLZeroValueSampleData& sample : shard.halves[index_of(half)].zero) {
+            records.push_back(record_of(sample));
+        }
     }
-    for (const PGLZeroValueSampleData& sample : samples.zero) {
-        records.push_back(record_of(sample));
-    }
-    return sorted_by_content(std::move(records));
+    sort_by_content(records);
+    return records;
 }
 
 std::string SampleStore::to_bytes() const {
@@ -199,7 +215,9 @@ std::string SampleStore::to_bytes() const {
         for (const PGLZeroValueSampleData& sample : samples.zero) {
             zeros.push_back({sample.position, sample.direction});
         }
-        bytes(sorted_by_content(std::move(samples.lit)), sorted_by_content(std::move(zeros)));
+        sort_by_content(samples.lit);
+        sort_by_content(zeros);
+        bytes(samples.lit, zeros);
     }
     return guide::seal(kind, bytes.bytes());
 }
