@@ -225,6 +225,10 @@ OPENPGL_CORE_INTERFACE bool pglSurfaceSamplingDistributionValidate(
     PGLSurfaceSamplingDistribution surfaceSamplingDistribution) OPENPGL_NOEXCEPT;
 OPENPGL_CORE_INTERFACE void pglSurfaceSamplingDistributionClear(
     PGLSurfaceSamplingDistribution surfaceSamplingDistribution) OPENPGL_NOEXCEPT;
+/// -1, which stands for unknown: how much of what comes from a direction is from a medium that lies before a surface.
+OPENPGL_CORE_INTERFACE float pglSurfaceSamplingDistributionVolumeScatterProbability(
+    PGLSurfaceSamplingDistribution surfaceSamplingDistribution, pgl_vec3f direction,
+    bool contributionBased) OPENPGL_NOEXCEPT;
 /// Null.
 OPENPGL_CORE_INTERFACE PGLRegion pglSurfaceSamplingGetRegion(PGLSurfaceSamplingDistribution surfaceSamplingDistribution)
     OPENPGL_NOEXCEPT;
@@ -257,6 +261,10 @@ OPENPGL_CORE_INTERFACE bool pglVolumeSamplingDistributionValidate(
     PGLVolumeSamplingDistribution volumeSamplingDistribution) OPENPGL_NOEXCEPT;
 OPENPGL_CORE_INTERFACE void pglVolumeSamplingDistributionClear(PGLVolumeSamplingDistribution volumeSamplingDistribution)
     OPENPGL_NOEXCEPT;
+/// -1, which stands for unknown: how much of what comes from a direction is from a medium that lies before a surface.
+OPENPGL_CORE_INTERFACE float pglVolumeSamplingDistributionVolumeScatterProbability(
+    PGLVolumeSamplingDistribution volumeSamplingDistribution, pgl_vec3f direction,
+    bool contributionBased) OPENPGL_NOEXCEPT;
 /// Null.
 OPENPGL_CORE_INTERFACE PGLRegion pglVolumeSamplingGetRegion(PGLVolumeSamplingDistribution volumeSamplingDistribution)
     OPENPGL_NOEXCEPT;

@@ -87,6 +87,7 @@ TEST(OpenPglDistributions, RadianceAddsUp) {
     EXPECT_NEAR(volume.InscatteredRadiance(to_pgl(-before), g, true).y / scattered, 1, 0.03);
     EXPECT_NEAR(surface.Irradiance(to_pgl(normal), true).y / irradiance, 1, 0.15);
     EXPECT_EQ(surface.OutgoingRadiance(to_pgl(normal)).y, 0);
+    EXPECT_EQ(surface.VolumeScatterProbability(to_pgl(normal), true), -1);
 }
 
 TEST(OpenPglDistributions, AProductFavoursWhatScatters) {

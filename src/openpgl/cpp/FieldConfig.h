@@ -33,6 +33,7 @@ struct FieldConfig {
             tree->isKnnLookup = useKnnIsLookup;
         }
     }
+    void SetVarianceBasedVSP(bool /*varianceBasedVSP*/) {}
     void SetDebugArgFitRegions(bool fitRegions) { m_args.debugArguments.fitRegions = fitRegions; }
 
 private:

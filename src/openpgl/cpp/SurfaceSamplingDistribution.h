@@ -51,6 +51,11 @@ struct SurfaceSamplingDistribution {
         return pglSurfaceSamplingDistributionOutgoingRadiance(m_handle, direction);
     }
 
+    /// -1: unknown.
+    float VolumeScatterProbability(const pgl_vec3f& direction, bool contributionBased) const {
+        return pglSurfaceSamplingDistributionVolumeScatterProbability(m_handle, direction, contributionBased);
+    }
+
     uint32_t GetId() const { return pglSurfaceSamplingDistributionGetId(m_handle); }
     Region GetRegion() const { return Region(pglSurfaceSamplingGetRegion(m_handle)); }
     bool Validate() const { return pglSurfaceSamplingDistributionValidate(m_handle); }

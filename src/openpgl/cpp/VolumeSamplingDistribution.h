@@ -54,6 +54,11 @@ struct VolumeSamplingDistribution {
         return pglVolumeSamplingDistributionOutgoingRadiance(m_handle, direction);
     }
 
+    /// -1: unknown.
+    float VolumeScatterProbability(const pgl_vec3f& direction, bool contributionBased) const {
+        return pglVolumeSamplingDistributionVolumeScatterProbability(m_handle, direction, contributionBased);
+    }
+
     uint32_t GetId() const { return pglVolumeSamplingDistributionGetId(m_handle); }
     Region GetRegion() const { return Region(pglVolumeSamplingGetRegion(m_handle)); }
     bool Validate() const { return pglVolumeSamplingDistributionValidate(m_handle); }

@@ -118,6 +118,12 @@ void pglSurfaceSamplingDistributionClear(PGLSurfaceSamplingDistribution surfaceS
     }
 }
 
+float pglSurfaceSamplingDistributionVolumeScatterProbability(
+    PGLSurfaceSamplingDistribution /*surfaceSamplingDistribution*/, pgl_vec3f /*direction*/,
+    bool /*contributionBased*/) noexcept {
+    return -1;
+}
+
 PGLRegion pglSurfaceSamplingGetRegion(PGLSurfaceSamplingDistribution /*surfaceSamplingDistribution*/) noexcept {
     return nullptr;
 }
@@ -195,6 +201,12 @@ void pglVolumeSamplingDistributionClear(PGLVolumeSamplingDistribution volumeSamp
     if (volumeSamplingDistribution) {
         volumeSamplingDistribution->value.clear();
     }
+}
+
+float pglVolumeSamplingDistributionVolumeScatterProbability(
+    PGLVolumeSamplingDistribution /*volumeSamplingDistribution*/, pgl_vec3f /*direction*/,
+    bool /*contributionBased*/) noexcept {
+    return -1;
 }
 
 PGLRegion pglVolumeSamplingGetRegion(PGLVolumeSamplingDistribution /*volumeSamplingDistribution*/) noexcept {

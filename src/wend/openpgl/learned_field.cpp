@@ -1,12 +1,15 @@
 #include <wend/openpgl/learned_field.h>
 
 #include <wend/core/archive.h>
+#include <wend/core/error.h>
 #include <wend/guide/sealed_bytes.h>
 #include <wend/guide/serialization.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -82,6 +85,9 @@ Box3 LearnedField::bounds() const {
 void LearnedField::update(const SampleStore& store, bool surface, bool volume) {
     const guide::Records on_surfaces = surface ? store.records(Half::surface) : guide::Records();
     const guide::Records in_volumes = volume ? store.records(Half::volume) : guide::Records();
+    if (std::max(on_surfaces.size(), in_volumes.size()) >= std::numeric_limits<std::uint32_t>::max()) {
+        throw InputError("an update has 2^32 - 1 samples or more");
+    }
     if (!fields_) {
         const Box3 found = given_ ? *given_ : box_around(in_volumes, box_around(on_surfaces, Box3()));
         if (!found.isEmpty()) {
