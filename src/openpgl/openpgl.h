@@ -1,8 +1,8 @@
 // Open PGL's interface over Wend's learned field, for C. docs/openpgl.md says what differs.
 //
-// No function throws. A null object, an index out of range or a number that is none changes nothing and gets an answer
-// that does no harm: null, false, 0, or the uniform distribution. What went wrong with a file, or for lack of memory,
-// is also a line on the standard error stream.
+// No function throws. A handle that is null or of another kind, an index out of range or a number that is none changes
+// nothing and gets an answer that does no harm: null, false, 0, or the uniform distribution. What went wrong with a
+// file, or for lack of memory, is also a line on the standard error stream.
 #pragma once
 
 #include <openpgl/common.h>

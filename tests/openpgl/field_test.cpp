@@ -192,6 +192,12 @@ TEST(OpenPglField, NullsDoNoHarm) {
     EXPECT_EQ(pglPathSegmentStorageNextSegment(nullptr), nullptr);
     EXPECT_EQ(pglDeviceNewFieldFromFile(nullptr, nullptr), nullptr);
     pglReleaseField(nullptr);
+    // Handles of another kind are none.
+    const PGLDevice device = pglNewDevice(PGL_DEVICE_TYPE_NONE);
+    pglReleaseField(reinterpret_cast<PGLField>(device));
+    EXPECT_EQ(pglFieldGetIteration(reinterpret_cast<PGLField>(device)), 0u);
+    EXPECT_FALSE(pglFieldStoreToFile(reinterpret_cast<PGLField>(device), "/tmp/never"));
+    pglReleaseDevice(device);
     pglReleaseString({});
 }
 

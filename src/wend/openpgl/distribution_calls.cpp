@@ -18,24 +18,26 @@ Object* new_object() noexcept {
 
 template <class Handle>
 bool init(PGLField field, Handle distribution, Half half, const pgl_point3f& position) noexcept {
-    return field && distribution && distribution->value.init(field->value.field(half), to_vector(position));
+    return is_object(field) && is_object(distribution) &&
+           distribution->value.init(field->value.field(half), to_vector(position));
 }
 
 template <class Handle>
 void multiply(Handle distribution, const std::optional<AxialLobes>& lobes) noexcept {
-    if (distribution && lobes) {
+    if (is_object(distribution) && lobes) {
         distribution->value.multiply(*lobes);
     }
 }
 
 template <class Handle>
 pgl_vec3f sample(Handle distribution, const pgl_point2f& u) noexcept {
-    return from_vector(distribution ? distribution->value.sample({u.x, u.y}) : Directions().sample({u.x, u.y}));
+    return from_vector(is_object(distribution) ? distribution->value.sample({u.x, u.y})
+                                               : Directions().sample({u.x, u.y}));
 }
 
 template <class Handle>
 float density(Handle distribution, const pgl_vec3f& direction) noexcept {
-    return distribution ? distribution->value.density(to_vector(direction)) : inv_4pi;
+    return is_object(distribution) ? distribution->value.density(to_vector(direction)) : inv_4pi;
 }
 
 template <class Handle>
@@ -46,17 +48,17 @@ float sample_with_density(Handle distribution, const pgl_point2f& u, pgl_vec3f& 
 
 template <class Handle>
 float incident_density(Handle distribution, const pgl_vec3f& direction) noexcept {
-    return distribution ? distribution->value.incident_density(to_vector(direction)) : inv_4pi;
+    return is_object(distribution) ? distribution->value.incident_density(to_vector(direction)) : inv_4pi;
 }
 
 template <class Handle>
 pgl_vec3f radiance(Handle distribution, const pgl_vec3f& direction) noexcept {
-    return distribution ? from_colour(distribution->value.radiance(to_vector(direction))) : unknown;
+    return is_object(distribution) ? from_colour(distribution->value.radiance(to_vector(direction))) : unknown;
 }
 
 template <class Handle>
 pgl_vec3f scattered(Handle distribution, const std::optional<AxialLobes>& lobes, float scale) noexcept {
-    return distribution && lobes ? from_colour(scale * distribution->value.scattered(*lobes)) : unknown;
+    return is_object(distribution) && lobes ? from_colour(scale * distribution->value.scattered(*lobes)) : unknown;
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ PGLSurfaceSamplingDistribution pglFieldNewSurfaceSamplingDistribution(PGLField /
 }
 
 void pglReleaseSurfaceSamplingDistribution(PGLSurfaceSamplingDistribution surfaceSamplingDistribution) noexcept {
-    delete surfaceSamplingDistribution;
+    release(surfaceSamplingDistribution);
 }
 
 bool pglFieldInitSurfaceSamplingDistribution(PGLField field, PGLSurfaceSamplingDistribution surfaceSamplingDistribution,
@@ -81,7 +83,7 @@ void pglSurfaceSamplingDistributionApplyCosineProduct(PGLSurfaceSamplingDistribu
 
 bool pglSurfaceSamplingDistributionSupportsApplyCosineProduct(
     PGLSurfaceSamplingDistribution surfaceSamplingDistribution) noexcept {
-    return surfaceSamplingDistribution != nullptr;
+    return is_object(surfaceSamplingDistribution);
 }
 
 pgl_vec3f pglSurfaceSamplingDistributionSample(PGLSurfaceSamplingDistribution surfaceSamplingDistribution,
@@ -105,15 +107,15 @@ float pglSurfaceSamplingDistributionIncomingRadiancePDF(PGLSurfaceSamplingDistri
 }
 
 uint32_t pglSurfaceSamplingDistributionGetId(PGLSurfaceSamplingDistribution surfaceSamplingDistribution) noexcept {
-    return surfaceSamplingDistribution ? surfaceSamplingDistribution->value.cell() : 0;
+    return is_object(surfaceSamplingDistribution) ? surfaceSamplingDistribution->value.cell() : 0;
 }
 
 bool pglSurfaceSamplingDistributionValidate(PGLSurfaceSamplingDistribution surfaceSamplingDistribution) noexcept {
-    return surfaceSamplingDistribution && surfaceSamplingDistribution->value.is_initialized();
+    return is_object(surfaceSamplingDistribution) && surfaceSamplingDistribution->value.is_initialized();
 }
 
 void pglSurfaceSamplingDistributionClear(PGLSurfaceSamplingDistribution surfaceSamplingDistribution) noexcept {
-    if (surfaceSamplingDistribution) {
+    if (is_object(surfaceSamplingDistribution)) {
         surfaceSamplingDistribution->value.clear();
     }
 }
@@ -149,7 +151,7 @@ PGLVolumeSamplingDistribution pglFieldNewVolumeSamplingDistribution(PGLField /*f
 }
 
 void pglReleaseVolumeSamplingDistribution(PGLVolumeSamplingDistribution volumeSamplingDistribution) noexcept {
-    delete volumeSamplingDistribution;
+    release(volumeSamplingDistribution);
 }
 
 bool pglFieldInitVolumeSamplingDistribution(PGLField field, PGLVolumeSamplingDistribution volumeSamplingDistribution,
@@ -159,14 +161,14 @@ bool pglFieldInitVolumeSamplingDistribution(PGLField field, PGLVolumeSamplingDis
 
 void pglVolumeSamplingDistributionApplySingleLobeHenyeyGreensteinProduct(
     PGLVolumeSamplingDistribution volumeSamplingDistribution, pgl_vec3f dir, float meanCosine) noexcept {
-    if (volumeSamplingDistribution) {
+    if (is_object(volumeSamplingDistribution)) {
         multiply(volumeSamplingDistribution, volumeSamplingDistribution->phase.around(to_vector(dir), meanCosine));
     }
 }
 
 bool pglVolumeSamplingDistributionSupportsApplySingleLobeHenyeyGreensteinProduct(
     PGLVolumeSamplingDistribution volumeSamplingDistribution) noexcept {
-    return volumeSamplingDistribution != nullptr;
+    return is_object(volumeSamplingDistribution);
 }
 
 pgl_vec3f pglVolumeSamplingDistributionSample(PGLVolumeSamplingDistribution volumeSamplingDistribution,
@@ -190,15 +192,15 @@ float pglVolumeSamplingDistributionIncomingRadiancePDF(PGLVolumeSamplingDistribu
 }
 
 uint32_t pglVolumeSamplingDistributionGetId(PGLVolumeSamplingDistribution volumeSamplingDistribution) noexcept {
-    return volumeSamplingDistribution ? volumeSamplingDistribution->value.cell() : 0;
+    return is_object(volumeSamplingDistribution) ? volumeSamplingDistribution->value.cell() : 0;
 }
 
 bool pglVolumeSamplingDistributionValidate(PGLVolumeSamplingDistribution volumeSamplingDistribution) noexcept {
-    return volumeSamplingDistribution && volumeSamplingDistribution->value.is_initialized();
+    return is_object(volumeSamplingDistribution) && volumeSamplingDistribution->value.is_initialized();
 }
 
 void pglVolumeSamplingDistributionClear(PGLVolumeSamplingDistribution volumeSamplingDistribution) noexcept {
-    if (volumeSamplingDistribution) {
+    if (is_object(volumeSamplingDistribution)) {
         volumeSamplingDistribution->value.clear();
     }
 }
@@ -221,14 +223,15 @@ pgl_vec3f pglVolumeSamplingDistributionIncomingRadiance(PGLVolumeSamplingDistrib
 pgl_vec3f pglVolumeSamplingDistributionInscatteredRadiance(PGLVolumeSamplingDistribution volumeSamplingDistribution,
                                                            pgl_vec3f direction, float g,
                                                            bool /*directLightMIS*/) noexcept {
-    return volumeSamplingDistribution ? scattered(volumeSamplingDistribution,
-                                                  volumeSamplingDistribution->phase.around(-to_vector(direction), g), 1)
-                                      : unknown;
+    return is_object(volumeSamplingDistribution)
+               ? scattered(volumeSamplingDistribution,
+                           volumeSamplingDistribution->phase.around(-to_vector(direction), g), 1)
+               : unknown;
 }
 
 pgl_vec3f pglVolumeSamplingDistributionFluence(PGLVolumeSamplingDistribution volumeSamplingDistribution,
                                                bool /*directLightMIS*/) noexcept {
-    return volumeSamplingDistribution ? from_colour(volumeSamplingDistribution->value.fluence()) : unknown;
+    return is_object(volumeSamplingDistribution) ? from_colour(volumeSamplingDistribution->value.fluence()) : unknown;
 }
 
 pgl_vec3f pglVolumeSamplingDistributionOutgoingRadiance(PGLVolumeSamplingDistribution /*volumeSamplingDistribution*/,

@@ -25,14 +25,15 @@ bool is_region_usable(const guide::Region& region) {
 }
 
 void update(PGLField field, PGLSampleStorage samples, bool surface, bool volume) noexcept {
-    if (field && samples) {
+    if (is_object(field) && is_object(samples)) {
         guarded([&] { field->value.update(samples->value, surface, volume); });
     }
 }
 
 PGLFieldStatistics statistics(PGLField field, Half half) noexcept {
-    return guarded<PGLFieldStatistics>(
-        nullptr, [&] { return field ? new PGLFieldStatisticsObject{statistics_of(field->value, half)} : nullptr; });
+    return guarded<PGLFieldStatistics>(nullptr, [&] {
+        return is_object(field) ? new PGLFieldStatisticsObject(statistics_of(field->value, half)) : nullptr;
+    });
 }
 
 PGLString to_string(const std::string& text) {
@@ -46,11 +47,11 @@ PGLString to_string(const std::string& text) {
 PGLDevice pglNewDevice(PGL_DEVICE_TYPE /*deviceType*/, size_t numThreads) noexcept {
     constexpr std::size_t most_threads = 1024;
     return guarded<PGLDevice>(
-        nullptr, [&] { return new PGLDeviceObject{static_cast<int>(std::min(numThreads, most_threads))}; });
+        nullptr, [&] { return new PGLDeviceObject(static_cast<int>(std::min(numThreads, most_threads))); });
 }
 
 void pglReleaseDevice(PGLDevice device) noexcept {
-    delete device;
+    release(device);
 }
 
 void pglFieldArgumentsSetDefaults(PGLFieldArguments& fieldArguments, PGL_SPATIAL_STRUCTURE_TYPE spatialType,
@@ -84,41 +85,41 @@ void pglReleaseFieldArguments(PGLFieldArguments& fieldArguments) noexcept {
 
 PGLField pglDeviceNewField(PGLDevice device, PGLFieldArguments args) noexcept {
     return guarded<PGLField>(nullptr, [&] {
-        return device ? new PGLFieldObject{LearnedField(settings_of(args), device->threads)} : nullptr;
+        return is_object(device) ? new PGLFieldObject(LearnedField(settings_of(args), device->threads)) : nullptr;
     });
 }
 
 PGLField pglDeviceNewFieldFromFile(PGLDevice device, const char* fieldFileName) noexcept {
     return guarded<PGLField>(nullptr, [&] {
-        return device && fieldFileName
-                   ? new PGLFieldObject{LearnedField::from_bytes(read_file(fieldFileName), device->threads)}
+        return is_object(device) && fieldFileName
+                   ? new PGLFieldObject(LearnedField::from_bytes(read_file(fieldFileName), device->threads))
                    : nullptr;
     });
 }
 
 void pglReleaseField(PGLField field) noexcept {
-    delete field;
+    release(field);
 }
 
 bool pglFieldStoreToFile(PGLField field, const char* fieldFileName) noexcept {
-    return field && fieldFileName && guarded(false, [&] {
+    return is_object(field) && fieldFileName && guarded(false, [&] {
                write_file(fieldFileName, field->value.to_bytes());
                return true;
            });
 }
 
 size_t pglFieldGetIteration(PGLField field) noexcept {
-    return field ? field->value.iteration() : 0;
+    return is_object(field) ? field->value.iteration() : 0;
 }
 
 void pglFieldSetSceneBounds(PGLField field, pgl_box3f bounds) noexcept {
-    if (field) {
+    if (is_object(field)) {
         field->value.set_bounds({to_vector(bounds.lower), to_vector(bounds.upper)});
     }
 }
 
 pgl_box3f pglFieldGetSceneBounds(PGLField field) noexcept {
-    const Box3 box = field ? field->value.bounds() : Box3();
+    const Box3 box = is_object(field) ? field->value.bounds() : Box3();
     return {from_vector(box.min), from_vector(box.max)};
 }
 
@@ -135,13 +136,13 @@ void pglFieldUpdateVolume(PGLField field, PGLSampleStorage sampleStorage) noexce
 }
 
 void pglFieldReset(PGLField field) noexcept {
-    if (field) {
+    if (is_object(field)) {
         field->value.reset();
     }
 }
 
 bool pglFieldValidate(PGLField field) noexcept {
-    return field && guarded(false, [&] {
+    return is_object(field) && guarded(false, [&] {
                bool usable = true;
                for (const Half half : {Half::surface, Half::volume}) {
                    if (const guide::Field* learned = field->value.field(half)) {
@@ -155,7 +156,7 @@ bool pglFieldValidate(PGLField field) noexcept {
 }
 
 bool pglFieldCompare(PGLField fieldA, PGLField fieldB) noexcept {
-    return fieldA && fieldB && guarded(false, [&] { return fieldA->value == fieldB->value; });
+    return is_object(fieldA) && is_object(fieldB) && guarded(false, [&] { return fieldA->value == fieldB->value; });
 }
 
 PGLFieldStatistics pglFieldGetSurfaceStatistics(PGLField field) noexcept {
@@ -167,12 +168,13 @@ PGLFieldStatistics pglFieldGetVolumeStatistics(PGLField field) noexcept {
 }
 
 void pglReleaseFieldStatistics(PGLFieldStatistics fieldStatistics) noexcept {
-    delete fieldStatistics;
+    release(fieldStatistics);
 }
 
 PGLString pglFieldStatisticsToString(PGLFieldStatistics fieldStatistics) noexcept {
-    return guarded(PGLString{},
-                   [&] { return fieldStatistics ? to_string(to_text(fieldStatistics->value)) : PGLString{}; });
+    return guarded(PGLString{}, [&] {
+        return is_object(fieldStatistics) ? to_string(to_text(fieldStatistics->value)) : PGLString{};
+    });
 }
 
 PGLString pglFieldStatisticsHeaderCSVString(PGLFieldStatistics /*fieldStatistics*/) noexcept {
@@ -180,8 +182,9 @@ PGLString pglFieldStatisticsHeaderCSVString(PGLFieldStatistics /*fieldStatistics
 }
 
 PGLString pglFieldStatisticsToCSVString(PGLFieldStatistics fieldStatistics) noexcept {
-    return guarded(PGLString{},
-                   [&] { return fieldStatistics ? to_string(to_csv(fieldStatistics->value)) : PGLString{}; });
+    return guarded(PGLString{}, [&] {
+        return is_object(fieldStatistics) ? to_string(to_csv(fieldStatistics->value)) : PGLString{};
+    });
 }
 
 void pglReleaseString(PGLString str) noexcept {

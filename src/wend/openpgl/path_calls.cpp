@@ -12,23 +12,23 @@ PGLPathSegmentStorage pglNewPathSegmentStorage(void) noexcept {
 }
 
 void pglReleasePathSegmentStorage(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    delete pathSegmentStorage;
+    release(pathSegmentStorage);
 }
 
 void pglPathSegmentStorageReserve(PGLPathSegmentStorage pathSegmentStorage, size_t size) noexcept {
-    if (pathSegmentStorage) {
+    if (is_object(pathSegmentStorage)) {
         guarded([&] { pathSegmentStorage->value.reserve(size); });
     }
 }
 
 void pglPathSegmentStorageClear(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    if (pathSegmentStorage) {
+    if (is_object(pathSegmentStorage)) {
         pathSegmentStorage->value.clear();
     }
 }
 
 PGLPathSegmentData* pglPathSegmentStorageNextSegment(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    return pathSegmentStorage ? pathSegmentStorage->value.next() : nullptr;
+    return is_object(pathSegmentStorage) ? pathSegmentStorage->value.next() : nullptr;
 }
 
 void pglPathSegmentStorageAddSegment(PGLPathSegmentStorage pathSegmentStorage, PGLPathSegmentData segment) noexcept {
@@ -38,14 +38,14 @@ void pglPathSegmentStorageAddSegment(PGLPathSegmentStorage pathSegmentStorage, P
 }
 
 void pglPathSegmentStorageAddSample(PGLPathSegmentStorage pathSegmentStorage, PGLSampleData sample) noexcept {
-    if (pathSegmentStorage) {
+    if (is_object(pathSegmentStorage)) {
         guarded([&] { pathSegmentStorage->value.add_sample(sample); });
     }
 }
 
 size_t pglPathSegmentStoragePrepareSamples(PGLPathSegmentStorage pathSegmentStorage, bool useNEEMiWeights,
                                            bool guideDirectLight, bool rrAffectsDirectContribution) noexcept {
-    if (!pathSegmentStorage) {
+    if (!is_object(pathSegmentStorage)) {
         return 0;
     }
     guarded([&] {
@@ -57,7 +57,7 @@ size_t pglPathSegmentStoragePrepareSamples(PGLPathSegmentStorage pathSegmentStor
 void pglPathSegmentStoragePropagateSamples(PGLPathSegmentStorage pathSegmentStorage, PGLSampleStorage sampleStorage,
                                            bool guideDirectLight, bool useNEEMiWeights,
                                            bool rrAffectsDirectContribution) noexcept {
-    if (!pathSegmentStorage || !sampleStorage) {
+    if (!is_object(pathSegmentStorage) || !is_object(sampleStorage)) {
         return;
     }
     guarded([&] {
@@ -71,45 +71,46 @@ void pglPathSegmentStoragePropagateSamples(PGLPathSegmentStorage pathSegmentStor
 
 const PGLSampleData* pglPathSegmentStorageGetSamples(PGLPathSegmentStorage pathSegmentStorage,
                                                      size_t& nSamples) noexcept {
-    nSamples = pathSegmentStorage ? pathSegmentStorage->value.plain_samples().size() : 0;
-    return pathSegmentStorage ? pathSegmentStorage->value.plain_samples().data() : nullptr;
+    nSamples = is_object(pathSegmentStorage) ? pathSegmentStorage->value.plain_samples().size() : 0;
+    return is_object(pathSegmentStorage) ? pathSegmentStorage->value.plain_samples().data() : nullptr;
 }
 
 const PGLZeroValueSampleData* pglPathSegmentStorageGetZeroValueSamples(PGLPathSegmentStorage pathSegmentStorage,
                                                                        size_t& nSamples) noexcept {
-    nSamples = pathSegmentStorage ? pathSegmentStorage->value.zero_samples().size() : 0;
-    return pathSegmentStorage ? pathSegmentStorage->value.zero_samples().data() : nullptr;
+    nSamples = is_object(pathSegmentStorage) ? pathSegmentStorage->value.zero_samples().size() : 0;
+    return is_object(pathSegmentStorage) ? pathSegmentStorage->value.zero_samples().data() : nullptr;
 }
 
 pgl_vec3f pglPathSegmentStorageCalculatePixelEstimate(PGLPathSegmentStorage pathSegmentStorage,
                                                       bool rrAffectsDirectContribution) noexcept {
-    return from_colour(pathSegmentStorage ? pathSegmentStorage->value.estimate(rrAffectsDirectContribution) : Rgb());
+    return from_colour(is_object(pathSegmentStorage) ? pathSegmentStorage->value.estimate(rrAffectsDirectContribution)
+                                                     : Rgb());
 }
 
 void pglPathSegmentSetMaxDistance(PGLPathSegmentStorage pathSegmentStorage, float maxDistance) noexcept {
-    if (pathSegmentStorage && maxDistance > 0) {
+    if (is_object(pathSegmentStorage) && maxDistance > 0) {
         pathSegmentStorage->value.max_distance = maxDistance;
     }
 }
 
 float pglPathSegmentGetMaxDistance(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    return pathSegmentStorage ? pathSegmentStorage->value.max_distance : 0.0f;
+    return is_object(pathSegmentStorage) ? pathSegmentStorage->value.max_distance : 0.0f;
 }
 
 int pglPathSegmentGetNumSegments(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    return pathSegmentStorage ? static_cast<int>(pathSegmentStorage->value.segments().size()) : 0;
+    return is_object(pathSegmentStorage) ? static_cast<int>(pathSegmentStorage->value.segments().size()) : 0;
 }
 
 int pglPathSegmentGetNumSamples(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    return pathSegmentStorage ? static_cast<int>(pathSegmentStorage->value.samples().size()) : 0;
+    return is_object(pathSegmentStorage) ? static_cast<int>(pathSegmentStorage->value.samples().size()) : 0;
 }
 
 int pglPathSegmentGetNumZeroValueSamples(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    return pathSegmentStorage ? static_cast<int>(pathSegmentStorage->value.zero_samples().size()) : 0;
+    return is_object(pathSegmentStorage) ? static_cast<int>(pathSegmentStorage->value.zero_samples().size()) : 0;
 }
 
 bool pglPathSegmentStorageValidateSegments(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    if (!pathSegmentStorage) {
+    if (!is_object(pathSegmentStorage)) {
         return false;
     }
     const auto segments = pathSegmentStorage->value.segments();
@@ -117,7 +118,7 @@ bool pglPathSegmentStorageValidateSegments(PGLPathSegmentStorage pathSegmentStor
 }
 
 bool pglPathSegmentStorageValidateSamples(PGLPathSegmentStorage pathSegmentStorage) noexcept {
-    if (!pathSegmentStorage) {
+    if (!is_object(pathSegmentStorage)) {
         return false;
     }
     const auto samples = pathSegmentStorage->value.samples();

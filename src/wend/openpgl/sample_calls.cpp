@@ -16,16 +16,16 @@ std::size_t to_index(int idx) {
 }
 
 PGLSampleData sample(PGLSampleStorage samples, Half half, int idx) noexcept {
-    return samples ? samples->value.sample(half, to_index(idx)) : PGLSampleData{};
+    return is_object(samples) ? samples->value.sample(half, to_index(idx)) : PGLSampleData{};
 }
 
 PGLZeroValueSampleData zero(PGLSampleStorage samples, Half half, int idx) noexcept {
-    return samples ? samples->value.zero(half, to_index(idx)) : PGLZeroValueSampleData{};
+    return is_object(samples) ? samples->value.zero(half, to_index(idx)) : PGLZeroValueSampleData{};
 }
 
 template <class Plain>
 void add(PGLSampleStorage storage, const Plain* samples, std::size_t count) noexcept {
-    if (storage && samples) {
+    if (is_object(storage) && samples) {
         guarded([&] { storage->value.add(std::span(samples, count)); });
     }
 }
@@ -39,17 +39,17 @@ PGLSampleStorage pglNewSampleStorage(void) noexcept {
 PGLSampleStorage pglNewSampleStorageFromFile(const char* sampleStorageFileName) noexcept {
     return guarded<PGLSampleStorage>(nullptr, [&] {
         return sampleStorageFileName
-                   ? new PGLSampleStorageObject{SampleStore::from_bytes(read_file(sampleStorageFileName))}
+                   ? new PGLSampleStorageObject(SampleStore::from_bytes(read_file(sampleStorageFileName)))
                    : nullptr;
     });
 }
 
 void pglReleaseSampleStorage(PGLSampleStorage sampleStorage) noexcept {
-    delete sampleStorage;
+    release(sampleStorage);
 }
 
 bool pglSampleStorageStoreToFile(PGLSampleStorage sampleStorage, const char* sampleStorageFileName) noexcept {
-    return sampleStorage && sampleStorageFileName && guarded(false, [&] {
+    return is_object(sampleStorage) && sampleStorageFileName && guarded(false, [&] {
                write_file(sampleStorageFileName, sampleStorage->value.to_bytes());
                return true;
            });
@@ -74,7 +74,7 @@ void pglSampleStorageAddZeroValueSamples(PGLSampleStorage sampleStorage, const P
 }
 
 void pglSampleStorageMerge(PGLSampleStorage sampleStorage, PGLSampleStorage other) noexcept {
-    if (sampleStorage && other) {
+    if (is_object(sampleStorage) && is_object(other)) {
         guarded([&] { sampleStorage->value.add(other->value); });
     }
 }
@@ -88,31 +88,31 @@ void pglSampleStorageClear(PGLSampleStorage sampleStorage) noexcept {
 }
 
 void pglSampleStorageClearSurface(PGLSampleStorage sampleStorage) noexcept {
-    if (sampleStorage) {
+    if (is_object(sampleStorage)) {
         sampleStorage->value.clear(Half::surface);
     }
 }
 
 void pglSampleStorageClearVolume(PGLSampleStorage sampleStorage) noexcept {
-    if (sampleStorage) {
+    if (is_object(sampleStorage)) {
         sampleStorage->value.clear(Half::volume);
     }
 }
 
 size_t pglSampleStorageGetSizeSurface(PGLSampleStorage sampleStorage) noexcept {
-    return sampleStorage ? sampleStorage->value.size(Half::surface) : 0;
+    return is_object(sampleStorage) ? sampleStorage->value.size(Half::surface) : 0;
 }
 
 size_t pglSampleStorageGetSizeVolume(PGLSampleStorage sampleStorage) noexcept {
-    return sampleStorage ? sampleStorage->value.size(Half::volume) : 0;
+    return is_object(sampleStorage) ? sampleStorage->value.size(Half::volume) : 0;
 }
 
 size_t pglSampleStorageGetSizeZeroValueSurface(PGLSampleStorage sampleStorage) noexcept {
-    return sampleStorage ? sampleStorage->value.zeros(Half::surface) : 0;
+    return is_object(sampleStorage) ? sampleStorage->value.zeros(Half::surface) : 0;
 }
 
 size_t pglSampleStorageGetSizeZeroValueVolume(PGLSampleStorage sampleStorage) noexcept {
-    return sampleStorage ? sampleStorage->value.zeros(Half::volume) : 0;
+    return is_object(sampleStorage) ? sampleStorage->value.zeros(Half::volume) : 0;
 }
 
 PGLSampleData pglSampleStorageGetSampleSurface(PGLSampleStorage sampleStorage, int idx) noexcept {
@@ -132,7 +132,7 @@ PGLZeroValueSampleData pglSampleStorageGetZeroValueSampleVolume(PGLSampleStorage
 }
 
 bool pglSampleStorageValidate(PGLSampleStorage sampleStorage) noexcept {
-    return sampleStorage && guarded(false, [&] {
+    return is_object(sampleStorage) && guarded(false, [&] {
                for (const Half half : {Half::surface, Half::volume}) {
                    const guide::Records records = sampleStorage->value.records(half);
                    if (!std::all_of(records.begin(), records.end(),
@@ -145,6 +145,6 @@ bool pglSampleStorageValidate(PGLSampleStorage sampleStorage) noexcept {
 }
 
 bool pglSampleStorageCompare(PGLSampleStorage sampleStorageA, PGLSampleStorage sampleStorageB) noexcept {
-    return sampleStorageA && sampleStorageB &&
+    return is_object(sampleStorageA) && is_object(sampleStorageB) &&
            guarded(false, [&] { return sampleStorageA->value.to_bytes() == sampleStorageB->value.to_bytes(); });
 }
