@@ -9,16 +9,20 @@ function(wend_target_options target)
     $<$<BOOL:${WEND_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
-# A static library of all sources of the given modules (folders of src/wend).
+# A library of all sources of the given modules (folders of src/wend), static unless SHARED is given.
 function(wend_add_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "MODULES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHARED" "" "MODULES")
+  set(kind STATIC)
+  if(arg_SHARED)
+    set(kind SHARED)
+  endif()
   set(sources)
   foreach(module IN LISTS arg_MODULES)
     file(GLOB_RECURSE module_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/wend/${module}/*.cpp)
     list(FILTER module_sources EXCLUDE REGEX "/app/main\\.cpp$")
     list(APPEND sources ${module_sources})
   endforeach()
-  add_library(${target} STATIC ${sources})
+  add_library(${target} ${kind} ${sources})
   wend_target_options(${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)

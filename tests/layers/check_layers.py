@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Refuses an include that goes up: a module of src/wend may include itself and lower modules only (docs/architecture.md).
+Open PGL's headers in src/openpgl include nothing of Wend, and only the module of that name includes them.
 
-usage: check_layers.py ROOT    checks ROOT/src/wend; exit status 1 and one line per offence
+usage: check_layers.py ROOT    checks ROOT/src; exit status 1 and one line per offence
 """
 
 import re
@@ -16,7 +17,7 @@ LEVEL = {
     "adjoint": 4,
     "guide": 5, "planar": 5, "decision": 5,
     "subsurface": 6, "lab": 6, "scene": 6, "film": 6,
-    "capi": 7, "light": 7, "io": 7,
+    "capi": 7, "openpgl": 7, "light": 7, "io": 7,
     "transport": 8,
     "render": 9,
     "app": 10,
@@ -39,6 +40,8 @@ def offence_of_line(module, line):
     if bracket == '"':
         return f'"{path}": the include path is <wend/module/file.h>'
     parts = path.split("/")
+    if parts[0] == "openpgl" and module != "openpgl":
+        return f"<{path}>: Open PGL's interface is for the module openpgl, and for those outside"
     if parts[0] != "wend":
         return None
     other = parts[1]
@@ -50,6 +53,11 @@ def offence_of_line(module, line):
 
 
 def offences(root):
+    for file in sorted((Path(root) / "src" / "openpgl").rglob("*.h")):
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            match = INCLUDE.match(line)
+            if match and (match.group(1) == '"' or match.group(2).startswith("wend/")):
+                yield f"{file}:{number}: {line.strip()}: a renderer that includes this has nothing of Wend's"
     source = Path(root) / "src" / "wend"
     for entry in sorted(source.iterdir()):
         if entry.suffix == ".hpp":

@@ -64,6 +64,12 @@ class Layers(Tree):
         self.assertEqual(len(self.offences("src/wend/misc/a.h", "")), 1)
         self.assertEqual(len(self.offences("src/wend/loose.h", "")), 2)
 
+    def test_the_interface_of_open_pgl_stands_alone(self):
+        self.assertEqual(self.offences("src/wend/openpgl/a.cpp", "#include <openpgl/openpgl.h>\n#include <wend/guide/fit.h>\n"), [])
+        self.assertEqual(self.offences("src/openpgl/cpp/a.h", "#include <openpgl/data.h>\n#include <vector>\n"), [])
+        self.assertEqual(len(self.offences("src/openpgl/cpp/a.h", "#include <wend/guide/fit.h>\n#include \"../data.h\"\n")), 2)
+        self.assertEqual(len(self.offences("src/wend/capi/a.cpp", "#include <openpgl/openpgl.h>\n")), 3)
+
     def test_quoted_and_unknown_includes_are_refused(self):
         self.assertEqual(len(self.offences("src/wend/io/a.cpp", '#include "volume.h"\n#include <wend/misc/a.h>\n')), 2)
 

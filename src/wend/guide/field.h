@@ -42,6 +42,9 @@ public:
     /// the nearest cells along the tree's planes.
     const Region* find(const Vec3& position) const;
 
+    /// Which of the size() cells a region belongs to that find() gave.
+    std::size_t index_of(const Region& region) const { return static_cast<std::size_t>(&region - regions_.data()); }
+
     /// What rays are told at a position; null as long as the field has learned nothing.
     const ScatteredLight* scattered_light(const Vec3& position) const {
         return trained_ ? &scattered_[nodes_[leaf_of(position)].child] : nullptr;
