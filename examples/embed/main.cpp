@@ -192,6 +192,9 @@ private:
     /// To the next collision or surface; false where the branch ends.
     bool fly() {
         const Hit hit = intersect(now_.ray.origin, now_.ray.direction);
+        if (!hit.wall) {
+            return false;  // out through an edge, where rounding leaves a gap
+        }
         const Vec3 there = now_.ray.at(hit.distance);
         const Rgb light = met(hit);
         const wend::FlightStart start{now_.ray,
