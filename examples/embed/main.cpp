@@ -10,8 +10,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,11 +34,6 @@ struct Wall {
     Rgb radiance{0.0f};
 
     float area() const { return (max.x - min.x) * (max.y - min.y); }
-    Vec3 at_point(const Vec2& q) const {
-        Vec3 p;
-        p[axis] = at, p[(axis + 1) % 3] = q.x, p[(axis + 2) % 3] = q.y;
-        return p;
-    }
 };
 
 const Rgb white(0.75f), red(0.6f, 0.2f, 0.15f), black(0.0f);
@@ -93,11 +88,10 @@ float emitter_density(const Wall& lamp, float distance, float cosine) {
 
 /// Which lamp is connected to, as long as nothing is learned: by power. (wend::LightChoice)
 struct ByPower {
-    static float power(int light) {
-        const Wall& lamp = *lamps[static_cast<std::size_t>(light)];
-        return mean_value(lamp.radiance) * lamp.area();
+    static float power(const Wall& lamp) { return mean_value(lamp.radiance) * lamp.area(); }
+    float probability(const wend::LightReceiver&, int light) const {
+        return power(*lamps[static_cast<std::size_t>(light)]) / (power(*lamps[0]) + power(*lamps[1]));
     }
-    float probability(const wend::LightReceiver&, int light) const { return power(light) / (power(0) + power(1)); }
     wend::ChosenLight sample(const wend::LightReceiver& receiver, float u) const {
         const int light = u < probability(receiver, 0) ? 0 : 1;
         return {light, probability(receiver, light)};
@@ -147,8 +141,8 @@ template <class Decisions>
 class Walk {
 public:
     /// `expected`: what the pixel will be, as far as is known; 0: not at all.
-    Walk(const Decisions& d, float expected, wend::Pcg32& random, PathLog& log, std::vector<wend::LightRecord>& lights)
-        : d_(d), expected_(expected), random_(random), log_(log), lights_(lights) {}
+    Walk(const Decisions& d, float expected, wend::Pcg32& random, PathLog& log, Told& told)
+        : d_(d), expected_(expected), random_(random), log_(log), told_(told) {}
 
     Rgb run(const Vec3& origin, const Vec3& direction) {
         log_.start();
@@ -197,11 +191,8 @@ private:
         }
         const Vec3 there = now_.ray.at(hit.distance);
         const Rgb light = met(hit);
-        const wend::FlightStart start{now_.ray,
-                                      hit.distance,
-                                      now_.throughput,
-                                      mean_value(now_.throughput),
-                                      {wend::FlightEnd::Kind::surface, there, hit.normal, mean_value(light)}};
+        const wend::FlightEnd end{wend::FlightEnd::Kind::surface, there, hit.normal, mean_value(light)};
+        const wend::FlightStart start{now_.ray, hit.distance, now_.throughput, mean_value(now_.throughput), end, {}};
         const wend::Flight flight = d_.distances.sample(fog, start, random_.uniform(), random_);
         weigh(flight.weight);
         now_.ratio *= flight.density_ratio;
@@ -224,15 +215,16 @@ private:
         ++now_.depth;
         const auto directions = d_.directions.at(position, f, mean_value(now_.throughput));
         connect(f, directions, here);
-        std::optional<float> ratio;
-        const auto in_scattered = directions.in_scattered();
-        if (in_scattered && expected_ > 0) {
-            ratio = mean_value(now_.throughput * f.albedo() * *in_scattered) / expected_;
-        }
-        const auto outcome = d_.survival.before_direction(
-            {ratio, mean_value(now_.throughput), static_cast<int>(64 / now_.copies) + 1}, random_);
+        const std::optional<Rgb> ahead = expected_ > 0 ? directions.in_scattered() : std::nullopt;
+        const auto ratio = [&](const Rgb& light) {
+            return mean_value(now_.throughput * f.albedo() * light) / expected_;
+        };
+        const auto outcome =
+            d_.survival.before_direction({ahead ? std::optional(ratio(*ahead)) : std::nullopt,
+                                          mean_value(now_.throughput), static_cast<int>(64 / now_.copies) + 1},
+                                         random_);
         if (!outcome) {
-            return draw(f, directions, here, position) && survives(F::in_volume);
+            return draw(f, directions, here, position) && survives();
         }
         const auto expected = static_cast<float>(outcome->expected);
         weigh(Rgb(1 / expected));
@@ -273,7 +265,8 @@ private:
     void connect(const F& f, const Distribution& directions, const wend::LightReceiver& here) {
         const wend::ChosenLight chosen = d_.lights.sample(ByPower(), here, random_.uniform());
         const Wall& lamp = *lamps[static_cast<std::size_t>(chosen.index)];
-        const Vec3 to_lamp = lamp.at_point(lamp.min + random_.uniform2() * (lamp.max - lamp.min)) - here.position;
+        const Vec2 q = lamp.min + random_.uniform2() * (lamp.max - lamp.min);
+        const Vec3 to_lamp = Vec3(lamp.at, q.x, q.y) - here.position;
         const float distance = length(to_lamp);
         const Vec3 w = to_lamp / distance;
         const float cosine = cosine_at(lamp, w);
@@ -287,17 +280,15 @@ private:
             log_.connect(w, distance, mean_value(fluence), brought);
             gather(brought);
         }
-        lights_.push_back(d_.lights.record(here, chosen.index, mean_value(brought) * chosen.probability));
+        told_.lights.push_back(d_.lights.record(here, chosen.index, mean_value(brought) * chosen.probability));
     }
 
-    bool survives(bool in_volume) {
+    bool survives() {
+        const bool in_volume = now_.last.normal == Vec3(0, 0, 0);
         const float survival =
             d_.survival.after_direction({now_.throughput, now_.ratio, 1, now_.depth, false, in_volume});
-        if (random_.uniform() >= survival) {
-            return false;
-        }
         weigh(Rgb(1 / survival));
-        return true;
+        return random_.uniform() < survival;
     }
 
     // Every factor and every radiance goes to the log as well. That is all that training asks of a walk.
@@ -314,7 +305,7 @@ private:
     float expected_;
     wend::Pcg32& random_;
     PathLog& log_;
-    std::vector<wend::LightRecord>& lights_;
+    Told& told_;
     State now_;
     std::vector<std::pair<State, PathLog::Branch>> pending_;
     Rgb radiance_;
@@ -324,30 +315,23 @@ private:
 
 constexpr int width = 64, height = 36;
 
-/// Sums over the samples of each pixel.
 struct Picture {
-    wend::Image sum{width, height}, squares{width, height};
+    int first = 0;  ///< of the samples of all pictures
+    wend::Image mean{width, height};
+    std::array<double, height> squares{};  ///< sums by row
     int samples = 0;
     double seconds = 0;
 
-    double mean(std::size_t i) const { return static_cast<double>(mean_value(sum.pixels[i])) / samples; }
-    /// Of one sample.
-    double variance(std::size_t i) const {
-        return static_cast<double>(mean_value(squares.pixels[i])) / samples - mean(i) * mean(i);
+    /// Of the pixels to some power.
+    double average(int power = 1) const {
+        const auto add = [&](double sum, const Rgb& p) {
+            return sum + std::pow(static_cast<double>(mean_value(p)), power);
+        };
+        return std::accumulate(mean.pixels.begin(), mean.pixels.end(), 0.0, add) / (width * height);
     }
-    template <class Quantity>
-    static double average(const Quantity& quantity) {
-        double total = 0;
-        for (std::size_t i = 0; i < width * height; ++i) {
-            total += quantity(i);
-        }
-        return total / (width * height);
-    }
-    double mean() const {
-        return average([&](std::size_t i) { return mean(i); });
-    }
+    /// Of one sample, as a mean over the picture.
     double variance() const {
-        return average([&](std::size_t i) { return variance(i); });
+        return std::accumulate(squares.begin(), squares.end(), 0.0) / (samples * width * height) - average(2);
     }
 };
 
@@ -357,25 +341,31 @@ Vec3 camera_direction(float x, float y) {
                      forward.cross(right) * (0.9f * (y / height - 0.5f)));
 }
 
-/// Adds samples to every pixel, and returns what the walks told. A random number depends on pixel and sample, and what
-/// is told is put in the order of rows: so the result is the same for any number of threads.
+/// Adds samples to every pixel, and returns what the walks told where one `learns` from it. A random number depends on
+/// pixel and sample, and what is told is put in the order of rows: so the result is the same for any number of threads.
 template <class Decisions>
-std::vector<Told> render(const Decisions& decisions, const std::vector<float>& expected, int first, int count,
+std::vector<Told> render(const Decisions& decisions, const std::vector<float>& expected, int count, bool learns,
                          Picture& picture) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<Told> rows(height);
     tbb::parallel_for(std::size_t{0}, std::size_t(height), [&](std::size_t row) {
         PathLog log;
         for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-            for (int sample = first; sample < first + count; ++sample) {
-                wend::Pcg32 random(wend::hash_of(i, sample));
+            for (int sample = picture.samples; sample < picture.samples + count; ++sample) {
+                wend::Pcg32 random(wend::hash_of(i, picture.first + sample));
                 const float x = static_cast<float>(i % width) + random.uniform();
                 const float y = static_cast<float>(row) + random.uniform();
-                Walk walk(decisions, expected.empty() ? 0.0f : expected[i], random, log, rows[row].lights);
+                Walk walk(decisions, expected.empty() ? 0.0f : expected[i], random, log, rows[row]);
                 const Rgb radiance = walk.run(Vec3(0.4f, 1.3f, 3.6f), camera_direction(x, y));
-                picture.sum.pixels[i] += radiance;
-                picture.squares.pixels[i] += Rgb(mean_value(radiance) * mean_value(radiance));
-                rows[row].records.add(log.vertices(), 64);
+                Rgb& mean = picture.mean.pixels[i];
+                mean += (radiance - mean) / static_cast<float>(sample + 1);
+                picture.squares[row] += std::pow(static_cast<double>(mean_value(radiance)), 2);
+                if (learns) {
+                    rows[row].records.add(log.vertices(), 64);
+                }
+            }
+            if (!learns) {
+                rows[row].lights.clear();
             }
         }
     });
@@ -384,32 +374,21 @@ std::vector<Told> render(const Decisions& decisions, const std::vector<float>& e
     return rows;
 }
 
-void write_pfm(const char* file, const Picture& picture) {
-    std::ofstream out(file, std::ios::binary);
-    out << "PF\n" << width << ' ' << height << "\n-1\n";  // little-endian; rows from the bottom up
-    for (int y = height; y-- > 0;) {
-        for (int x = 0; x < width; ++x) {
-            const Rgb colour = picture.sum.at(x, y) / static_cast<float>(picture.samples);
-            out.write(reinterpret_cast<const char*>(&colour), sizeof colour);
-        }
-    }
-}
-
 }  // namespace
 
 int main() {
     constexpr int samples = 128, passes = 6;
-    Picture classical, guided, training;
+    Picture classical, training{samples}, guided{samples + (1 << passes)};
     wend::LearnedLights lights(bounds, lamps.size());
     const Decisions unguided{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights};
-    render(unguided, {}, 0, samples, classical);
+    render(unguided, {}, samples, false, classical);
     // ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
     // Surfaces and volumes have a field each: what they see differs. Decisions refer to the fields: new ones are
     // assigned to them. What pixels will be is known from those passes, too.
     wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
     std::vector<float> expected;
     const auto decide = [&] {
-        const double noise = training.samples > 1 ? training.variance() / std::pow(training.mean(), 2) : 1;
+        const double noise = training.samples > 1 ? training.variance() / std::pow(training.average(), 2) : 1;
         return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
                                                      wend::DistanceGuiding::scatter_and_distance),
                          wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
@@ -417,31 +396,25 @@ int main() {
     };
     for (int pass = 0; pass < passes; ++pass) {
         std::vector<PathRecords> records;
-        for (Told& told : render(decide(), expected, samples + training.samples, 1 << pass, training)) {
+        for (Told& told : render(decide(), expected, 1 << pass, true, training)) {
             records.push_back(std::move(told.records));
             lights.add(told.lights);
         }
         fields = wend::guide::learn(fields, std::move(records), 0);
         lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
-        wend::Image mean = training.sum;
-        for (Rgb& pixel : mean.pixels) {
-            pixel *= 1 / static_cast<float>(training.samples);
-        }
-        expected = wend::pixel_estimates(mean, training.samples);
+        expected = wend::pixel_estimates(training.mean, training.samples);
     }
     // Training pictures are right, but noisier than what follows: this one shows what has been learned.
-    render(decide(), expected, samples + training.samples, samples, guided);
-    write_pfm("classical.pfm", classical);
-    write_pfm("guided.pfm", guided);
+    render(decide(), expected, samples, false, guided);
 
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
     for (const auto& [name, picture] : {std::pair("classical", &classical), {"guided", &guided}}) {
-        std::printf("%-9s  mean %.4f, relative error of a sample %.2f, %.2f s\n", name, picture->mean(),
-                    std::sqrt(picture->variance()) / picture->mean(), picture->seconds);
+        std::printf("%-9s  mean %.4f, relative error of a sample %.2f, %.2f s\n", name, picture->average(),
+                    std::sqrt(picture->variance()) / picture->average(), picture->seconds);
     }
     const double gain = classical.variance() / guided.variance();
     std::printf("%.1f times less variance by as many samples, %.1f times by as much time; %d samples of training\n",
                 gain, gain * classical.seconds / guided.seconds, training.samples);
     const double error = std::sqrt((classical.variance() + guided.variance()) / (samples * width * height));
-    return std::abs(classical.mean() - guided.mean()) < 4 * error && gain > 4 ? 0 : 1;
+    return std::abs(classical.average() - guided.average()) < 4 * error && gain > 4 ? 0 : 1;
 }
