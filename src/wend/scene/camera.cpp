@@ -51,10 +51,11 @@ Ray local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
 
 }  // namespace
 
-Ray Camera::ray(const Vec2& film, const Vec2& lens) const {
+Ray Camera::ray(const Vec2& film, const Vec2& lens, float time) const {
     const Vec2 p(film.x / static_cast<float>(width_), film.y / static_cast<float>(height_));
     const Ray local = std::visit([&](const auto& c) { return local_ray(c, p, lens); }, kind_);
-    return {world_from_camera_.point(local.origin), normalize(world_from_camera_.vector(local.direction))};
+    const AffineMap place = motion_.is_moving() ? motion_.at(time).world_from_object : start_;
+    return {place.point(local.origin), normalize(place.vector(local.direction)), time};
 }
 
 }  // namespace wend

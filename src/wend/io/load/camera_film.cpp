@@ -186,7 +186,8 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
     return settings;
 }
 
-Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const Vec2i& resolution) {
+Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const pbrt::TransformTimes& times,
+                   const Vec2i& resolution) {
     const pbrt::ParameterSet& p = camera.parameters;
     const ScreenWindow screen = load_screen_window(p, resolution);
     Camera::Kind kind;
@@ -205,9 +206,11 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
     }
     static_cast<void>(shutter_time(camera));
     context.warnings.add_unused("Camera", camera);
-    const Transform world_from_camera = camera.camera_from_world.inverse();
-    require_near(camera.place, "the camera stands", world_from_camera.point({0, 0, 0}));
-    return Camera(kind, world_from_camera, resolution.x, resolution.y);
+    for (std::size_t i = 0; i < camera.world_from_camera.key_count(); ++i) {
+        require_near(camera.place, "the camera stands", camera.world_from_camera.key(i).point({0, 0, 0}));
+    }
+    const Shutter shutter{p.get_float("shutteropen", 0), p.get_float("shutterclose", 1), times.start, times.end};
+    return Camera(kind, camera.world_from_camera, resolution.x, resolution.y, shutter);
 }
 
 float shutter_time(const pbrt::CameraEntity& camera) {

@@ -28,7 +28,8 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
 
 /// The screen window follows the shape of the picture, unless the file fixes it; the field of view is that of the
 /// shorter side.
-Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const Vec2i& resolution);
+Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const pbrt::TransformTimes& times,
+                   const Vec2i& resolution);
 /// How long the shutter is open, which scales the exposure.
 float shutter_time(const pbrt::CameraEntity& camera);
 
