@@ -27,6 +27,7 @@ void render_each(const std::string& text, const char* preset, int samples, int c
     LoadedScene loaded = load(text);
     RenderSettings settings;
     settings.preset = parse_preset(preset);
+    settings.subsurface = parse_subsurface(settings.preset.is_classical() ? "classical" : "auto");
     settings.samples = samples;
     settings.sampler = loaded.sampler;
     settings.max_depth = loaded.max_depth;
@@ -86,14 +87,16 @@ Shape "bilinearmesh" "point3 P" [-1 -1 0  1 -1 0  -1 1 0  1 1 0]
 template <class Middle>
 std::vector<double> left_of_background(const Middle& middle) {
     constexpr int moments = 20000;
-    std::vector<double> left(16, 1.0);
-    for (int i = 0; i < moments; ++i) {
-        const double x = middle((i + 0.5) / moments);
-        for (int k = 0; k < 16; ++k) {
-            const double from = -4 + 0.5 * k;
-            const double covered = std::min(from + 0.5, x + 1) - std::max(from, x - 1);
-            left[static_cast<std::size_t>(k)] -= std::max(0.0, covered) / 0.5 / moments;
+    std::vector<double> left;
+    for (int k = 0; k < 16; ++k) {
+        const double from = -4 + 0.5 * k;
+        double covered = 0;
+        for (int i = 0; i < moments; ++i) {
+            const double x = middle((i + 0.5) / moments);
+            covered += std::max(0.0, std::min(from + 0.5, x + 1) - std::max(from, x - 1)) / 0.5 / moments;
         }
+        constexpr double rounding = 1e-9;
+        left.push_back(covered > 1 - rounding ? 0.0 : 1 - covered);
     }
     return left;
 }
@@ -105,7 +108,7 @@ void expect_pixels(const std::string& text, const std::vector<double>& expected)
         EXPECT_TRUE(agrees(means[i], expected[i], 4.5, 1e-5))
             << "pixel " << i << ": " << means[i].mean() << " +- " << means[i].standard_error() << ", right is "
             << expected[i];
-        EXPECT_LT(means[i].standard_error(), 0.005);
+        EXPECT_LT(means[i].standard_error(), 0.007);
     }
 }
 
@@ -156,7 +159,7 @@ ActiveTransform All
 Shape "trianglemesh" "point3 P" [0 0 0  3 0 0  {} 1.5 0] "integer indices" [0 1 2]
 )",
             x - size, x + size, y - size, y + size, 3 * std::cos(30 * degree));
-        const auto means = pixel_means(text, "classical", 4000, 16);
+        const auto means = pixel_means(text, "classical", 8000, 16);
         EXPECT_TRUE(agrees(means[0], 1 - covered, 4, 3e-4)) << angle << ": " << means[0].mean();
         EXPECT_LT(means[0].standard_error(), 0.01 * covered);
     }
@@ -174,7 +177,8 @@ void expect_same_pixels(const std::vector<Moments>& a, const std::vector<Moments
     EXPECT_LT(4 * total_error, 0.01 * total);
 }
 
-/// Things of several kinds, lit from one side, each with the transform before it.
+/// Things of several kinds, each with the transform before it. They have none of their own, which would be part of what
+/// is interpolated: a shape that turns with the world goes straight on.
 std::string things(const std::string& transform) {
     const std::string before = "AttributeBegin\n" + transform;
     return before + R"(Material "diffuse" "rgb reflectance" [.8 .5 .2]
@@ -182,11 +186,8 @@ Shape "sphere" "float radius" .8
 AttributeEnd
 )" + before +
            R"(Material "diffuse" "rgb reflectance" [.2 .5 .8]
-Translate 1 .3 -.5
-Rotate 30 1 1 0
-Shape "cylinder" "float radius" .3
-Translate -2 0 0
-Shape "bilinearmesh" "point3 P" [-.5 -.5 0  .5 -.5 0  -.5 .5 .3  .5 .5 0]
+Shape "cylinder" "float radius" .3 "float zmin" -1.4
+Shape "bilinearmesh" "point3 P" [-1.5 -.5 0  -.5 -.5 0  -1.5 .5 .3  -.5 .5 0]
 AttributeEnd
 )";
 }
@@ -224,28 +225,22 @@ ActiveTransform All
 }
 
 TEST(SlowMotionBlur, ACameraThatTurnsIsAWorldThatTurnsAroundIt) {
-    // Camera from world is a turn after a shift, which is the turn about the camera's place.
-    const std::string turned_camera = R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+    const auto scene = [](const std::string& of_camera, const std::string& of_world) {
+        return R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
 PixelFilter "box"
 Integrator "path" "integer maxdepth" 2
-ActiveTransform EndTime
-Rotate 25 0 1 .2
-ActiveTransform All
-Translate 0 0 4
-Camera "perspective" "float fov" 60
+)" + of_camera +
+               R"(Camera "perspective" "float fov" 60
 WorldBegin
 LightSource "infinite" "rgb L" [.3 .3 .3]
+)" + of_world +
+               R"(Shape "bilinearmesh" "point3 P" [-1.5 -.5 4  -.5 -.5 3  -1.5 .5 3  -.5 .5 4]
+Shape "trianglemesh" "point3 P" [0 0 3  1 .3 3  .2 1.3 4] "integer indices" [0 1 2]
 )";
-    const std::string turned_world = R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
-PixelFilter "box"
-Integrator "path" "integer maxdepth" 2
-Camera "perspective" "float fov" 60
-WorldBegin
-LightSource "infinite" "rgb L" [.3 .3 .3]
-)";
-    const std::string turn = "ActiveTransform EndTime\nRotate 25 0 1 .2\nActiveTransform All\nTranslate 0 0 4\n";
-    expect_same_pixels(pixel_means(turned_camera + things(""), "classical", 300, 16),
-                       pixel_means(turned_world + things(turn), "classical", 300, 16));
+    };
+    const std::string turn = "ActiveTransform EndTime\nRotate 25 0 1 .2\nActiveTransform All\n";
+    expect_same_pixels(pixel_means(scene(turn, ""), "classical", 300, 16),
+                       pixel_means(scene("", turn), "classical", 300, 16));
 }
 
 TEST(SlowMotionBlur, AnInstanceMovesAsItsShapesWould) {
@@ -339,7 +334,7 @@ TEST(SlowMotionBlur, GuidedFogInGlassAgrees) {
     const std::string scene = foggy + ball_of_fog(passing, "Material \"dielectric\" \"float eta\" 1.3") +
                               "AttributeBegin\nTranslate 0 1.5 0\n" + ball_of_fog("", "Material \"interface\"") +
                               "AttributeEnd\n";
-    expect_same_means(picture_means(scene, "classical", 256, 10), picture_means(scene, "full", 256, 10));
+    expect_same_means(picture_means(scene, "classical", 512, 12), picture_means(scene, "full", 512, 12));
 }
 
 TEST(SlowMotionBlur, ALampThatShouldMoveShinesFromWhereItIsSeen) {
@@ -359,7 +354,7 @@ AreaLightSource "diffuse" "rgb L" [1 2 3]
 Shape "sphere" "float radius" .5
 AttributeEnd
 )";
-    expect_same_means(picture_means(scene, "classical", 256, 8), picture_means(scene, "full", 256, 8));
+    expect_same_means(picture_means(scene, "classical", 512, 12), picture_means(scene, "full", 512, 12));
     EXPECT_EQ(load(scene).scene.instances.size(), 0u);
 }
 
