@@ -143,15 +143,22 @@ private:
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
         const Vec2 lens = sampler.uniform2();
         const float time = is_moving_ ? camera_.shutter().time(sampler.uniform()) : 0.0f;
-        const Ray ray = camera_.ray(film_point, lens, time);
+        const CameraRay ray = camera_.ray(film_point, lens, time);
         const bool is_recorded = records_walk(number, index);
-        WalkResult result =
-            tracer_.trace(ray, expects_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
+        const bool is_traced = ray.weight > 0;
+        WalkResult result;
+        if (is_traced) {
+            result = tracer_.trace(ray, expects_ ? expected / ray.weight : 0, sampler,
+                                   learners_.recorders(records, is_recorded));
+            result.sample.radiance *= ray.weight;
+        }
         if (rest_.drops_walks()) {
             return false;  // the walk may be a part of one
         }
         const bool counts = is_finite(result.sample.radiance);
-        learners_.keep(records, is_recorded && counts);
+        if (is_traced) {
+            learners_.keep(records, is_recorded && counts);
+        }
         ++tile.counts.paths;
         ++tile.walks[kind_];
         tile.counts.segments += result.sample.segments;

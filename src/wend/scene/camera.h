@@ -4,7 +4,9 @@
 
 #include <wend/core/motion.h>
 #include <wend/core/ray.h>
+#include <wend/scene/lens_system.h>
 
+#include <memory>
 #include <variant>
 
 namespace wend {
@@ -34,6 +36,17 @@ struct SphericalCamera {
     Mapping mapping = Mapping::equal_area;
 };
 
+/// A film behind lenses.
+struct RealisticCamera {
+    std::shared_ptr<const LensSystem> lenses;
+    Vec2 film_size;  ///< in metres
+};
+
+/// A ray with what its radiance counts for.
+struct CameraRay : Ray {
+    float weight = 1;  ///< 0: nothing gets to the film, and the ray is any
+};
+
 /// When the shutter is open, and when what moves is at its start and its end, in one unit.
 struct Shutter {
     float open = 0, close = 1;
@@ -49,7 +62,7 @@ struct Shutter {
 
 class Camera {
 public:
-    using Kind = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera>;
+    using Kind = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, RealisticCamera>;
 
     Camera() = default;
     /// `width` and `height` are the full picture's in pixels.
@@ -62,7 +75,7 @@ public:
           height_(height) {}
 
     /// The ray through a film point at a time; `lens` is uniform in [0,1)².
-    Ray ray(const Vec2& film, const Vec2& lens, float time = 0) const;
+    CameraRay ray(const Vec2& film, const Vec2& lens, float time = 0) const;
     const Shutter& shutter() const { return shutter_; }
     bool is_moving() const { return motion_.is_moving(); }
     /// The ray in the middle of film and lens, at time 0.

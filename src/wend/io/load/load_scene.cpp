@@ -254,7 +254,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.seed = sampler.seed;
     loaded.max_depth = integrator.max_depth;
     loaded.scene.light_tree = integrator.light_tree;
-    loaded.scene.camera = load_camera(context, description.camera, description.transform_times, film.resolution);
+    loaded.scene.camera = load_camera(context, description.camera, description.transform_times, film);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
     SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     context.warnings.add_unused("Option", description.options);
