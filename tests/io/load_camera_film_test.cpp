@@ -187,7 +187,7 @@ TEST(LoadCamera, LensFilesAreCheckedByLine) {
     EXPECT_PRED2(contains, message("100 2 1.5 30 1\n"), ".dat:1:1: error: expected four numbers");
     EXPECT_PRED2(contains, message("#\n100 -2 1.5 30\n"), ".dat:2:1: error: a lens needs a thickness");
     EXPECT_PRED2(contains, message("10 2 1.5 30\n"), ".dat:1:1: error: the opening is wider than the ball");
-    EXPECT_PRED2(contains, message("# nothing\n"), "test.pbrt:2:27: error: there are no lenses in");
+    EXPECT_PRED2(contains, message("# nothing\n"), "test.pbrt:2:20: error: there are no lenses in");
     EXPECT_PRED2(contains, message(some_lenses, "\"float focusdistance\" .2"), "so near, nothing is in focus");
     EXPECT_PRED2(contains, message("-100 2 1.5 30\n100 50 1 30\n"), "the lenses do not collect light");
     EXPECT_PRED2(contains, message(some_lenses, "\"string aperture\" \"nowhere.png\""), "there is no file");
