@@ -5,7 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 namespace wend {
 namespace {
@@ -114,10 +119,80 @@ TEST(LoadCamera, RefusesWhatIsWrongWithItsPlace) {
     EXPECT_PRED2(contains, message("Camera \"perspective\" \"float shutterclose\" 0"), "shutter");
 }
 
-TEST(LoadCamera, RealisticBecomesPerspective) {
-    const LoadedScene loaded = load_text("", "Camera \"realistic\" \"string lensfile\" \"lens.dat\"");
-    EXPECT_EQ(warnings_with(loaded, "Camera \"realistic\" is not implemented"), 1);
-    EXPECT_EQ(warnings_with(loaded, "the parameter \"lensfile\" of Camera \"realistic\" is not used"), 1);
+/// A camera with a lens file of this text.
+LoadedScene load_lenses(const std::string& lenses, const std::string& parameters = "") {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("wend_lenses_" + std::to_string(getpid()) + ".dat");
+    std::ofstream(file) << lenses;
+    const std::string camera = "Camera \"realistic\" \"string lensfile\" \"" + file.string() + "\" " + parameters;
+    try {
+        LoadedScene loaded = load_text("", small_film + camera);
+        std::filesystem::remove(file);
+        return loaded;
+    } catch (...) {
+        std::filesystem::remove(file);
+        throw;
+    }
+}
+
+const std::string some_lenses = "# a lens and a stop\n\n100 2 1.5 30\n-100 1 1 30 # air\n0 90 0 12\n";
+
+/// The mean weight of the rays from the middle of the film.
+double brightness(const LoadedScene& loaded) {
+    constexpr int side = 200;
+    double sum = 0;
+    for (int i = 0; i < side * side; ++i) {
+        const Vec2 lens((static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side);
+        sum += double{loaded.scene.camera.ray({100, 50}, lens).weight};
+    }
+    return sum / (side * side);
+}
+
+TEST(LoadCamera, RealisticIsFocusedAndStoppedDown) {
+    const LoadedScene loaded = load_lenses(some_lenses, "\"float focusdistance\" 2 \"float aperturediameter\" 10");
+    EXPECT_EQ(loaded.warnings.size(), 0u);
+    // A stop 5 mm wide, seen from about 105 mm.
+    EXPECT_NEAR(brightness(loaded), 3.1416 * 25 / (105 * 105), 0.03 * 3.1416 * 25 / (105 * 105));
+    for (const char* aperture : {"gaussian", "square", "pentagon", "star"}) {
+        const LoadedScene shaped =
+            load_lenses(some_lenses, "\"float focusdistance\" 2 \"float aperturediameter\" 10 \"string aperture\" \"" +
+                                         std::string(aperture) + "\"");
+        EXPECT_EQ(shaped.warnings.size(), 0u);
+        EXPECT_NEAR(brightness(shaped) / brightness(loaded), 1, 0.03) << aperture;
+    }
+    const LoadedScene wide = load_lenses(some_lenses, "\"float aperturediameter\" 13");
+    EXPECT_EQ(warnings_with(wide, "\"aperturediameter\" is larger than the aperture of the lens file, 12"), 1);
+}
+
+TEST(LoadCamera, TheFilmOfRealisticHasADiagonal) {
+    const auto angle = [](const char* film) {
+        const LoadedScene loaded = load_lenses(some_lenses, std::string("\"float aperturediameter\" 1 Film \"rgb\" "
+                                                                        "\"integer xresolution\" 200 \"integer "
+                                                                        "yresolution\" 100 ") +
+                                                                film);
+        const Vec3 w = loaded.scene.camera.ray({200, 50}, {0.5f, 0.5f}).direction;
+        return double{w.x / w.z};
+    };
+    // Half of the width over the distance of the film.
+    EXPECT_NEAR(angle(""), 0.5 * 35 * 2 / std::sqrt(5.0) / 101, 0.01);
+    EXPECT_NEAR(angle("\"float diagonal\" 70"), 35 * 2 / std::sqrt(5.0) / 101, 0.02);
+}
+
+TEST(LoadCamera, LensFilesAreCheckedByLine) {
+    const auto message = [](const std::string& lenses, const std::string& parameters = "") {
+        return message_of([&] { load_lenses(lenses, parameters); });
+    };
+    EXPECT_PRED2(contains, message("100 2 1.5 30\n-100 1 1\n"), ".dat:2:1: error: expected four numbers");
+    EXPECT_PRED2(contains, message("100 2 1.5 thirty\n"), ".dat:1:1: error: expected four numbers");
+    EXPECT_PRED2(contains, message("100 2 1.5 30 1\n"), ".dat:1:1: error: expected four numbers");
+    EXPECT_PRED2(contains, message("#\n100 -2 1.5 30\n"), ".dat:2:1: error: a lens needs a thickness");
+    EXPECT_PRED2(contains, message("10 2 1.5 30\n"), ".dat:1:1: error: the opening is wider than the ball");
+    EXPECT_PRED2(contains, message("# nothing\n"), "test.pbrt:2:20: error: there are no lenses in");
+    EXPECT_PRED2(contains, message(some_lenses, "\"float focusdistance\" .2"), "so near, nothing is in focus");
+    EXPECT_PRED2(contains, message("-100 2 1.5 30\n100 50 1 30\n"), "the lenses do not collect light");
+    EXPECT_PRED2(contains, message(some_lenses, "\"string aperture\" \"nowhere.png\""), "there is no file");
+    EXPECT_PRED2(contains, message_of([] { load_text("", "Camera \"realistic\""); }),
+                 "test.pbrt:1:1: error: \"realistic\" needs the parameter \"string lensfile\"");
 }
 
 TEST(LoadFilm, Defaults) {

@@ -66,9 +66,9 @@ TEST(PbrtParser, AnEmptyWorldHasPbrtsDefaults) {
 TEST(PbrtParser, CameraTransformIsTheCurrentOne) {
     const Description d =
         parse("Scale -1 1 1 LookAt 1 2 3  4 2 3  0 1 0 Camera \"perspective\" WorldBegin Shape \"sphere\"");
-    expect_near(d.camera.camera_from_world.point(Vec3(4, 2, 3)), Vec3(0, 0, 3));
+    expect_near(d.camera.world_from_camera.start().inverse().point(Vec3(4, 2, 3)), Vec3(0, 0, 3));
     const Vec3 beside = Transform::look_at({1, 2, 3}, {4, 2, 3}, {0, 1, 0}).point(Vec3(4, 2, 4));
-    expect_near(d.camera.camera_from_world.point(Vec3(4, 2, 4)), Vec3(-beside.x, beside.y, beside.z));
+    expect_near(d.camera.world_from_camera.start().inverse().point(Vec3(4, 2, 4)), Vec3(-beside.x, beside.y, beside.z));
     EXPECT_EQ(d.shapes[0].world_from_object, Transform());
 }
 
@@ -94,13 +94,61 @@ TEST(PbrtParser, CoordinateSystems) {
     EXPECT_PRED2(contains, world_error_of("CoordSysTransform \"nowhere\""), "t.pbrt:2:1: error: the coordinate system");
 }
 
-TEST(PbrtParser, MotionUsesTheStartAndWarnsOnce) {
+TEST(PbrtParser, ShapesAndInstancesMoveFromTheStartToTheEnd) {
     const Description d = parse_world(
-        "TransformTimes 0 1 ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0\n"
-        "ActiveTransform All Translate 0 1 0 Shape \"a\"\nShape \"b\"");
-    expect_near(d.shapes[0].world_from_object.point(Vec3(0)), Vec3(1, 1, 0));
+        "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0\n"
+        "ActiveTransform All Translate 0 1 0 Shape \"a\"\nShape \"b\" Translate 0 0 1 Shape \"c\"\n"
+        "ObjectBegin \"o\" ObjectEnd ObjectInstance \"o\" Identity Shape \"d\" ObjectInstance \"o\"");
+    EXPECT_EQ(d.warnings.size(), 0u);
+    ASSERT_TRUE(d.shapes[0].motion);
+    expect_near(d.shapes[0].world_from_object.point(Vec3(0)), Vec3(0, 0, 0));
+    expect_near(d.shapes[0].motion->at(0).world_from_object.point(Vec3(0)), Vec3(1, 1, 0));
+    expect_near(d.shapes[0].motion->at(1).world_from_object.point(Vec3(0)), Vec3(2, 1, 0));
+    EXPECT_EQ(d.shapes[1].motion, d.shapes[0].motion);
+    EXPECT_NE(d.shapes[2].motion, d.shapes[0].motion);
+    EXPECT_FALSE(d.shapes[3].motion);
+    EXPECT_TRUE(d.instances[0].world_from_instance.is_moving());
+    EXPECT_FALSE(d.instances[1].world_from_instance.is_moving());
+}
+
+TEST(PbrtParser, TheCameraMovesTheOtherWay) {
+    const Description d = parse_string(
+        "TransformTimes 1 3 ActiveTransform EndTime Translate 2 0 0 Camera \"perspective\" WorldBegin", ".", "t.pbrt");
+    EXPECT_EQ(d.warnings.size(), 0u);
+    expect_near(d.camera.world_from_camera.at(0).world_from_object.point(Vec3(0)), Vec3(0, 0, 0));
+    expect_near(d.camera.world_from_camera.at(1).world_from_object.point(Vec3(0)), Vec3(-2, 0, 0));
+    EXPECT_EQ(d.transform_times.start, 1);
+    EXPECT_EQ(d.transform_times.end, 3);
+}
+
+TEST(PbrtParser, LampsMediaAndTexturesStayAtTheStart) {
+    const Description d = parse_world(
+        "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0\n"
+        "LightSource \"point\"\nLightSource \"point\" AttributeBegin AreaLightSource \"diffuse\"\n"
+        "Shape \"a\"\nShape \"a\" AttributeEnd");
+    expect_near(d.lights[0].world_from_light.point(Vec3(0)), Vec3(1, 0, 0));
+    expect_near(d.shapes[0].world_from_object.point(Vec3(0)), Vec3(1, 0, 0));
+    EXPECT_FALSE(d.shapes[0].motion);
+    ASSERT_EQ(d.warnings.size(), 2u);
+    EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:3:1: warning: lights, media and textures do not move");
+    EXPECT_PRED2(contains, d.warnings[1], "t.pbrt:5:1: warning: area lights do not move");
+}
+
+TEST(PbrtParser, WhatMirrorsAtOneEndOnlyStaysAtTheStart) {
+    const Description d = parse_world("ActiveTransform EndTime\nScale -1 1 1\nShape \"a\" Identity Shape \"b\"");
+    EXPECT_FALSE(d.shapes[0].motion);
     ASSERT_EQ(d.warnings.size(), 1u);
-    EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:3:37: warning: motion");
+    EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:4:1: warning: of the transformations at the start and the end");
+}
+
+TEST(PbrtParser, WithoutATransformAtTheEndItIsLeftOutToo) {
+    const Description d =
+        parse_world("ActiveTransform EndTime\nScale 0 1 1\nShape \"a\" LightSource \"point\" Identity Shape \"b\"");
+    ASSERT_EQ(d.shapes.size(), 1u);
+    EXPECT_EQ(d.shapes[0].type, "b");
+    EXPECT_EQ(d.lights.size(), 1u);
+    ASSERT_EQ(d.warnings.size(), 1u);
+    EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:3:1: warning: Shape \"a\" is left out: a scale");
 }
 
 TEST(PbrtParser, WhatHasNoTransformIsLeftOut) {
@@ -141,7 +189,8 @@ TEST(PbrtParser, MalformedTransformsAreErrors) {
     EXPECT_PRED2(contains, world_error_of("Transform [1 2 3]"), "expected a number, found ']'");
     EXPECT_PRED2(contains, world_error_of("Transform 1 2 3"), "expected '[', found \"1\"");
     EXPECT_PRED2(contains, world_error_of("Translate 1 2"), "expected a number, found the end of the file");
-    EXPECT_PRED2(contains, world_error_of("TransformTimes 2 1"), "end time");
+    EXPECT_PRED2(contains, error_of("TransformTimes 2 1"), "t.pbrt:1:1: error: the end time is before");
+    EXPECT_PRED2(contains, world_error_of("TransformTimes 0 1"), "TransformTimes is not allowed after WorldBegin");
     EXPECT_PRED2(contains, world_error_of("ActiveTransform Middle"), "t.pbrt:2:17: error: expected StartTime");
 }
 
@@ -241,8 +290,8 @@ TEST(PbrtParser, ObjectsAndInstances) {
     EXPECT_FALSE(d.shapes[2].object);
     expect_near(d.shapes[0].world_from_object.point(Vec3(0)), Vec3(1, 1, 0));
     ASSERT_EQ(d.instances.size(), 2u);
-    expect_near(d.instances[0].world_from_instance.point(Vec3(0)), Vec3(0, 0, 0));
-    expect_near(d.instances[1].world_from_instance.point(Vec3(0)), Vec3(1, 0, 1));
+    expect_near(d.instances[0].world_from_instance.start().point(Vec3(0)), Vec3(0, 0, 0));
+    expect_near(d.instances[1].world_from_instance.start().point(Vec3(0)), Vec3(1, 0, 1));
     EXPECT_EQ(d.instances[1].place.line, 4);
 }
 

@@ -17,6 +17,7 @@ inline constexpr float longest_segment = 1e30f;
 struct Ray {
     Vec3 origin;     ///< where it begins, in scene units
     Vec3 direction;  ///< of unit length, so that distances along the ray are in scene units
+    float time = 0;  ///< from 0, where what moves is at its start, to 1, where it is at its end
 
     /// The point at a distance along the ray.
     Vec3 at(float t) const { return origin + direction * t; }

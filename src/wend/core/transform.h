@@ -4,6 +4,8 @@
 
 #include <Imath/ImathMatrix.h>
 
+#include <algorithm>
+
 namespace wend {
 
 /// An affine (or, for cameras, projective) map with its inverse, in the column-vector convention: `(a * b)(p) ==
@@ -58,6 +60,10 @@ public:
             }
         }
     }
+    /// Of its rows, without the projective one.
+    explicit AffineMap(const float (&rows)[3][4]) { std::copy_n(&rows[0][0], 12, &m_[0][0]); }
+
+    float element(int row, int column) const { return m_[row][column]; }
 
     Vec3 point(const Vec3& p) const { return vector(p) + Vec3(m_[0][3], m_[1][3], m_[2][3]); }
     Vec3 vector(const Vec3& v) const {

@@ -132,9 +132,9 @@ private:
     float travelled_ = 0;
 };
 
-/// Light of one lamp on its way to a point of a smooth surface, of which there are `density` per area.
+/// Light of one lamp on its way to a point of a smooth surface, of which there are `density` per area, at a time.
 std::optional<Photon> shoot(const Scene& scene, const LightSelection& lights, const SurfaceSampler::Point& target,
-                            float density, Pcg32& random) {
+                            float density, float time, Pcg32& random) {
     const float u = random.uniform();
     const Vec2 u2 = random.uniform2();
     const auto chosen = choose_light(scene, lights, {target.position, {0, 0, 0}}, u, u2, random);
@@ -148,7 +148,7 @@ std::optional<Photon> shoot(const Scene& scene, const LightSelection& lights, co
     const MediumState medium = !target.surface->bounds_medium()          ? scene.camera_medium()
                                : dot(light.direction, target.normal) > 0 ? MediumState(target.surface->exterior)
                                                                          : MediumState(target.surface->interior);
-    PhotonFlight flight(scene, Ray{target.position + light.direction * distance, -light.direction}, medium, flux,
+    PhotonFlight flight(scene, Ray{target.position + light.direction * distance, -light.direction, time}, medium, flux,
                         random);
     return flight.reach(distance) ? flight.arrive() : std::nullopt;
 }
@@ -173,7 +173,9 @@ CausticPhotons::CausticPhotons(const Scene& scene, int count, std::uint64_t seed
         Pcg32 random(hash_of(seed, block));
         for (int i = 0; i < per_block; ++i) {
             const float u = random.uniform();
-            if (const auto photon = shoot(scene, lights, sampler.sample(u, random.uniform2()), density, random)) {
+            const Vec2 u2 = random.uniform2();
+            const float time = scene.is_moving() ? scene.camera().shutter().time(random.uniform()) : 0.0f;
+            if (const auto photon = shoot(scene, lights, sampler.sample(u, u2, time), density, time, random)) {
                 (photon->in_volume ? arrived[block].volume : arrived[block].surface).push_back(photon->lobe);
             }
         }

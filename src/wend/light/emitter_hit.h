@@ -26,6 +26,7 @@ struct LastVertex {
     /// nothing else.
     Vec3 direction{0, 0, 1};
     MediumState medium;
+    float time = 0;  ///< Ray::time
     int refractions = 0;
     /// Of the direction drawn there: the density of connections at the boundary ahead, over its own.
     float emitters_ahead = 0;
@@ -115,7 +116,8 @@ private:
             return 0;
         }
         const float distance = is_far ? infinity : length(hit - last.receiver.position);
-        const auto way = find_specular_chain(scene_, {last.receiver.position, straight}, distance, last.medium);
+        const auto way =
+            find_specular_chain(scene_, {last.receiver.position, straight, last.time}, distance, last.medium);
         constexpr float same = 1e-3f;
         return way && way->refractions == last.refractions && length(way->direction - last.direction) < same
                    ? way->density_ratio * density(light, last, straight, hit, normal)

@@ -93,14 +93,14 @@ bool refract_at(const Scene& scene, const Hit& hit, float ior, Pencil& beam, Spe
     return true;
 }
 
-/// Follows a way along first.n to where it comes closest to the target. Behind so many refractions nothing is traced
-/// any more. Nothing where the way turns back, is totally reflected, or is too long.
-std::optional<Trial> follow(const Scene& scene, const Vec3& from, const Frame& first, const Target& target,
+/// Follows a way from where the straight one starts along first.n to where it comes closest to the target. Behind so
+/// many refractions nothing is traced any more. Nothing where the way turns back, is totally reflected, or is too long.
+std::optional<Trial> follow(const Scene& scene, const Ray& straight, const Frame& first, const Target& target,
                             MediumState medium, int refractions) {
     Trial trial;
     trial.way.direction = first.n;
     Pencil beam;
-    beam.ray = Ray{from, first.n};
+    beam.ray = Ray{straight.origin, first.n, straight.time};
     beam.direction_by = {first.s, first.t};
     for (;;) {
         const std::optional<float> along = target.distance_along(beam.ray);
@@ -181,10 +181,10 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
     const Target target{is_far ? straight.direction : straight.at(distance), is_far};
     const float close = is_far ? 1e-5f : 1e-5f * distance + 4e-7f * length(target.place);
     std::optional<Trial> best =
-        follow(scene, straight.origin, Frame::from_z(straight.direction), target, medium, most_refractions);
+        follow(scene, straight, Frame::from_z(straight.direction), target, medium, most_refractions);
     if (!best) {
         if (const auto direction = steeper(scene, straight, distance)) {
-            best = follow(scene, straight.origin, Frame::from_z(*direction), target, medium, most_refractions);
+            best = follow(scene, straight, Frame::from_z(*direction), target, medium, most_refractions);
         }
     }
     if (!best || best->way.refractions == 0) {
@@ -197,7 +197,7 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
         const Frame base = Frame::from_z(best->way.direction);
         const Vec3 direction = normalize(base.n + base.s * (step->x * part) + base.t * (step->y * part));
         std::optional<Trial> trial =
-            follow(scene, straight.origin, Frame::from_z(direction), target, medium, best->way.refractions);
+            follow(scene, straight, Frame::from_z(direction), target, medium, best->way.refractions);
         if (trial && length(trial->missed) < (1 - least_gain * part) * length(best->missed)) {
             best = std::move(trial);
             step = newton_step(*best);
@@ -210,7 +210,7 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
         return std::nullopt;
     }
     // With what lies behind the last boundary.
-    best = follow(scene, straight.origin, Frame::from_z(best->way.direction), target, medium, most_refractions);
+    best = follow(scene, straight, Frame::from_z(best->way.direction), target, medium, most_refractions);
     if (!best || !passes_target() || !best->is_clear) {
         return std::nullopt;
     }

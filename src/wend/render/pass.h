@@ -92,6 +92,7 @@ public:
           expects_(choice.kinds()[kind].preset.guides_survival()),
           learners_(learners),
           camera_(scene.camera()),
+          is_moving_(scene.is_moving()),
           film_(film),
           settings_(settings),
           plan_(plan),
@@ -140,15 +141,24 @@ private:
         const Filter::Sample place = settings_.filter.sample(sampler.uniform2());
         const Vec2 film_point(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                               static_cast<float>(pixel.y) + 0.5f + place.offset.y);
-        const Ray ray = camera_.ray(film_point, sampler.uniform2());
+        const Vec2 lens = sampler.uniform2();
+        const float time = is_moving_ ? camera_.shutter().time(sampler.uniform()) : 0.0f;
+        const CameraRay ray = camera_.ray(film_point, lens, time);
         const bool is_recorded = records_walk(number, index);
-        WalkResult result =
-            tracer_.trace(ray, expects_ ? expected : 0, sampler, learners_.recorders(records, is_recorded));
+        const bool is_traced = ray.weight > 0;
+        WalkResult result;
+        if (is_traced) {
+            result = tracer_.trace(ray, expects_ ? expected / ray.weight : 0, sampler,
+                                   learners_.recorders(records, is_recorded));
+            result.sample.radiance *= ray.weight;
+        }
         if (rest_.drops_walks()) {
             return false;  // the walk may be a part of one
         }
         const bool counts = is_finite(result.sample.radiance);
-        learners_.keep(records, is_recorded && counts);
+        if (is_traced) {
+            learners_.keep(records, is_recorded && counts);
+        }
         ++tile.counts.paths;
         ++tile.walks[kind_];
         tile.counts.segments += result.sample.segments;
@@ -208,6 +218,7 @@ private:
     bool expects_;  ///< whether its survival follows the estimate of the pixel
     const Learners& learners_;
     const Camera& camera_;
+    bool is_moving_;  ///< a time is drawn only where it matters
     Film& film_;
     const RenderSettings& settings_;
     const PassPlan& plan_;

@@ -190,9 +190,9 @@ private:
                 return true;
             }
             for (Vec3& p : points) {
-                p = instance->world_from_object.point(p);
+                p = instance->world_from_object.start().point(p);
             }
-            const double scale = std::cbrt(std::abs(instance->world_from_object.determinant()));
+            const double scale = std::cbrt(std::abs(instance->world_from_object.start().determinant()));
             remove_near(scene_.world_surfaces, margin * static_cast<float>(scale), points);
         }
         return points.empty();

@@ -15,8 +15,8 @@ std::vector<BoundaryPoint> boundary_points(const SceneDescription& scene, Medium
     std::vector<BoundaryPoint> points;
     for (int i = 0; i < count && !sampler.is_empty(); ++i) {
         const auto index = static_cast<std::uint32_t>(i);
-        const auto [surface, position, normal] =
-            sampler.sample(owen_sobol(index, hash_of(seed, 0)).x, owen_sobol(index, hash_of(seed, 1)));
+        const auto [surface, position, normal] = sampler.sample(
+            owen_sobol(index, hash_of(seed, 0)).x, owen_sobol(index, hash_of(seed, 1)), time_of_boundary_points);
         if (is_finite(position) && is_finite(normal)) {
             points.push_back({position, surface->interior == medium ? normal : -normal});
         }

@@ -8,6 +8,9 @@
 
 namespace wend {
 
+/// Of what moves the boundary is known as it is then (Ray::time).
+inline constexpr float time_of_boundary_points = 0.5f;
+
 struct BoundaryPoint {
     Vec3 position;
     Vec3 normal;  ///< unit length, out of the medium

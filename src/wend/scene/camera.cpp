@@ -20,17 +20,17 @@ Ray through_lens(const Ray& pinhole, float lens_radius, float focal_distance, co
     return {origin, normalize(focus - origin)};
 }
 
-Ray local_ray(const PerspectiveCamera& c, const Vec2& p, const Vec2& lens) {
+CameraRay local_ray(const PerspectiveCamera& c, const Vec2& p, const Vec2& lens) {
     const Vec2 s = on_screen(c.screen, p);
-    return through_lens({{0, 0, 0}, normalize(Vec3(s.x, s.y, 1))}, c.lens_radius, c.focal_distance, lens);
+    return {through_lens({{0, 0, 0}, normalize(Vec3(s.x, s.y, 1))}, c.lens_radius, c.focal_distance, lens)};
 }
 
-Ray local_ray(const OrthographicCamera& c, const Vec2& p, const Vec2& lens) {
+CameraRay local_ray(const OrthographicCamera& c, const Vec2& p, const Vec2& lens) {
     const Vec2 s = on_screen(c.screen, p);
-    return through_lens({{s.x, s.y, 0}, {0, 0, 1}}, c.lens_radius, c.focal_distance, lens);
+    return {through_lens({{s.x, s.y, 0}, {0, 0, 1}}, c.lens_radius, c.focal_distance, lens)};
 }
 
-Ray local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
+CameraRay local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
     Vec3 d;
     if (c.mapping == SphericalCamera::Mapping::equirectangular) {
         const float theta = pi * p.y;
@@ -46,15 +46,22 @@ Ray local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
         d = equal_area_square_to_sphere({over_y ? 1 - x : x, over_x ? 1 - y : y});
     }
     // The mappings have z up, the camera y.
-    return {{0, 0, 0}, {d.x, d.z, d.y}};
+    return {{{0, 0, 0}, {d.x, d.z, d.y}}};
+}
+
+CameraRay local_ray(const RealisticCamera& c, const Vec2& p, const Vec2& lens) {
+    // The picture on the film is upside down and mirrored.
+    const auto sample = c.lenses->sample({(0.5f - p.x) * c.film_size.x, (p.y - 0.5f) * c.film_size.y}, lens);
+    return sample ? CameraRay{sample->ray, sample->weight} : CameraRay{{{0, 0, 0}, {0, 0, 1}}, 0};
 }
 
 }  // namespace
 
-Ray Camera::ray(const Vec2& film, const Vec2& lens) const {
+CameraRay Camera::ray(const Vec2& film, const Vec2& lens, float time) const {
     const Vec2 p(film.x / static_cast<float>(width_), film.y / static_cast<float>(height_));
-    const Ray local = std::visit([&](const auto& c) { return local_ray(c, p, lens); }, kind_);
-    return {world_from_camera_.point(local.origin), normalize(world_from_camera_.vector(local.direction))};
+    const CameraRay local = std::visit([&](const auto& c) { return local_ray(c, p, lens); }, kind_);
+    const AffineMap place = motion_.is_moving() ? motion_.at(time).world_from_object : start_;
+    return {{place.point(local.origin), normalize(place.vector(local.direction)), time}, local.weight};
 }
 
 }  // namespace wend

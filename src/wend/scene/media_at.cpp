@@ -260,14 +260,16 @@ MediumRegions::MediumRegions(const SceneDescription& scene) {
     for (const ObjectDefinition& object : scene.objects) {
         in_objects.push_back(Parts(scene, object.surfaces, parts_of).list());
     }
+    bool is_moving = scene.camera.is_moving() && !regions.empty();
     for (const Instance& instance : scene.instances) {
         first.push_back(static_cast<std::int32_t>(regions.size()));
         for (Part part : in_objects[static_cast<std::size_t>(instance.object)]) {
-            part.box = moved(part.box, instance.world_from_object);
+            part.box = moved(part.box, instance.world_from_object.start());
             regions.push_back(std::move(part));
+            is_moving = is_moving || scene.camera.is_moving() || instance.world_from_object.is_moving();
         }
     }
-    if (!need_telling_apart(regions)) {
+    if (!is_moving && !need_telling_apart(regions)) {
         return;
     }
     std::vector<std::int32_t> order(regions.size());

@@ -45,8 +45,9 @@ private:
 /// together, in each place where it stands. As long as each is apart from all others, or lies within a medium that its
 /// surfaces name as their exterior, surfaces tell the media on their sides, and there is nothing else to know: then
 /// this is empty. Where boundaries touch, overlap or lie in a medium that they do not name, a walk is in the smallest
-/// of the regions it is in, whatever the order in which it crossed their boundaries. Beyond a surface that encloses
-/// nothing it is where that surface says.
+/// of the regions it is in, whatever the order in which it crossed their boundaries. So it is where boundaries or the
+/// camera move: then what the camera is in depends on the time. Beyond a surface that encloses nothing a walk is where
+/// that surface says.
 class MediumRegions {
 public:
     /// No region: of surfaces that enclose nothing.

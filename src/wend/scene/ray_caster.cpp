@@ -48,6 +48,7 @@ RTCRay to_embree(const TracedRay& ray, float distance, unsigned mask) {
     r.tnear = ray.passed() > 0 ? std::nextafter(ray.passed(), 0.0f) : 0.0f;
     r.tfar = ray.passed() + distance;
     r.mask = mask;
+    r.time = ray.time;
     return r;
 }
 
@@ -128,8 +129,9 @@ struct RayCaster::Query : EmbreeContext {
                                          const RTCRay& bounds) const {
         const int inst = caster.instance(instID[0]);
         Vec3 offset = ray.offset_for({surface, primitive, inst});
-        if (inst >= 0) {
-            offset = caster.placements_[static_cast<std::size_t>(inst)].object_from_world.vector(offset);
+        std::optional<Placement> moved;
+        if (const Placement* placement = caster.placement_of(inst, ray.time, moved)) {
+            offset = placement->object_from_world.vector(offset);
         }
         const Vec3 start(bounds.org_x, bounds.org_y, bounds.org_z), way(bounds.dir_x, bounds.dir_y, bounds.dir_z);
         // What Embree asks for has the ray itself in its bounds: so has what is found, or the answer would depend on
@@ -209,27 +211,36 @@ RayCaster::RayCaster(const SceneDescription& description)
     }
     scene_ = new_scene(d_.world_surfaces);
     for (const Instance& instance : d_.instances) {
-        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, objects_[static_cast<std::size_t>(instance.object)].get());
-        float matrix[12];
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 3; ++row) {
-                matrix[column * 3 + row] = static_cast<float>(instance.world_from_object.element(row, column));
-            }
-        }
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
-        rtcSetGeometryMask(geometry, everything);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(d_.surfaces.size() + placements_.size()));
-        rtcReleaseGeometry(geometry);
-        const Transform object_from_world = instance.world_from_object.inverse();
-        placements_.push_back({AffineMap(instance.world_from_object), AffineMap(object_from_world)});
-        reach_ = std::min(reach_, embree_reach / largest_image(object_from_world));
+        add_instance(instance);
     }
     rtcCommitScene(scene_.get());
     if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
         throw std::runtime_error("Embree could not build the acceleration structure");
     }
+}
+
+void RayCaster::add_instance(const Instance& instance) {
+    const Motion& motion = instance.world_from_object;
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, objects_[static_cast<std::size_t>(instance.object)].get());
+    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(motion.key_count()));
+    for (std::size_t i = 0; i < motion.key_count(); ++i) {
+        const Transform& world_from_object = motion.key(i);
+        float matrix[12];
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                matrix[column * 3 + row] = static_cast<float>(world_from_object.element(row, column));
+            }
+        }
+        rtcSetGeometryTransform(geometry, static_cast<unsigned>(i), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+        reach_ = std::min(reach_, embree_reach / largest_image(world_from_object.inverse()));
+    }
+    rtcSetGeometryMask(geometry, everything);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(d_.surfaces.size() + placements_.size()));
+    rtcReleaseGeometry(geometry);
+    placements_.push_back(motion.at(0));
+    is_moving_ = is_moving_ || motion.is_moving();
 }
 
 void RayCaster::attach(RTCScene scene, int index) {
@@ -395,11 +406,12 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     Hit hit;
     hit.distance = raw.distance;
     hit.t = raw.t;
+    hit.time = ray.time;
     hit.surface = &d_.surfaces[raw.element.surface];
     hit.element = raw.element;
     hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.element.primitive);
-    const Placement* const placement =
-        raw.element.instance >= 0 ? &placements_[static_cast<std::size_t>(raw.element.instance)] : nullptr;
+    std::optional<Placement> moved_to;
+    const Placement* const placement = placement_of(raw.element.instance, ray.time, moved_to);
     LocalPoint point;
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
         point = point_of(*mesh, raw, hit);
@@ -434,8 +446,8 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
 }
 
 Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
-    const Placement* const placement =
-        hit.element.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.element.instance)] : nullptr;
+    std::optional<Placement> moved_to;
+    const Placement* const placement = placement_of(hit.element.instance, hit.time, moved_to);
     const Vec3 moved = placement ? placement->object_from_world.vector(displacement) : displacement;
     Vec3 normal;
     Vec3 change;
@@ -484,8 +496,8 @@ Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {
 }
 
 SurfaceDerivatives RayCaster::derivatives(const Hit& hit) const {
-    const Placement* const placement =
-        hit.element.instance >= 0 ? &placements_[static_cast<std::size_t>(hit.element.instance)] : nullptr;
+    std::optional<Placement> moved_to;
+    const Placement* const placement = placement_of(hit.element.instance, hit.time, moved_to);
     SurfaceDerivatives d{hit.shading.s, hit.shading.t, {}, {}};
     if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
         const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.element.primitive}];

@@ -50,16 +50,25 @@ private:
     bool reaches_scene(const TracedRay& ray, float distance) const;
     /// The scene's index of Embree's instance.
     int instance(unsigned id) const;
+    void add_instance(const Instance& instance);
+    /// Where an instance stands at a time; null for -1. `moved` is room for it.
+    const Placement* placement_of(int instance, float time, std::optional<Placement>& moved) const {
+        if (instance < 0) {
+            return nullptr;
+        }
+        const auto i = static_cast<std::size_t>(instance);
+        if (is_moving_ && d_.instances[i].world_from_object.is_moving()) {
+            return &moved.emplace(d_.instances[i].world_from_object.at(time));
+        }
+        return &placements_[i];
+    }
 
     const SceneDescription& d_;
     Device device_;
     std::vector<SceneHandle> objects_;
     SceneHandle scene_;
-    struct Placement {
-        AffineMap world_from_object;
-        AffineMap object_from_world;
-    };
-    std::vector<Placement> placements_;
+    std::vector<Placement> placements_;  ///< of instances, at time 0
+    bool is_moving_ = false;
     float reach_;  ///< largest coordinate of a ray's origin
 };
 

@@ -39,7 +39,18 @@ std::uint32_t flat_primitives(const Shape& shape) {
 Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     caster_ = std::make_unique<RayCaster>(d_);
     regions_ = MediumRegions(d_);
-    camera_medium_ = medium_of_camera();
+    is_moving_ = d_.camera.is_moving() || std::any_of(d_.instances.begin(), d_.instances.end(), [](const Instance& i) {
+                     return i.world_from_object.is_moving();
+                 });
+    camera_medium_ = MediumState(d_.camera_medium);
+    if (!regions_.is_empty()) {
+        ways_out_of_camera_ = ways_out(d_.camera.middle());
+        for (const Hit& hit : ways_out_of_camera_) {
+            regions_.cross(camera_medium_, *hit.surface, hit.element, true);
+        }
+        // The scene has the last word on what is around the camera.
+        camera_medium_.id = d_.camera_medium;
+    }
     lights_ = d_.lights;
     add_emitting_media();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
@@ -80,14 +91,11 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
 
 Scene::~Scene() = default;
 
-MediumState Scene::medium_of_camera() const {
-    MediumState state(d_.camera_medium);
-    if (regions_.is_empty()) {
-        return state;
-    }
+std::vector<Hit> Scene::ways_out(const Ray& start) const {
     // A region whose boundary a ray crosses outwards first is one that the ray started in.
     constexpr int most_crossings = 10000;
-    TracedRay ray(d_.camera.middle());
+    TracedRay ray(start);
+    std::vector<Hit> ways;
     std::vector<int> met;
     for (int i = 0; i < most_crossings; ++i) {
         const auto found = caster_->intersect(ray, infinity, RayCaster::everything);
@@ -99,13 +107,35 @@ MediumState Scene::medium_of_camera() const {
         if (region != MediumRegions::none && std::find(met.begin(), met.end(), region) == met.end()) {
             met.push_back(region);
             if (dot(hit.normal, ray.direction) > 0) {
-                regions_.cross(state, *hit.surface, hit.element, true);
+                ways.push_back(hit);
             }
         }
         ray.pass(hit);
     }
-    // The scene has the last word on what is around the camera.
-    state.id = d_.camera_medium;
+    return ways;
+}
+
+MediumState Scene::medium_around(const Ray& camera_ray) const {
+    if (!is_moving_ || regions_.is_empty()) {
+        return camera_medium_;
+    }
+    // What differs from time 0, where the scene says what is around the camera.
+    const std::vector<Hit> ways = ways_out(camera_ray);
+    const auto has_region_of = [this](const std::vector<Hit>& hits, const Hit& hit) {
+        return std::any_of(hits.begin(), hits.end(),
+                           [&](const Hit& h) { return regions_.region(h.element) == regions_.region(hit.element); });
+    };
+    MediumState state = camera_medium_;
+    for (const Hit& hit : ways) {
+        if (!has_region_of(ways_out_of_camera_, hit)) {
+            regions_.cross(state, *hit.surface, hit.element, true);
+        }
+    }
+    for (const Hit& hit : ways_out_of_camera_) {
+        if (!has_region_of(ways, hit)) {
+            regions_.cross(state, *hit.surface, hit.element, false);
+        }
+    }
     return state;
 }
 

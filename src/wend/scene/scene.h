@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/frame.h>
+#include <wend/core/motion.h>
 #include <wend/core/random.h>
 #include <wend/core/ray.h>
 #include <wend/medium/medium.h>
@@ -38,13 +39,13 @@ struct Surface {
     bool bounds_medium() const { return interior != exterior; }
 };
 
-/// Shapes that are placed several times.
+/// Shapes that are placed several times, or that move together.
 struct ObjectDefinition {
     std::vector<int> surfaces;
 };
 struct Instance {
     int object = 0;
-    Transform world_from_object;
+    Motion world_from_object;
 };
 
 /// What a scene consists of. Indices refer to the vectors here.
@@ -75,6 +76,7 @@ struct RayHit {
 struct Hit {
     float distance = 0;  ///< from where the ray has come to
     float t = 0;         ///< from where it is traced from
+    float time = 0;      ///< of the ray
     Vec3 position;
     Vec3 normal;    ///< geometric, unit length, towards the exterior
     Frame shading;  ///< z: interpolated normal on the geometric normal's side; x along dp/du
@@ -153,8 +155,12 @@ public:
     /// What the scene was built from.
     const SceneDescription& description() const { return d_; }
     const Camera& camera() const { return d_.camera; }
-    /// Where walks begin.
+    /// Whether anything depends on the time of rays.
+    bool is_moving() const { return is_moving_; }
+    /// Where the camera is at time 0.
     const MediumState& camera_medium() const { return camera_medium_; }
+    /// Where the walk that begins with a ray of the camera begins.
+    MediumState medium_around(const Ray& camera_ray) const;
     /// What an area light is, if that is flat; otherwise nothing that a ray meets.
     const SurfaceElement& flat_element(int light) const { return flat_lights_[static_cast<std::size_t>(light)]; }
     /// Those of the description, and then the media that glow.
@@ -173,7 +179,8 @@ public:
 
 private:
     void add_emitting_media();
-    MediumState medium_of_camera() const;
+    /// For each region of a medium that a ray starts in, where it leaves that.
+    std::vector<Hit> ways_out(const Ray& ray) const;
     int material_id(const Hit& hit) const {
         return has_mixtures_ ? material_at(d_.materials, hit.surface->material, d_.textures, texture_point(hit))
                              : hit.surface->material;
@@ -183,6 +190,8 @@ private:
     std::unique_ptr<RayCaster> caster_;
     MediumRegions regions_;
     MediumState camera_medium_;
+    std::vector<Hit> ways_out_of_camera_;  ///< at time 0
+    bool is_moving_ = false;
     std::unique_ptr<LightSampler> light_sampler_;
     std::vector<Light> lights_;
     std::vector<SurfaceElement> flat_lights_;  ///< by light

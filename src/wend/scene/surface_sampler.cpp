@@ -23,23 +23,23 @@ float area_of(const Disk& disk) {
 }  // namespace
 
 SurfaceSampler::SurfaceSampler(const SceneDescription& scene, const std::function<bool(const Surface&)>& is_chosen) {
-    const auto place = [&](const std::vector<int>& surfaces, const Placement& placement) {
-        placements_.push_back(placement);
+    const auto place = [&](const std::vector<int>& surfaces, const Motion& motion) {
+        placements_.push_back(motion.at(0));
+        motions_.push_back(motion.is_moving() ? &motion : nullptr);
         for (const int i : surfaces) {
             if (const Surface& surface = scene.surfaces[static_cast<std::size_t>(i)]; is_chosen(surface)) {
                 add_surface(surface);
             }
         }
     };
-    place(scene.world_surfaces, {});
+    place(scene.world_surfaces, Motion());
     for (const Instance& instance : scene.instances) {
-        place(scene.objects[static_cast<std::size_t>(instance.object)].surfaces,
-              {AffineMap(instance.world_from_object), AffineMap(instance.world_from_object.inverse())});
+        place(scene.objects[static_cast<std::size_t>(instance.object)].surfaces, instance.world_from_object);
     }
     table_ = AliasTable(areas_);
 }
 
-SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2) const {
+SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2, float time) const {
     const Element& element = elements_[static_cast<std::size_t>(table_.sample(u))];
     const Surface& surface = *element.surface;
     // Of curves and cylinders there are none: see add_surface().
@@ -64,14 +64,15 @@ SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2) const {
         point.normal = quadric.object_from_world.transposed_vector(on.normal);
         point.normal = surface.flip_normal ? -point.normal : point.normal;
     }
-    const Placement& placement = placements_[element.placement];
-    point.position = placement.to_world.point(point.position);
-    point.normal = normalize(placement.from_world.transposed_vector(point.normal));
+    const Motion* const motion = motions_[element.placement];
+    const Placement placement = motion ? motion->at(time) : placements_[element.placement];
+    point.position = placement.world_from_object.point(point.position);
+    point.normal = normalize(placement.object_from_world.transposed_vector(point.normal));
     return point;
 }
 
 void SurfaceSampler::add_surface(const Surface& surface) {
-    const AffineMap& to = placements_.back().to_world;
+    const AffineMap& to = placements_.back().world_from_object;
     if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
         for (std::size_t i = 0; i < mesh->triangle_count(); ++i) {
             const Vec3 e1 = to.vector(mesh->vertex(i, 1) - mesh->vertex(i, 0));

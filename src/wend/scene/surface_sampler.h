@@ -10,8 +10,9 @@
 
 namespace wend {
 
-/// Draws points of chosen surfaces, placed objects included, evenly by area; on stretched spheres and disks not quite
-/// evenly, and on curves and cylinders (which neither shine nor bound media) none. The scene must outlive it.
+/// Draws points of chosen surfaces, placed objects included, evenly by the area at time 0; on stretched spheres and
+/// disks not quite evenly, and on curves and cylinders (which neither shine nor bound media) none. The scene must
+/// outlive it.
 class SurfaceSampler {
 public:
     SurfaceSampler(const SceneDescription& scene, const std::function<bool(const Surface&)>& is_chosen);
@@ -26,15 +27,11 @@ public:
         Vec3 position;
         Vec3 normal;  ///< unit length, towards the exterior
     };
-    /// From uniform numbers; not while it is empty. Not finite where the surface is not.
-    Point sample(float u, const Vec2& u2) const;
+    /// From uniform numbers, as the surfaces are at a time (Ray::time); not while it is empty. Not finite where the
+    /// surface is not.
+    Point sample(float u, const Vec2& u2, float time = 0) const;
 
 private:
-    /// Where an object stands.
-    struct Placement {
-        AffineMap to_world;
-        AffineMap from_world;
-    };
     /// A triangle, sphere or disk.
     struct Element {
         const Surface* surface;
@@ -46,7 +43,8 @@ private:
     void add_surface(const Surface& surface);
     void add_element(const Surface& surface, std::size_t primitive, float area);
 
-    std::vector<Placement> placements_;
+    std::vector<Placement> placements_;   ///< at time 0
+    std::vector<const Motion*> motions_;  ///< by placement; null where it is at rest
     std::vector<Element> elements_;
     std::vector<float> areas_;
     float area_ = 0;

@@ -57,6 +57,7 @@ TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_
     start_ = hit.position + hit.normal * (cosine > 0 ? hit.clearance : -hit.clearance) - w * behind;
     origin = start_;
     direction = w;
+    time = hit.time;
     own_ = hit.element;
     own_again_ = !along && is_round(*hit.surface);
     zone_ = 2 * behind;

@@ -15,7 +15,7 @@ Ray next_to(const BoundaryPoint& point, const Vec3& w, float diameter) {
     constexpr float rounding = 2e-6f;
     const Vec3& p = point.position;
     const float by = rounding * (diameter + std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
-    return {p + point.normal * (dot(w, point.normal) < 0 ? -by : by), w};
+    return {p + point.normal * (dot(w, point.normal) < 0 ? -by : by), w, time_of_boundary_points};
 }
 
 /// The length of a way through the object, at most `farthest`.

@@ -104,7 +104,7 @@ public:
         if (!(density > 0)) {
             return;
         }
-        const Ray ray{v.position, *w};
+        const Ray ray{v.position, *w, path_.now.ray.time};
         const std::optional<Hit> hit = scene_.intersect(ray);
         if (!hit || scene_.is_interface(*hit)) {
             return;
@@ -224,7 +224,8 @@ private:
                                                  const Vertex& v) const {
         const LightSample& light = chosen.light;
         const Light& source = scene_.lights()[static_cast<std::size_t>(chosen.index)];
-        const auto way = find_specular_chain(scene_, {v.position, light.direction}, light.distance, path_.now.medium);
+        const auto way = find_specular_chain(scene_, {v.position, light.direction, path_.now.ray.time}, light.distance,
+                                             path_.now.medium);
         const bool is_far = light.distance == infinity;
         if (!way || (!is_far && way->end.light != chosen.index) ||
             way->vertices > path_.now.counts.vertices_left(max_depth_)) {

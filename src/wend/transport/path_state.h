@@ -54,7 +54,7 @@ struct PathState {
 
     /// The ray from a vertex that the path has just come to, in a direction, and the medium that it is in.
     TracedRay leave(const Vertex& v, const Vec3& w) const {
-        return v.in_volume() ? TracedRay(Ray{v.position, w}) : ray.leave(*v.hit, w);
+        return v.in_volume() ? TracedRay(Ray{v.position, w, ray.time}) : ray.leave(*v.hit, w);
     }
     MediumState medium_towards(const Scene& scene, const Vertex& v, const Vec3& w) const {
         return v.in_volume() ? medium : scene.medium_beyond(*v.hit, w, medium);

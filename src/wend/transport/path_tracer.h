@@ -99,7 +99,7 @@ public:
     WalkResult run(const Ray& start) {
         path_.start();
         path_.now.ray = start;
-        path_.now.medium = scene_.camera_medium();
+        path_.now.medium = scene_.medium_around(start);
         do {
             while (!is_stopped() && step()) {
             }
@@ -385,7 +385,8 @@ private:
                           channel_probabilities(path_.now.weight.throughput),
                           Rgb(1.0f),
                           s.direction,
-                          path_.now.medium};
+                          path_.now.medium,
+                          path_.now.ray.time};
     }
 
     // ---- Whether to go on ----

@@ -1,4 +1,5 @@
 #include <wend/io/load/camera_film.h>
+#include <wend/io/load/lenses.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/spectrum/white_balance.h>
 
@@ -172,6 +173,7 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
         settings.crop = load_pixel_bounds(p, bounds, in_file, settings.resolution);
     }
     settings.file = p.get_string("filename", "pbrt.exr");
+    settings.diagonal = positive_float(p, "diagonal", 35) / 1000;
     settings.sensitivity = positive_float(p, "iso", 100) / 100;
     settings.balance = load_balance(context, p);
     if (p.has("maxcomponentvalue")) {
@@ -181,13 +183,14 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
     }
     // These change neither what is rendered nor what is written here: files hold 32-bit floats.
     static_cast<void>(p.get_bool("savefp16", true));
-    static_cast<void>(p.get_float("diagonal", 35));
     context.warnings.add_unused("Film", film);
     return settings;
 }
 
-Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const Vec2i& resolution) {
+Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const pbrt::TransformTimes& times,
+                   const FilmSettings& film) {
     const pbrt::ParameterSet& p = camera.parameters;
+    const Vec2i resolution = film.resolution;
     const ScreenWindow screen = load_screen_window(p, resolution);
     Camera::Kind kind;
     if (camera.type == "perspective") {
@@ -198,16 +201,18 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
     } else if (camera.type == "spherical") {
         kind = load_spherical(p);
     } else if (camera.type == "realistic") {
-        context.warnings.add(camera.place, "Camera \"realistic\" is not implemented: \"perspective\" takes its place");
-        kind = load_perspective(p, screen);
+        const float width = static_cast<float>(resolution.x), height = static_cast<float>(resolution.y);
+        kind = load_realistic(context, camera, Vec2(width, height) * (film.diagonal / std::hypot(width, height)));
     } else {
         refuse_type("Camera", camera, {"perspective", "orthographic", "spherical", "realistic"});
     }
     static_cast<void>(shutter_time(camera));
     context.warnings.add_unused("Camera", camera);
-    const Transform world_from_camera = camera.camera_from_world.inverse();
-    require_near(camera.place, "the camera stands", world_from_camera.point({0, 0, 0}));
-    return Camera(kind, world_from_camera, resolution.x, resolution.y);
+    for (std::size_t i = 0; i < camera.world_from_camera.key_count(); ++i) {
+        require_near(camera.place, "the camera stands", camera.world_from_camera.key(i).point({0, 0, 0}));
+    }
+    const Shutter shutter{p.get_float("shutteropen", 0), p.get_float("shutterclose", 1), times.start, times.end};
+    return Camera(kind, camera.world_from_camera, resolution.x, resolution.y, shutter);
 }
 
 float shutter_time(const pbrt::CameraEntity& camera) {

@@ -18,6 +18,7 @@ struct FilmSettings {
     Vec2i resolution{1280, 720};
     PixelRect crop;
     std::string file;
+    float diagonal = 0.035f;  ///< of the film, in metres
     /// ISO over 100; the shutter time is the camera's.
     float sensitivity = 1;
     /// From colours of the scene to those of the picture.
@@ -28,7 +29,8 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
 
 /// The screen window follows the shape of the picture, unless the file fixes it; the field of view is that of the
 /// shorter side.
-Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const Vec2i& resolution);
+Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const pbrt::TransformTimes& times,
+                   const FilmSettings& film);
 /// How long the shutter is open, which scales the exposure.
 float shutter_time(const pbrt::CameraEntity& camera);
 

@@ -12,6 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -65,17 +68,53 @@ public:
         }
         scene_.objects.resize(description_.objects.size());
         object_boxes_.resize(description_.objects.size());
+        groups_.resize(description_.objects.size() + 1);
         for (pbrt::ShapeEntity& shape : description_.shapes) {
             add_shape(shape);
         }
+        for (const Group& group : groups_.back()) {
+            place(group.object, *group.motion, group.place);
+        }
         for (const pbrt::ObjectInstance& instance : description_.instances) {
-            require_near(instance.place, object_boxes_[instance.object], instance.world_from_instance);
-            scene_.instances.push_back({static_cast<int>(instance.object), instance.world_from_instance});
+            add_instance(instance);
         }
         warn_of_boundaries(context_, scene_, places_, medium_names(), description_.camera.place);
     }
 
 private:
+    /// What moves together is placed like an object.
+    struct Group {
+        std::size_t object;
+        std::shared_ptr<const Motion> motion;
+        Place place;  ///< of its first shape
+    };
+
+    void add_instance(const pbrt::ObjectInstance& instance) {
+        place(instance.object, instance.world_from_instance, instance.place);
+        for (const Group& group : groups_[instance.object]) {
+            place(group.object, instance.world_from_instance * *group.motion, instance.place);
+        }
+    }
+
+    void place(std::size_t object, const Motion& motion, const Place& place) {
+        for (std::size_t i = 0; i < motion.key_count(); ++i) {
+            require_near(place, object_boxes_[object], motion.key(i));
+        }
+        scene_.instances.push_back({static_cast<int>(object), motion});
+    }
+
+    /// Those that move with a shape, in its object or in the world.
+    std::size_t group_of(const pbrt::ShapeEntity& entity) {
+        const std::size_t in = entity.object.value_or(description_.objects.size());
+        const auto [found, is_new] = group_objects_.try_emplace({in, entity.motion.get()}, scene_.objects.size());
+        if (is_new) {
+            groups_[in].push_back({found->second, entity.motion, entity.place});
+            scene_.objects.emplace_back();
+            object_boxes_.emplace_back();
+        }
+        return found->second;
+    }
+
     void add_materials() {
         std::vector<LoadedMaterial> materials = load_materials(context_, textures_, description_.materials);
         if (description_.options.get_bool("forcediffuse", false)) {
@@ -104,8 +143,9 @@ private:
         const bool is_curve = std::holds_alternative<CurveSet>(*shape);
         const Box3 box =
             require_near(entity.place, fmt::format("Shape \"{}\" reaches to a point", entity.type), *shape);
-        if (entity.object) {
-            object_boxes_[*entity.object].extendBy(box);
+        const std::optional<std::size_t> object = entity.motion ? group_of(entity) : entity.object;
+        if (object) {
+            object_boxes_[*object].extendBy(box);
         }
         Surface surface{std::move(*shape)};
         surface.material = static_cast<int>(entity.material);
@@ -119,7 +159,7 @@ private:
             add_area_light(entity, patches, surface);
         }
         context_.warnings.add_unused("Shape", entity);
-        std::vector<int>& group = entity.object ? scene_.objects[*entity.object].surfaces : scene_.world_surfaces;
+        std::vector<int>& group = object ? scene_.objects[*object].surfaces : scene_.world_surfaces;
         if (is_curve && !group.empty() && joins(scene_.surfaces[static_cast<std::size_t>(group.back())], surface)) {
             return;
         }
@@ -183,6 +223,8 @@ private:
     std::vector<AreaLight> area_lights_;
     std::vector<Place> places_;  ///< of the scene's surfaces
     std::vector<Box3> object_boxes_;
+    std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
+    std::map<std::pair<std::size_t, const Motion*>, std::size_t> group_objects_;
 };
 
 }  // namespace
@@ -212,7 +254,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.seed = sampler.seed;
     loaded.max_depth = integrator.max_depth;
     loaded.scene.light_tree = integrator.light_tree;
-    loaded.scene.camera = load_camera(context, description.camera, film.resolution);
+    loaded.scene.camera = load_camera(context, description.camera, description.transform_times, film);
     loaded.scene.camera_medium = medium_id(description.camera.medium);
     SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     context.warnings.add_unused("Option", description.options);

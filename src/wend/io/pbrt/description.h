@@ -1,11 +1,12 @@
 // A pbrt-v4 scene as written, with everything that depends on the order of the file worked out: no scene objects yet.
 #pragma once
 
-#include <wend/core/transform.h>
+#include <wend/core/motion.h>
 #include <wend/io/pbrt/parameters.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ struct Entity {
 };
 
 struct CameraEntity : Entity {
-    Transform camera_from_world;
+    Motion world_from_camera;
     std::optional<std::size_t> medium;  ///< index in Description::media; none: vacuum
 };
 
@@ -49,6 +50,8 @@ struct LightEntity : Entity {
 
 struct ShapeEntity : Entity {
     Transform world_from_object;
+    /// What moves it then: shapes that follow each other and move together have the same one. Null for one at rest.
+    std::shared_ptr<const Motion> motion;
     bool reverse_orientation = false;
     std::size_t material = 0;
     std::optional<std::size_t> interior;    ///< index in Description::media
@@ -64,11 +67,16 @@ struct ObjectDefinition {
     Location place;
 };
 
-/// A copy of an object: its shapes are at `world_from_instance * shape.world_from_object`.
+/// A copy of an object: its shapes are at `world_from_instance * shape.motion * shape.world_from_object`.
 struct ObjectInstance {
     std::size_t object = 0;
-    Transform world_from_instance;
+    Motion world_from_instance;
     Location place;
+};
+
+/// When what moves is at its start and at its end.
+struct TransformTimes {
+    float start = 0, end = 1;
 };
 
 /// All indices are valid and every texture that a parameter names exists.
@@ -78,6 +86,7 @@ struct Description {
 
     // Directives that a file need not have start with the types that pbrt takes then.
     CameraEntity camera{{"perspective", {}, {}}, {}, {}};
+    TransformTimes transform_times;
     Entity film{"rgb", {}, {}};
     Entity filter{"gaussian", {}, {}};
     Entity sampler{"zsobol", {}, {}};

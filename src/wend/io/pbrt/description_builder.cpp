@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <utility>
 
 namespace wend::pbrt {
@@ -47,9 +48,33 @@ const Transform* DescriptionBuilder::still_transform(const Location& place, cons
         return nullptr;
     }
     if (state().ctm.is_moving()) {
-        warn(place, "motion is not rendered: everything stays where it is at the start time");
+        warn(place, "lights, media and textures do not move: they stay where they are at the start");
     }
     return &state().ctm.start;
+}
+
+Motion DescriptionBuilder::motion_between(const Transform& start, const Transform& end, const Location& place) {
+    try {
+        return {start, end};
+    } catch (const std::domain_error& error) {
+        warn(place, fmt::format("{}: what has them stays where it is at the start", error.what()));
+        return {start};
+    }
+}
+
+std::shared_ptr<const Motion> DescriptionBuilder::motion(const Location& place, const std::string& what) {
+    const MovingTransform& ctm = state().ctm;
+    for (const auto& fault : {ctm.fault, ctm.fault_at_end}) {
+        if (fault) {
+            warn(fault->place, fmt::format("{}: {}", what, fault->text));
+            return nullptr;
+        }
+    }
+    if (!last_motion_ || last_motion_->start() != ctm.start ||
+        last_motion_->key(last_motion_->key_count() - 1) != ctm.end) {
+        last_motion_ = std::make_shared<const Motion>(motion_between(ctm.start, ctm.end, place));
+    }
+    return last_motion_;
 }
 
 std::optional<std::size_t> DescriptionBuilder::medium_named(const std::string& name, const Location& place) {
@@ -88,13 +113,17 @@ void DescriptionBuilder::accelerator(std::string type, ParameterSet parameters, 
 }
 
 void DescriptionBuilder::camera(std::string type, ParameterSet parameters, const Location& place) {
-    if (const auto& fault = state().ctm.fault) {
-        throw InputError(fault->place, fault->text);
+    const MovingTransform& ctm = state().ctm;
+    for (const auto& fault : {ctm.fault, ctm.fault_at_end}) {
+        if (fault) {
+            throw InputError(fault->place, fault->text);
+        }
     }
     version3_.camera(type, parameters, place);
-    const Transform camera_from_world = *still_transform(place, "");
-    states_.coordinate_systems()["camera"] = {state().ctm.start.inverse(), state().ctm.end.inverse()};
-    description_.camera = {{std::move(type), std::move(parameters), place}, camera_from_world, state().exterior};
+    states_.coordinate_systems()["camera"] = {ctm.start.inverse(), ctm.end.inverse()};
+    description_.camera = {{std::move(type), std::move(parameters), place},
+                           motion_between(ctm.start.inverse(), ctm.end.inverse(), place),
+                           state().exterior};
 }
 
 void DescriptionBuilder::film(std::string type, ParameterSet parameters, const Location& place) {
@@ -178,6 +207,10 @@ void DescriptionBuilder::transform_times(std::span<const double> v, const Locati
     if (v[0] > v[1]) {
         throw InputError(place, "the end time is before the start time");
     }
+    if (description_.camera.world_from_camera.is_moving()) {
+        warn(place, "TransformTimes after Camera are those of the camera, too");
+    }
+    description_.transform_times = {static_cast<float>(v[0]), static_cast<float>(v[1])};
 }
 
 void DescriptionBuilder::translate(std::span<const double> v, const Location& place) {
@@ -315,16 +348,16 @@ void DescriptionBuilder::object_instance(const std::string& name, const Location
         throw InputError(place, "an ObjectInstance may not be part of an object");
     }
     const std::size_t object = objects_.use(name, place);
-    if (const Transform* transform = still_transform(place, fmt::format("an instance of \"{}\" is left out", name))) {
-        description_.instances.push_back({object, *transform, place});
+    if (const auto moved = motion(place, fmt::format("an instance of \"{}\" is left out", name))) {
+        description_.instances.push_back({object, *moved, place});
     }
 }
 
 void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const Location& place) {
     version3_.shape(type, parameters, place);
     parameters.set_defaults(state().defaults.shape);
-    const Transform* world_from_object = still_transform(place, fmt::format("Shape \"{}\" is left out", type));
-    if (!world_from_object) {
+    const auto moved = motion(place, fmt::format("Shape \"{}\" is left out", type));
+    if (!moved) {
         return;
     }
     std::optional<std::size_t> area_light = state().area_light;
@@ -332,8 +365,13 @@ void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const 
         warn(place, "shapes of object instances cannot be area lights: they do not shine");
         area_light.reset();
     }
+    if (area_light && moved->is_moving()) {
+        warn(place, "area lights do not move: the shape stays where it is at the start");
+    }
+    const bool moves = moved->is_moving() && !area_light;
     description_.shapes.push_back({{std::move(type), std::move(parameters), place},
-                                   *world_from_object,
+                                   moves ? Transform() : moved->start(),
+                                   moves ? moved : nullptr,
                                    state().reverse_orientation,
                                    state().material,
                                    state().interior,

@@ -6,6 +6,7 @@
 #include <wend/io/pbrt/name_table.h>
 #include <wend/io/pbrt/version3.h>
 
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -50,7 +51,6 @@ public:
     void rotate(std::span<const double> degrees_and_axis, const Location& place);
     void scale(std::span<const double> factors, const Location& place);
     void transform(std::span<const double> column_major, const Location& place);
-    /// Checked and otherwise ignored: scenes are rendered as they are at the start.
     void transform_times(std::span<const double> start_and_end, const Location& place);
     void translate(std::span<const double> offset, const Location& place);
 
@@ -87,6 +87,10 @@ private:
     /// The start transform, with a warning where it differs from the end transform. Null where it is none, with a
     /// warning that `what` does not have its effect.
     const Transform* still_transform(const Location& place, const std::string& what);
+    /// From the start transform to the end transform. Null where one of them is none, with such a warning.
+    std::shared_ptr<const Motion> motion(const Location& place, const std::string& what);
+    /// At rest, with a warning, where one of the two mirrors and the other does not.
+    Motion motion_between(const Transform& start, const Transform& end, const Location& place);
     std::optional<std::size_t> medium_named(const std::string& name, const Location& place);
     void require_textures(const ParameterSet& parameters) const;
 
@@ -101,6 +105,7 @@ private:
     std::set<std::string> warned_;
     std::set<std::string> repeated_;
     std::optional<std::size_t> open_object_;
+    std::shared_ptr<const Motion> last_motion_;  ///< for the next shape that moves like it
     bool in_world_ = false;
 };
 

@@ -60,21 +60,30 @@ void GraphicsState::change_transforms(const std::function<Transform(const Transf
         }
         return {t, "the transformation matrix or its inverse is no longer finite"};
     };
-    if (active != ActiveTransform::end && !ctm.fault) {
-        std::string text;
-        std::tie(ctm.start, text) = changed(ctm.start);
-        if (!text.empty()) {
-            ctm.fault = std::make_shared<const TransformFault>(TransformFault{place, std::move(text)});
+    const auto replace = [&](Transform& t, std::shared_ptr<const TransformFault>& fault) {
+        if (fault) {
+            return;
         }
+        std::string text;
+        std::tie(t, text) = changed(t);
+        if (!text.empty()) {
+            fault = std::make_shared<const TransformFault>(TransformFault{place, std::move(text)});
+        }
+    };
+    if (active != ActiveTransform::end) {
+        replace(ctm.start, ctm.fault);
     }
     if (active != ActiveTransform::start) {
-        ctm.end = changed(ctm.end).first;
+        replace(ctm.end, ctm.fault_at_end);
     }
 }
 
 void GraphicsState::set_transforms(const std::function<Transform()>& make, const Location& place) {
     if (active != ActiveTransform::end) {
         ctm.fault.reset();
+    }
+    if (active != ActiveTransform::start) {
+        ctm.fault_at_end.reset();
     }
     change_transforms([&](const Transform&) { return make(); }, place);
 }

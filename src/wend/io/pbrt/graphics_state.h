@@ -24,8 +24,9 @@ struct TransformFault {
 struct MovingTransform {
     Transform start{};
     Transform end{};
-    /// Set while that at the start is none: until it is set anew, `start` is the last that was one.
+    /// Set while that at the start, or at the end, is none: until it is set anew, it is the last that was one.
     std::shared_ptr<const TransformFault> fault{};
+    std::shared_ptr<const TransformFault> fault_at_end{};
 
     bool is_moving() const { return !(start == end); }
 };

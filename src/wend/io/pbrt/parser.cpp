@@ -128,7 +128,7 @@ const std::unordered_map<std::string_view, Parser::Directive>& Parser::directive
         {"Transform", {anywhere, Matrix{&Builder::transform}}},
         {"TransformBegin", {world, Plain{&Builder::transform_begin}}},
         {"TransformEnd", {world, Plain{&Builder::transform_end}}},
-        {"TransformTimes", {anywhere, Numeric{2, &Builder::transform_times}}},
+        {"TransformTimes", {options, Numeric{2, &Builder::transform_times}}},
         {"Translate", {anywhere, Numeric{3, &Builder::translate}}},
         {"WorldBegin", {options, Plain{&Builder::world_begin}}},
     };
