@@ -14,11 +14,75 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
 namespace wend {
 namespace {
+
+/// A file that is read in parts, so that what is large is in memory once. One that is compressed as a whole is unpacked
+/// first.
+class PartsOfFile {
+public:
+    explicit PartsOfFile(const std::filesystem::path& file) : place_{file.string()}, stream_(file, std::ios::binary) {
+        constexpr std::string_view gzip_signature = "\x1f\x8b";
+        char begin[2] = {};
+        if (!stream_.read(begin, sizeof begin) || std::string_view(begin, sizeof begin) == gzip_signature) {
+            // Also for the messages about files that cannot be read.
+            content_ = read_file(file, Grid::default_max_bytes);
+            size_ = content_->size();
+        } else {
+            size_ = std::filesystem::file_size(file);
+        }
+    }
+
+    const Place& place() const { return place_; }
+    bool at_end() const { return at_ == size_; }
+    std::uint64_t position() const { return at_; }
+    void seek(std::uint64_t position) { at_ = position; }
+    void skip(std::uint64_t count) {
+        require(count);
+        at_ += count;
+    }
+    void read(char* to, std::uint64_t count) {
+        require(count);
+        if (content_) {
+            std::memcpy(to, content_->data() + at_, count);
+        } else {
+            stream_.seekg(static_cast<std::streamoff>(at_));
+            if (!stream_.read(to, static_cast<std::streamsize>(count))) {
+                throw InputError(place_, "cannot be read");
+            }
+        }
+        at_ += count;
+    }
+    std::string read(std::uint64_t count) {
+        require(count);
+        std::string bytes(count, '\0');
+        read(bytes.data(), count);
+        return bytes;
+    }
+    template <class T>
+    T read() {
+        T value;
+        read(reinterpret_cast<char*>(&value), sizeof(T));
+        return value;
+    }
+
+private:
+    void require(std::uint64_t count) const {
+        if (count > size_ - at_) {
+            throw InputError(place_, "the file is truncated");
+        }
+    }
+
+    Place place_;
+    std::ifstream stream_;
+    std::optional<std::string> content_;
+    std::uint64_t size_ = 0, at_ = 0;
+};
 
 /// A grid as it lies in the file.
 struct PackedGrid {
@@ -26,35 +90,32 @@ struct PackedGrid {
     nanovdb::GridType type;
     nanovdb::io::Codec codec;
     std::uint64_t unpacked_size;
-    std::string_view bytes;
+    std::uint64_t position = 0, size = 0;  ///< in the file
 };
 
-std::vector<PackedGrid> grids_in(std::string_view file, const Place& place) {
+std::vector<PackedGrid> grids_in(PartsOfFile& file) {
     std::vector<PackedGrid> grids;
-    Bytes bytes(file, place);
-    while (!bytes.empty()) {
-        const auto header = bytes.take<nanovdb::io::Header>();
+    while (!file.at_end()) {
+        const auto header = file.read<nanovdb::io::Header>();
         if (header.magic != NANOVDB_MAGIC_NUMBER || header.version.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER) {
-            throw InputError(place, "not a NanoVDB file of a version that is known");
+            throw InputError(file.place(), "not a NanoVDB file of a version that is known");
         }
         const std::size_t first = grids.size();
-        std::vector<std::uint64_t> sizes;
         for (int i = 0; i < header.gridCount; ++i) {
-            const auto meta = bytes.take<nanovdb::io::MetaData>();
-            const std::string name(bytes.take(meta.nameSize));
-            grids.push_back(
-                {name.c_str(), meta.gridType, header.codec, meta.gridSize, {}});  // the name ends with a zero
-            sizes.push_back(meta.fileSize);
+            const auto meta = file.read<nanovdb::io::MetaData>();
+            const std::string name = file.read(meta.nameSize);  // ends with a zero
+            grids.push_back({name.c_str(), meta.gridType, header.codec, meta.gridSize, 0, meta.fileSize});
         }
-        for (std::size_t i = 0; i < sizes.size(); ++i) {
-            grids[first + i].bytes = bytes.take(sizes[i]);
+        for (std::size_t i = first; i < grids.size(); ++i) {
+            grids[i].position = file.position();
+            file.skip(grids[i].size);
         }
     }
     return grids;
 }
 
-void unzip(const PackedGrid& grid, char* to, const Place& place) {
-    Bytes bytes(grid.bytes, place);
+void unzip(const PackedGrid& grid, std::string_view all, char* to, const Place& place) {
+    Bytes bytes(all, place);
     const std::string_view packed = bytes.take(bytes.take<std::uint64_t>());
     uLongf size = grid.unpacked_size;
     if (uncompress(reinterpret_cast<Bytef*>(to), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) !=
@@ -64,8 +125,8 @@ void unzip(const PackedGrid& grid, char* to, const Place& place) {
     }
 }
 
-void unblosc(const PackedGrid& grid, char* to, const Place& place) {
-    Bytes bytes(grid.bytes, place);
+void unblosc(const PackedGrid& grid, std::string_view all, char* to, const Place& place) {
+    Bytes bytes(all, place);
     for (std::uint64_t done = 0; done < grid.unpacked_size;) {
         const std::string_view packed = bytes.take(bytes.take<std::uint64_t>());
         const std::uint64_t chunk = std::min<std::uint64_t>(grid.unpacked_size - done, nanovdb::io::Internal::MAX_SIZE);
@@ -78,21 +139,26 @@ void unblosc(const PackedGrid& grid, char* to, const Place& place) {
     }
 }
 
-nanovdb::HostBuffer unpack(const PackedGrid& grid, std::size_t most_memory, const Place& place) {
+nanovdb::HostBuffer unpack(const PackedGrid& grid, PartsOfFile& file, std::size_t most_memory) {
+    const Place& place = file.place();
     if (grid.unpacked_size > most_memory) {
         throw InputError(place, fmt::format("grid `{}` has an impossible size", grid.name));
+    }
+    file.seek(grid.position);
+    if (grid.codec == nanovdb::io::Codec::NONE && grid.unpacked_size > grid.size) {
+        throw InputError(place, "the file is truncated");
     }
     nanovdb::HostBuffer buffer = nanovdb::HostBuffer::create(grid.unpacked_size);
     char* to = reinterpret_cast<char*>(buffer.data());
     switch (grid.codec) {
         case nanovdb::io::Codec::NONE:
-            std::memcpy(to, Bytes(grid.bytes, place).take(grid.unpacked_size).data(), grid.unpacked_size);
+            file.read(to, grid.unpacked_size);
             break;
         case nanovdb::io::Codec::ZIP:
-            unzip(grid, to, place);
+            unzip(grid, file.read(grid.size), to, place);
             break;
         case nanovdb::io::Codec::BLOSC:
-            unblosc(grid, to, place);
+            unblosc(grid, file.read(grid.size), to, place);
             break;
         default:
             throw InputError(place, fmt::format("grid `{}` is compressed in an unknown way", grid.name));
@@ -232,6 +298,13 @@ public:
         return found->second->isChild() ? root_.getChild(found->second)->getValue(at) : found->second->value;
     }
 
+    /// The leaf around a voxel; null where there is none.
+    const nanovdb::NanoLeaf<T>* leaf(const nanovdb::Coord& at) const {
+        const auto found = tiles_.find(root_.CoordToKey(at));
+        return found != tiles_.end() && found->second->isChild() ? root_.getChild(found->second)->probeLeaf(at)
+                                                                 : nullptr;
+    }
+
 private:
     using Root = std::remove_cvref_t<decltype(*std::declval<const nanovdb::NanoRoot<T>>().data())>;
 
@@ -240,9 +313,10 @@ private:
 };
 
 template <class T>
-Volume volume_of_type(const nanovdb::HostBuffer& buffer, const std::string& name, const std::filesystem::path& file) {
+Volume volume_of_type(nanovdb::HostBuffer&& unpacked, const std::string& name, const std::filesystem::path& file) {
     const Place place{file.string()};
-    const nanovdb::NanoGrid<T>& grid = GridCheck<T>(buffer, name, place).checked();
+    const auto buffer = std::make_shared<const nanovdb::HostBuffer>(std::move(unpacked));
+    const nanovdb::NanoGrid<T>& grid = GridCheck<T>(*buffer, name, place).checked();
     const RootTiles<T> tiles(grid.tree().root(), name, place);
     const nanovdb::CoordBBox box = grid.tree().bbox();
     VoxelTree tree;
@@ -252,6 +326,14 @@ Volume volume_of_type(const nanovdb::HostBuffer& buffer, const std::string& name
         tree.filled.push_back(tree.active);
     }
     tree.value = [&](int x, int y, int z) { return tiles.value({x, y, z}); };
+    if constexpr (std::is_same_v<T, float>) {
+        static_assert(Grid::brick_side == nanovdb::NanoLeaf<T>::DIM);
+        tree.leaf = [&](const Vec3i& first) -> const float* {
+            const auto* leaf = tiles.leaf({first.x, first.y, first.z});
+            return leaf ? leaf->data()->mValues : nullptr;
+        };
+        tree.memory = {buffer, reinterpret_cast<const float*>(buffer->data())};
+    }
     tree.to_world = [&](const Imath::V3d& p) {
         const auto q = grid.map().applyMap(nanovdb::Vec3d(p.x, p.y, p.z));
         return Imath::V3d(q[0], q[1], q[2]);
@@ -262,36 +344,35 @@ Volume volume_of_type(const nanovdb::HostBuffer& buffer, const std::string& name
 }  // namespace
 
 std::optional<Volume> read_nanovdb(const std::filesystem::path& file, const std::string& grid_name) {
-    const Place place{file.string()};
-    const std::string bytes = read_file(file, Grid::default_max_bytes);
-    const std::vector<PackedGrid> grids = grids_in(bytes, place);
+    PartsOfFile parts(file);
+    const std::vector<PackedGrid> grids = grids_in(parts);
     const auto grid =
         std::find_if(grids.begin(), grids.end(), [&](const PackedGrid& g) { return g.name == grid_name; });
     if (grid == grids.end()) {
         return {};
     }
-    const nanovdb::HostBuffer buffer = unpack(*grid, most_memory(file), place);
+    nanovdb::HostBuffer buffer = unpack(*grid, parts, most_memory(file));
     switch (grid->type) {
         case nanovdb::GridType::Float:
-            return volume_of_type<float>(buffer, grid_name, file);
+            return volume_of_type<float>(std::move(buffer), grid_name, file);
         case nanovdb::GridType::Fp4:
-            return volume_of_type<nanovdb::Fp4>(buffer, grid_name, file);
+            return volume_of_type<nanovdb::Fp4>(std::move(buffer), grid_name, file);
         case nanovdb::GridType::Fp8:
-            return volume_of_type<nanovdb::Fp8>(buffer, grid_name, file);
+            return volume_of_type<nanovdb::Fp8>(std::move(buffer), grid_name, file);
         case nanovdb::GridType::Fp16:
-            return volume_of_type<nanovdb::Fp16>(buffer, grid_name, file);
+            return volume_of_type<nanovdb::Fp16>(std::move(buffer), grid_name, file);
         case nanovdb::GridType::FpN:
-            return volume_of_type<nanovdb::FpN>(buffer, grid_name, file);
+            return volume_of_type<nanovdb::FpN>(std::move(buffer), grid_name, file);
         default:
-            throw InputError(place,
+            throw InputError(parts.place(),
                              fmt::format("grid `{}` does not hold single-precision or quantized scalars", grid_name));
     }
 }
 
 std::vector<std::string> nanovdb_names(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file, Grid::default_max_bytes);
+    PartsOfFile parts(file);
     std::vector<std::string> names;
-    for (const PackedGrid& grid : grids_in(bytes, Place{file.string()})) {
+    for (const PackedGrid& grid : grids_in(parts)) {
         names.push_back(grid.name);
     }
     return names;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wend {
@@ -32,6 +33,21 @@ VoxelBox active_box(const VoxelTree& tree) {
         }
     }
     return common(filled, tree.active);
+}
+
+/// Whether a leaf is what a grid of these voxels has there: numbers, none below 0, and nothing outside.
+bool fits(const float* leaf, const Vec3i& first, const VoxelBox& box) {
+    const VoxelBox inside = common(box, {first, first + Vec3i(Grid::brick_side - 1)});
+    for (int i = 0; i < Grid::brick_voxels; ++i) {
+        const Vec3i at = first + Vec3i(i / (Grid::brick_side * Grid::brick_side),
+                                       i / Grid::brick_side % Grid::brick_side, i % Grid::brick_side);
+        const bool is_inside = at.x >= inside.first.x && at.y >= inside.first.y && at.z >= inside.first.z &&
+                               at.x <= inside.last.x && at.y <= inside.last.y && at.z <= inside.last.z;
+        if (!(is_inside ? leaf[i] >= 0 && std::isfinite(leaf[i]) : leaf[i] == 0)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /// The matrix of an affine map, found by applying it.
@@ -69,7 +85,15 @@ Volume volume_of(const VoxelTree& tree, const std::string& name, const std::file
         }
         NegativeValues negative;
         const auto value = [&](int x, int y, int z) { return negative.raise(tree.value(x, y, z), {x, y, z}); };
-        Grid grid(box.first, box.last - box.first + Vec3i(1), tree.filled, value, most_memory(file));
+        Grid::InPlace in_place;
+        if (tree.leaf) {
+            in_place = [&](const Vec3i& first) {
+                const float* leaf = tree.leaf(first);
+                return leaf && fits(leaf, first, box) ? leaf : nullptr;
+            };
+        }
+        Grid grid(box.first, box.last - box.first + Vec3i(1), tree.filled, value, most_memory(file), in_place,
+                  tree.memory);
         const std::string warning = negative.warning(grid.max_value());
         return {name, std::move(grid), affine(tree.to_world),
                 warning.empty() ? "" : fmt::format("{}: grid `{}`: {}", file.string(), name, warning)};

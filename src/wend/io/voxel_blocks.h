@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace wend {
@@ -17,11 +18,16 @@ struct VoxelTree {
     /// The nodes that may hold anything but zeros.
     std::vector<VoxelBox> filled;
     Grid::Value value;
+    /// Of single-precision trees: the voxels of the leaf that begins there, z fastest, as Grid has them; null where
+    /// there is none. Empty for other trees.
+    Grid::InPlace leaf;
+    std::shared_ptr<const float> memory;  ///< that has the leaves
     /// Index space to world.
     std::function<Imath::V3d(const Imath::V3d&)> to_world;
 };
 
-/// Copies a tree. Throws InputError naming the file and the grid when the values, the size or the map are unusable.
+/// Copies a tree, but for leaves that can stay where they are. Throws InputError naming the file and the grid when the
+/// values, the size or the map are unusable.
 Volume volume_of(const VoxelTree& tree, const std::string& name, const std::filesystem::path& file);
 
 /// What the voxels of a file may take: 512 MiB, and 256 bytes for each of the file's, which packs a leaf of one value

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -21,15 +23,21 @@ struct VoxelBox {
 };
 
 /// A scalar field sampled at integer points ("voxels") and interpolated trilinearly between them. Stored in bricks of
-/// 8³ cells, of which only the occupied ones take memory; each brick repeats its neighbours' first samples (9³ values),
-/// so that one look-up touches one brick. Voxels that are not stored are 0, so the field falls continuously to 0 within
-/// one cell around the voxels and is 0 outside `bounds()`.
+/// 8³ voxels, of which only the occupied ones take memory. Voxels that are not stored are 0, so the field falls
+/// continuously to 0 within one cell around the voxels and is 0 outside `bounds()`. Copies share the voxels.
 class Grid {
 public:
+    /// Voxels along the side of a brick, whose first one has coordinates that are multiples of it.
+    static constexpr int brick_side = 8;
+    static constexpr int brick_voxels = brick_side * brick_side * brick_side;
+
     /// Whether the box of voxels [first, last] (inclusive) may hold anything but zeros.
     using Occupied = std::function<bool(const Vec3i& first, const Vec3i& last)>;
     /// The sample at a voxel; called only inside occupied bricks and the grid's range.
     using Value = std::function<float(int x, int y, int z)>;
+    /// The voxels of the brick that begins at `first` if they lie in memory already, as they are to be: z fastest, then
+    /// y; null otherwise. They must all be finite and not negative, and those outside of the grid's range 0.
+    using InPlace = std::function<const float*(const Vec3i& first)>;
 
     Grid() = default;
 
@@ -38,9 +46,10 @@ public:
     Grid(const Vec3i& first, const Vec3i& size, const Occupied& occupied, const Value& value,
          std::size_t max_bytes = default_max_bytes);
     /// The same where boxes are known outside of which everything is 0: the work and the memory are by these, and not
-    /// by the size.
+    /// by the size. What `in_place` has, which may be empty, is in `memory` and stays there.
     Grid(const Vec3i& first, const Vec3i& size, std::span<const VoxelBox> filled, const Value& value,
-         std::size_t max_bytes = default_max_bytes);
+         std::size_t max_bytes = default_max_bytes, const InPlace& in_place = {},
+         std::shared_ptr<const float> memory = nullptr);
 
     /// Interpolated value at a point in index space.
     float interpolate(const Vec3& p) const;
@@ -56,9 +65,10 @@ public:
     Vec3i first() const { return first_; }
     Vec3i size() const { return size_; }
     float max_value() const { return max_; }
+    /// Memory of its own; that of bricks which lie elsewhere is their owner's.
     std::size_t bytes() const;
-    /// Voxels that take memory, with those that are there twice.
-    std::size_t stored_voxels() const { return values_.size(); }
+    /// Voxels of all occupied bricks.
+    std::size_t stored_voxels() const { return stored_bricks_ * brick_voxels; }
 
     /// Smallest and largest value of a part of the field.
     struct Range {
@@ -94,87 +104,129 @@ private:
         bool operator==(const ZeroMemory&) const = default;
     };
 
-    static constexpr int cells_log2 = 3;
-    static constexpr int cells = 1 << cells_log2;  // a brick spans 8 cells a side
-    static constexpr int stride = cells + 1;       // and holds 9 samples a side
-    static constexpr int brick_values = stride * stride * stride;
+    static constexpr int log2_side = 3;
+    static_assert(1 << log2_side == brick_side);
+    // From a voxel to the next one within a brick.
+    static constexpr int x_step = brick_side * brick_side, y_step = brick_side, z_step = 1;
 
-    // The lowest of the eight samples around a point, and where the point lies between them. No samples: the value is
-    // 0.
-    struct Cell {
-        const float* samples = nullptr;
-        float x = 0, y = 0, z = 0;
+    // Where the voxels of a brick are: 0 nowhere, since all of them are 0; above 0 one more than their place in
+    // `memory_`, in units of so many floats; below 0 the same in `own_voxels_`, with the other sign.
+    using BrickPlace = std::int32_t;
+    static constexpr int unit = 8;
+    static_assert(brick_voxels % unit == 0);
 
-        float interpolate() const;
+    // The cell around a point: its first voxel, counted from that of the table of bricks, and where the point lies in
+    // it.
+    struct Place {
+        Vec3i voxel;
+        float x, y, z;
     };
-    Cell cell_at(const Vec3& p) const;
-    static Cell cell_in_brick(const float* samples, const Vec3& local);
-    static Range range_in_brick(const float* samples, const Vec3& low, const Vec3& high);
+    // False outside of the bounds.
+    bool place_of(const Vec3& p, Place& place) const;
+    static float interpolated(const Place& place, const std::array<float, 8>& corners);
 
     int brick_number(int bx, int by, int bz) const { return (bz * bricks_count_.y + by) * bricks_count_.x + bx; }
-    const float* brick_samples(std::int32_t brick) const {
-        return values_.data() + static_cast<std::size_t>(brick - 1) * brick_values;
+    // Of the brick around a voxel, which is counted from that of the table; null where all are 0.
+    const float* brick_around(int x, int y, int z) const {
+        const BrickPlace place =
+            bricks_[static_cast<std::size_t>(brick_number(x >> log2_side, y >> log2_side, z >> log2_side))];
+        if (place == 0) {
+            return nullptr;
+        }
+        return place > 0 ? memory_.get() + std::size_t{unit} * static_cast<std::size_t>(place - 1)
+                         : own_voxels_->data() + std::size_t{unit} * static_cast<std::size_t>(-(place + 1));
     }
-    /// All but the bricks.
+    static int index_in_brick(int x, int y, int z) {
+        constexpr int within = brick_side - 1;
+        return (x & within) * x_step + (y & within) * y_step + (z & within) * z_step;
+    }
+    // Of a voxel counted from that of the table, which may be one beyond it.
+    float value_at(int x, int y, int z) const;
+    std::array<float, 8> corners_at(const Vec3i& voxel) const;
+
     Grid(const Vec3i& first, const Vec3i& size, std::size_t max_bytes);
     std::size_t table_size() const {
         return static_cast<std::size_t>(bricks_count_.x) * bricks_count_.y * bricks_count_.z;
     }
-    Vec3i first_of_brick(int number) const;
-    void add_bricks(std::span<const int> numbers, const Value& value);
-    void add_brick(int number, const Vec3i& first, const Value& value);
+    Vec3i brick_at(int number) const;
+    void add_bricks(std::span<const int> numbers, const Value& value, const InPlace& in_place,
+                    std::shared_ptr<const float> memory);
+    void find_ranges(std::span<const int> numbers);
+    Range known_range(int number) const;
+    Range range_of_brick(const Vec3i& brick) const;
+    Range range_in_brick(const Vec3i& brick, const Vec3& low, const Vec3& high) const;
 
     Vec3i first_{0, 0, 0};
     Vec3i size_{0, 0, 0};
+    Vec3i origin_voxel_{0, 0, 0};  // where the table of bricks begins
     Vec3i bricks_count_{0, 0, 0};
-    Vec3 origin_{0, 0, 0};  // lower corner of bounds_, from which cells are counted
-    Vec3 extent_{0, 0, 0};  // number of cells a side
+    Vec3i first_cell_{0, 0, 0};  // the lower corner of bounds_, counted from origin_voxel_
+    Vec3 origin_{0, 0, 0};       // the same in index space
+    Vec3 extent_{0, 0, 0};       // number of cells a side
     Box3 bounds_;
     float max_ = 0;
-    // One more than the offset of a brick's values / brick_values; 0 where empty.
-    std::vector<std::int32_t, ZeroMemory<std::int32_t>> bricks_;
-    std::vector<Range> brick_ranges_;  // of the occupied bricks
-    std::vector<float> values_;
+    std::size_t stored_bricks_ = 0;
+    std::vector<BrickPlace, ZeroMemory<BrickPlace>> bricks_;
+    /// Of the cells that begin in a brick, by its number, in order: of those where some are not 0.
+    std::vector<std::pair<int, Range>> ranges_;
+    std::shared_ptr<const std::vector<float>> own_voxels_;
+    std::shared_ptr<const float> memory_;
 };
 
-inline float Grid::Cell::interpolate() const {
-    const auto edge = [this](const float* s) { return s[0] + x * (s[1] - s[0]); };
-    const auto face = [&](const float* s) {
-        const float low = edge(s);
-        return low + y * (edge(s + stride) - low);
-    };
-    const float low = face(samples);
-    return low + z * (face(samples + stride * stride) - low);
-}
-
-inline Grid::Cell Grid::cell_at(const Vec3& p) const {
+inline bool Grid::place_of(const Vec3& p, Place& place) const {
     const Vec3 q = p - origin_;
     // Written so that a point that is not a number is outside.
     if (!(q.x >= 0 && q.y >= 0 && q.z >= 0 && q.x < extent_.x && q.y < extent_.y && q.z < extent_.z)) {
-        return {};
+        return false;
     }
-    const int x = static_cast<int>(q.x), y = static_cast<int>(q.y), z = static_cast<int>(q.z);
-    const std::int32_t brick = bricks_[brick_number(x >> cells_log2, y >> cells_log2, z >> cells_log2)];
-    if (brick == 0) {
-        return {};
+    const Vec3i cell(static_cast<int>(q.x), static_cast<int>(q.y), static_cast<int>(q.z));
+    place = {cell + first_cell_, q.x - static_cast<float>(cell.x), q.y - static_cast<float>(cell.y),
+             q.z - static_cast<float>(cell.z)};
+    return true;
+}
+
+inline float Grid::value_at(int x, int y, int z) const {
+    const float* const voxels = brick_around(x, y, z);
+    return voxels ? voxels[index_in_brick(x, y, z)] : 0.0f;
+}
+
+inline std::array<float, 8> Grid::corners_at(const Vec3i& v) const {
+    constexpr int last = brick_side - 1;
+    if ((v.x & last) != last && (v.y & last) != last && (v.z & last) != last) {
+        const float* const voxels = brick_around(v.x, v.y, v.z);
+        if (!voxels) {
+            return {};
+        }
+        const float* const s = voxels + index_in_brick(v.x, v.y, v.z);
+        return {s[0],      s[x_step],          s[y_step],          s[x_step + y_step],
+                s[z_step], s[x_step + z_step], s[y_step + z_step], s[x_step + y_step + z_step]};
     }
-    constexpr int within = cells - 1;
-    const float* samples = brick_samples(brick) + ((z & within) * stride + (y & within)) * stride + (x & within);
-    return {samples, q.x - static_cast<float>(x), q.y - static_cast<float>(y), q.z - static_cast<float>(z)};
+    return {value_at(v.x, v.y, v.z),         value_at(v.x + 1, v.y, v.z),        value_at(v.x, v.y + 1, v.z),
+            value_at(v.x + 1, v.y + 1, v.z), value_at(v.x, v.y, v.z + 1),        value_at(v.x + 1, v.y, v.z + 1),
+            value_at(v.x, v.y + 1, v.z + 1), value_at(v.x + 1, v.y + 1, v.z + 1)};
+}
+
+inline float Grid::interpolated(const Place& place, const std::array<float, 8>& c) {
+    const auto edge = [&](std::size_t i) { return c[i] + place.x * (c[i + 1] - c[i]); };
+    const auto face = [&](std::size_t i) {
+        const float low = edge(i);
+        return low + place.y * (edge(i + 2) - low);
+    };
+    const float low = face(0);
+    return low + place.z * (face(4) - low);
 }
 
 inline float Grid::interpolate(const Vec3& p) const {
-    const Cell cell = cell_at(p);
-    return cell.samples ? cell.interpolate() : 0.0f;
+    Place place;
+    return place_of(p, place) ? interpolated(place, corners_at(place.voxel)) : 0.0f;
 }
 
 inline float Grid::sample_nearest(const Vec3& p, const Vec3& u) const {
-    const Cell cell = cell_at(p);
-    if (!cell.samples) {
+    Place place;
+    if (!place_of(p, place)) {
         return 0.0f;
     }
-    const int x = u.x < cell.x, y = u.y < cell.y, z = u.z < cell.z;
-    return cell.samples[(z * stride + y) * stride + x];
+    return value_at(place.voxel.x + (u.x < place.x), place.voxel.y + (u.y < place.y), place.voxel.z + (u.z < place.z));
 }
 
 }  // namespace wend
