@@ -111,6 +111,25 @@ TEST_F(VolumeFile, ReadsNanoVdbInEveryPrecisionAndCompression) {
     EXPECT_EQ(read_volume(file, "density").world_from_index.point({20, -10, 5}), Vec3(11, -3, 5.5f));
 }
 
+TEST_F(VolumeFile, LeavesOfSinglePrecisionStayWhereTheyAre) {
+    const fs::path file = folder / "ball.nvdb";
+    std::vector<nanovdb::GridHandle<>> handles;
+    handles.push_back(nano_ball<float>("full"));
+    handles.push_back(nano_ball<nanovdb::Fp16>("sixteen"));
+    nanovdb::io::writeGrids(file.string(), handles, nanovdb::io::Codec::NONE);
+    const Grid full = read_volume(file, "full").grid, sixteen = read_volume(file, "sixteen").grid;
+    EXPECT_EQ(full.stored_voxels(), sixteen.stored_voxels());
+    EXPECT_LT(full.bytes(), sizeof(float) * full.stored_voxels() / 10);
+    EXPECT_GT(sixteen.bytes(), sizeof(float) * full.stored_voxels());
+    for (int z = -12; z <= 21; ++z) {
+        for (int y = -27; y <= 6; ++y) {
+            for (int x = 3; x <= 36; ++x) {
+                ASSERT_EQ(full.interpolate(Vec3(x, y, z)), ball(x, y, z));
+            }
+        }
+    }
+}
+
 TEST_F(VolumeFile, ReadsOpenVdb) {
     const auto floats = open_ball("density"), halves = open_ball("half");
     floats->setTransform(openvdb::math::Transform::createLinearTransform(openvdb::Mat4d(

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace wend {
@@ -227,6 +229,43 @@ TEST(Grid, StoresOccupiedBricksOnly) {
     EXPECT_LT(grid.bytes(), std::size_t{10} << 20);
     EXPECT_EQ(grid.interpolate({500, 500, 500}), 1.0f);
     EXPECT_NEAR(grid.interpolate({499.5f, 500.5f, 500}), 0.25f, 1e-6);
+}
+
+TEST(Grid, BricksMayLieInMemoryAlready) {
+    // Two bricks of three are there; the third is asked for. A place in memory of which a copy is no part.
+    std::vector<float> there(3 * Grid::brick_voxels, 0.0f);
+    const auto value = [](int x, int y, int z) { return 1.0f + 0.01f * static_cast<float>(x * 64 + y * 8 + z); };
+    for (int i = 0; i < Grid::brick_voxels; ++i) {
+        there[static_cast<std::size_t>(Grid::brick_voxels + i)] = value(8 + i / 64, i / 8 % 8, i % 8);
+        there[static_cast<std::size_t>(2 * Grid::brick_voxels + i)] = value(16 + i / 64, i / 8 % 8, i % 8);
+    }
+    const std::shared_ptr<const float> memory(std::shared_ptr<void>(), there.data());
+    const auto in_place = [&](const Vec3i& first) -> const float* {
+        return first.x == 8 || first.x == 16 ? there.data() + first.x / 8 * Grid::brick_voxels : nullptr;
+    };
+    const VoxelBox all{{0, 0, 0}, {23, 7, 7}};
+    int asked = 0;
+    const Grid mixed(
+        {0, 0, 0}, {24, 8, 8}, std::span(&all, 1),
+        [&](int x, int y, int z) {
+            ++asked;
+            return value(x, y, z);
+        },
+        Grid::default_max_bytes, in_place, memory);
+    const Grid copied({0, 0, 0}, {24, 8, 8}, std::span(&all, 1), value);
+    EXPECT_EQ(asked, Grid::brick_voxels);
+    EXPECT_EQ(mixed.max_value(), copied.max_value());
+    EXPECT_EQ(mixed.stored_voxels(), copied.stored_voxels());
+    EXPECT_LT(mixed.bytes(), copied.bytes());
+    Pcg32 rng(9);
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 p = random_point(rng, copied.bounds(), 1);
+        ASSERT_EQ(mixed.interpolate(p), copied.interpolate(p));
+        const Vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
+        ASSERT_EQ(mixed.sample_nearest(p, u), copied.sample_nearest(p, u));
+        const Box3 box(p, p + Vec3(5));
+        ASSERT_EQ(mixed.range(box).max, copied.range(box).max);
+    }
 }
 
 TEST(Grid, RefusesAbsurdSizesBeforeAllocating) {

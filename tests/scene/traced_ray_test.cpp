@@ -186,6 +186,24 @@ TEST(TracedRay, GoesBackThroughWhatTouchesTheSurfaceItLeaves) {
 }
 
 // Nearly the same floor twice, as modellers leave it: neither is in the shadow of the other.
+TEST(TracedRay, LeavesTheSeamOfAMeshWhereNothingIsRounded) {
+    // On the diagonal of two triangles at the origin a position has no rounding, and so no clearance.
+    SceneDescription s;
+    test::add_parallelogram(s, {-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, test::add_diffuse(s, Rgb(0.5f)));
+    const Scene scene(std::move(s));
+    const TracedRay down(Ray{{0, 0, 2}, {0, 0, -1}});
+    std::optional<Hit> hit = scene.intersect(down);
+    ASSERT_TRUE(hit);
+    hit->position = {0, 0, 0};
+    hit->clearance = 0;
+    Pcg32 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 up = to_cosine_hemisphere(random.uniform2());
+        ASSERT_FALSE(scene.intersect(down.leave(*hit, up))) << up;
+        ASSERT_FALSE(scene.intersect(down.leave(*hit, -up))) << up;
+    }
+}
+
 TEST(TracedRay, LeavesOpaqueSurfacesThatCoincide) {
     auto description = test::two_materials();
     for (const float height : {1.0f, 1.0f, 1 + 1e-7f}) {

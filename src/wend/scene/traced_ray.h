@@ -72,7 +72,7 @@ public:
         if (t == passed_ && std::any_of(begin(), end(), [&](const Crossing& c) { return c.t == t && c.met == met; })) {
             return false;
         }
-        if (t >= zone_) {
+        if (t > zone_) {
             return true;
         }
         if (reflected_ && met.is_of_the_same(own_) && curve_reach_ == 0) {
