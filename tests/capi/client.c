@@ -209,18 +209,51 @@ static void check_threads(const wend_field* field) {
     wend_field_destroy(other);
 }
 
-/* Two vertices, a lamp of radiance 6 behind the second. */
+/* Two vertices, a lamp of radiance 6 behind the second; the first one's connection found another. */
 static void check_path(void) {
-    const wend_path_vertex path[2] = {
-        {{0, 0, 0}, {0, 0, 1}, 0.5f, 1, {1, 1, 1}, {0.9f, 0.9f, 0.9f}, {2, 2, 2}, 0.75f, 0.25f, -1},
-        {{0, 0, 1}, {1, 0, 0}, 0.25f, INFINITY, {0.5f, 0.5f, 0.5f}, {0.8f, 0.8f, 0.8f}, {6, 6, 6}, 0, 0, 0}};
+    const wend_path_vertex path[2] = {{{0, 0, 0},
+                                       {0, 0, 1},
+                                       0.5f,
+                                       1,
+                                       {1, 1, 1},
+                                       {0.9f, 0.9f, 0.9f},
+                                       {2, 2, 2},
+                                       0.75f,
+                                       0.25f,
+                                       -1,
+                                       {3, 3, 3},
+                                       7,
+                                       {0, 1, 0},
+                                       5,
+                                       {0, 0, 1}},
+                                      {{0, 0, 1},
+                                       {1, 0, 0},
+                                       0.25f,
+                                       INFINITY,
+                                       {0.5f, 0.5f, 0.5f},
+                                       {0.8f, 0.8f, 0.8f},
+                                       {6, 6, 6},
+                                       0,
+                                       0,
+                                       0,
+                                       {0, 0, 0},
+                                       0,
+                                       {0, 0, 0},
+                                       INFINITY,
+                                       {0, 0, 0}}};
     wend_record records[2];
+    wend_scatter_record scattered[2];
     wend_error error;
     check(wend_records_of_path(path, 2, records, &error) == WEND_OK, "records of a path", &error);
     check(fabs(records[0].radiance - (2 + 0.5 * 0.8 * 6)) < 1e-6 && records[1].radiance == 6, "their radiance", NULL);
     check(records[0].distance == 1 && records[1].density == 0.25f && records[0].classical_density == 0.75f &&
               records[0].guided_density == 0.25f && fabs(records[1].scattered - 6 * 0.8 * 0.25) < 1e-6,
           "their other numbers", NULL);
+    check(wend_scatter_records_of_path(path, 2, scattered, &error) == WEND_OK, "scattered light of a path", &error);
+    check(fabs(scattered[0].leaving - (3 + 0.9 * records[0].radiance)) < 1e-5 && scattered[0].connected == 7 &&
+              scattered[0].light_distance == 5 && scattered[0].to_light.y == 1 && scattered[0].normal.z == 1 &&
+              scattered[1].connected == 0,
+          "what it is", NULL);
 }
 
 int main(void) {

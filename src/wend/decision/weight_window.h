@@ -4,6 +4,7 @@
 #include <wend/core/random.h>
 
 #include <algorithm>
+#include <concepts>
 
 namespace wend {
 
@@ -22,14 +23,25 @@ struct WeightWindow {
         int copies = 1;       ///< continuations; 0 ends the walk
         double expected = 1;  ///< their mean number, positive
     };
-    /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is.
+    /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is. A number is drawn only
+    /// outside of the window.
     Outcome sample(double ratio, Pcg32& random) const {
+        return sample_by(ratio, [&] { return random.uniform_double(); });
+    }
+    /// The same by a number of [0,1) that is at hand.
+    Outcome sample(double ratio, double u) const {
+        return sample_by(ratio, [=] { return u; });
+    }
+
+private:
+    template <std::invocable Draw>
+    Outcome sample_by(double ratio, const Draw& draw) const {
         if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
             return {};
         }
         const double expected = std::clamp(ratio, least, static_cast<double>(most));
         const int whole = static_cast<int>(expected);
-        return {whole + (random.uniform_double() < expected - whole ? 1 : 0), expected};
+        return {whole + (draw() < expected - whole ? 1 : 0), expected};
     }
 };
 
