@@ -54,9 +54,14 @@ wend_status wend_survival_before_direction(const wend_survival_settings* setting
     return guarded(error, [&] {
         require(continuations, "the place for the continuations is null");
         require_uniform(u);
-        const auto outcome = to_decision(settings).before_direction(to_contribution(contribution), u);
+        bool uses_number = false;
+        const auto draw = [&] {
+            uses_number = true;
+            return u;
+        };
+        const auto outcome = to_decision(settings).before_direction(to_contribution(contribution), draw);
         const WeightWindow::Outcome decided = outcome.value_or(WeightWindow::Outcome());
-        *continuations = {outcome ? 0 : 1, decided.copies, decided.expected};
+        *continuations = {outcome ? 0 : 1, decided.copies, decided.expected, uses_number ? 1 : 0};
         return WEND_OK;
     });
 }

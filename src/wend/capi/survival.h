@@ -35,6 +35,8 @@ typedef struct wend_continuations {
                            */
     int copies;           /**< directions to draw; 0 ends the walk */
     double expected;      /**< their mean number, positive: the weight of each is divided by it */
+    int uses_number; /**< whether `u` was looked at, 0 or 1: who draws numbers one after another may ask with 0 first,
+                        and again with a number where one is needed */
 } wend_continuations;
 
 /** Decides at a vertex, by a uniform number `u` in [0,1) of double precision. Where nothing is decided there is one

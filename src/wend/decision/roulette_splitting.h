@@ -115,22 +115,12 @@ public:
 
     /// How many directions to draw; nothing where neither expected contribution nor weight calls for a decision here.
     std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected, Pcg32& random) const {
-        return decide(expected, random);
+        return before_direction(expected, [&] { return random.uniform_double(); });
     }
-    /// The same by a number of [0,1) that is at hand.
-    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected, double u) const {
-        return decide(expected, u);
-    }
-    /// Probability of going on by weight alone, for where before_direction() had nothing to say.
-    float after_direction(const WalkState& state) const {
-        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end)
-            .after_direction(state);
-    }
-
-private:
-    /// `random`: whatever the window draws by.
-    template <class Random>
-    std::optional<WeightWindow::Outcome> decide(const ExpectedContribution& expected, Random& random) const {
+    /// The same by a number of [0,1) from draw(), which is asked only where something is left to chance.
+    template <std::invocable Draw>
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected,
+                                                          const Draw& draw) const {
         std::optional<float> ratio = expected.ratio;
         if (splitting_ && expected.weight > window_.high) {
             ratio = std::max(expected.weight, ratio.value_or(0));
@@ -140,9 +130,15 @@ private:
         }
         WeightWindow window = window_;
         window.most = std::min(window.most, expected.split_capacity);
-        return window.sample(*ratio, random);
+        return window.sample(*ratio, draw);
+    }
+    /// Probability of going on by weight alone, for where before_direction() had nothing to say.
+    float after_direction(const WalkState& state) const {
+        return (roulette_ && state.is_judged_elsewhere ? worthless_walks_end_ : guided_walks_end)
+            .after_direction(state);
     }
 
+private:
     /// Where there is no noise, walks have to end all the same.
     static constexpr double least_roulette = 0.1;
 

@@ -23,19 +23,13 @@ struct WeightWindow {
         int copies = 1;       ///< continuations; 0 ends the walk
         double expected = 1;  ///< their mean number, positive
     };
-    /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is. A number is drawn only
-    /// outside of the window.
+    /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is.
     Outcome sample(double ratio, Pcg32& random) const {
-        return sample_by(ratio, [&] { return random.uniform_double(); });
+        return sample(ratio, [&] { return random.uniform_double(); });
     }
-    /// The same by a number of [0,1) that is at hand.
-    Outcome sample(double ratio, double u) const {
-        return sample_by(ratio, [=] { return u; });
-    }
-
-private:
+    /// The same by a number of [0,1) from draw(), which is asked outside of the window only.
     template <std::invocable Draw>
-    Outcome sample_by(double ratio, const Draw& draw) const {
+    Outcome sample(double ratio, const Draw& draw) const {
         if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
             return {};
         }
