@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -55,15 +56,18 @@ inline std::vector<char> bytes_of(const wend_field* field) {
 }
 
 /// The call is refused with the status and a message that has the words; without a place for the message as well.
-#define EXPECT_REFUSED(expected, words, call_with)                                             \
-    do {                                                                                       \
-        wend_error error;                                                                      \
-        std::memset(&error, 'x', sizeof error);                                                \
-        const auto call = [&](wend_error* e) { return call_with; };                            \
-        EXPECT_EQ(call(&error), expected);                                                     \
-        ASSERT_NE(std::memchr(error.message, 0, sizeof error.message), nullptr);               \
-        EXPECT_NE(std::string(error.message).find(words), std::string::npos) << error.message; \
-        EXPECT_EQ(call(nullptr), expected);                                                    \
-    } while (false)
+inline void expect_refused(wend_status expected, const char* words, const std::function<wend_status(wend_error*)>& call,
+                           const char* file, int line) {
+    const testing::ScopedTrace trace(file, line, "");
+    wend_error error;
+    std::memset(&error, 'x', sizeof error);
+    EXPECT_EQ(call(&error), expected);
+    ASSERT_NE(std::memchr(error.message, 0, sizeof error.message), nullptr);
+    EXPECT_NE(std::string(error.message).find(words), std::string::npos) << error.message;
+    EXPECT_EQ(call(nullptr), expected);
+}
+#define EXPECT_REFUSED(expected, words, call_with) \
+    expect_refused(                                \
+        expected, words, [&](wend_error* e) { return call_with; }, __FILE__, __LINE__)
 
 }  // namespace wend::capi
