@@ -209,18 +209,243 @@ static void check_threads(const wend_field* field) {
     wend_field_destroy(other);
 }
 
-/* Two vertices, a lamp of radiance 6 behind the second. */
+/* Two vertices, a lamp of radiance 6 behind the second; the first one's connection found another. */
 static void check_path(void) {
-    const wend_path_vertex path[2] = {
-        {{0, 0, 0}, {0, 0, 1}, 0.5f, 1, {1, 1, 1}, {0.9f, 0.9f, 0.9f}, {2, 2, 2}, 0.75f, 0.25f, -1},
-        {{0, 0, 1}, {1, 0, 0}, 0.25f, INFINITY, {0.5f, 0.5f, 0.5f}, {0.8f, 0.8f, 0.8f}, {6, 6, 6}, 0, 0, 0}};
+    const wend_path_vertex path[2] = {{{0, 0, 0},
+                                       {0, 0, 1},
+                                       0.5f,
+                                       1,
+                                       {1, 1, 1},
+                                       {0.9f, 0.9f, 0.9f},
+                                       {2, 2, 2},
+                                       0.75f,
+                                       0.25f,
+                                       -1,
+                                       {3, 3, 3},
+                                       7,
+                                       {0, 1, 0},
+                                       5,
+                                       {0, 0, 1}},
+                                      {{0, 0, 1},
+                                       {1, 0, 0},
+                                       0.25f,
+                                       INFINITY,
+                                       {0.5f, 0.5f, 0.5f},
+                                       {0.8f, 0.8f, 0.8f},
+                                       {6, 6, 6},
+                                       0,
+                                       0,
+                                       0,
+                                       {0, 0, 0},
+                                       0,
+                                       {0, 0, 0},
+                                       INFINITY,
+                                       {0, 0, 0}}};
     wend_record records[2];
+    wend_scatter_record scattered[2];
     wend_error error;
     check(wend_records_of_path(path, 2, records, &error) == WEND_OK, "records of a path", &error);
     check(fabs(records[0].radiance - (2 + 0.5 * 0.8 * 6)) < 1e-6 && records[1].radiance == 6, "their radiance", NULL);
     check(records[0].distance == 1 && records[1].density == 0.25f && records[0].classical_density == 0.75f &&
               records[0].guided_density == 0.25f && fabs(records[1].scattered - 6 * 0.8 * 0.25) < 1e-6,
           "their other numbers", NULL);
+    check(wend_scatter_records_of_path(path, 2, scattered, &error) == WEND_OK, "scattered light of a path", &error);
+    check(fabs(scattered[0].leaving - (3 + 0.9 * records[0].radiance)) < 1e-5 && scattered[0].connected == 7 &&
+              scattered[0].light_distance == 5 && scattered[0].to_light.y == 1 && scattered[0].normal.z == 1 &&
+              scattered[1].connected == 0,
+          "what it is", NULL);
+}
+
+/* A walk that is expected to bring three times its pixel is split into three; one that brings little may end. */
+static void check_survival(void) {
+    const wend_survival_settings settings = {1, 1, 1};
+    wend_expected_contribution contribution = {3, 1, 64};
+    wend_walk_state state = {{0.01f, 0.02f, 0.01f}, 1, 1, 3, 0, 0};
+    const wend_roulette unguided = wend_roulette_unguided();
+    wend_continuations continuations;
+    wend_error error;
+    float probability = 0, share = 0;
+    check(wend_survival_before_direction(&settings, &contribution, 0.5, &continuations, &error) == WEND_OK, "split",
+          &error);
+    check(!continuations.judged_by_weight && continuations.copies == 3 && continuations.expected == 3,
+          "three directions", NULL);
+    contribution.ratio = 0.001f;
+    check(wend_survival_before_direction(&settings, &contribution, 0.99, &continuations, &error) == WEND_OK &&
+              continuations.copies == 0 && continuations.expected < 1,
+          "an end", &error);
+    contribution.ratio = -1;
+    check(wend_survival_before_direction(&settings, &contribution, 0.5, &continuations, &error) == WEND_OK &&
+              continuations.judged_by_weight && continuations.copies == 1 && !continuations.uses_number,
+          "what is not known is judged by weight", &error);
+    check(wend_survival_after_direction(&settings, &state, &probability, &error) == WEND_OK &&
+              fabs(probability - 0.02 * 8) < 1e-6,
+          "survival by weight", &error);
+    check(wend_roulette_survival(&unguided, &state, &probability, &error) == WEND_OK &&
+              fabs(probability - 0.02 * 2) < 1e-6 && wend_roulette_guided().ends_below == 0.125f,
+          "classical roulette", &error);
+    check(wend_least_classical_share(6, &share, &error) == WEND_OK && share == 1, "heavy walks are classical", &error);
+}
+
+static void check_pixels(void) {
+    const float rgb[12] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    float estimates[4] = {0, 0, 0, 0};
+    wend_error error;
+    check(wend_pixel_estimates(rgb, 2, 2, 16, estimates, &error) == WEND_OK, "pixel estimates", &error);
+    check(fabs(estimates[0] - 1) < 0.01 && estimates[3] == estimates[0], "of an even picture", NULL);
+}
+
+static float one_of_three(void* user, const wend_light_receiver* receiver, int light) {
+    (void)receiver, (void)light;
+    return *(const float*)user;
+}
+
+/* Of three lights that are alike at first only the last one is not hidden. */
+static void check_lights(void) {
+    enum { count = 3000 };
+    const wend_bounds bounds = {{0, 0, 0}, {1, 1, 1}};
+    const wend_light_receiver receiver = {{0.5f, 0.5f, 0.5f}, {0, 0, 0}};
+    const float first[3] = {1.0f / 3, 1.0f / 3, 1.0f / 3};
+    float third = 1.0f / 3, probability = 0, again = 0, sum = 0;
+    wend_light_record records[count];
+    wend_lights* lights = NULL;
+    wend_error error;
+    uint64_t seed = 5;
+    int i, light = -1;
+    check(wend_lights_create(bounds, 3, &lights, &error) == WEND_OK, "lights", &error);
+    for (i = 0; i < count; ++i) {
+        check(wend_lights_sample(lights, &receiver, first, uniform(&seed), &light, &probability, &error) == WEND_OK &&
+                  probability == first[0],
+              "a light", &error);
+        check(wend_lights_record(lights, &receiver, light, light == 2, &records[i], &error) == WEND_OK,
+              "what a connection brought", &error);
+    }
+    check(wend_lights_add(lights, records, count, &error) == WEND_OK, "add", &error);
+    check(wend_lights_learn(lights, one_of_three, &third, 2, &error) == WEND_OK, "learn", &error);
+    for (i = 0; i < 3; ++i) {
+        check(wend_lights_probability(lights, &receiver, i, first[i], &probability, &error) == WEND_OK, "probability",
+              &error);
+        sum += probability;
+    }
+    check(fabs(sum - 1) < 1e-5 && fabs(probability - (0.75 + 0.25 / 3)) < 0.01, "the last light is preferred", NULL);
+    check(wend_lights_sample(lights, &receiver, first, 0.9f, &light, &again, &error) == WEND_OK && light == 2 &&
+              again == probability,
+          "and chosen", &error);
+    wend_lights_destroy(lights);
+}
+
+/* Flights towards the lamp above the cube: in the mean their weights are the light that scatters on to them. */
+static void check_flights(const wend_field* surface) {
+    enum { count = 3000, flights = 20000 };
+    const wend_medium fog = {{0.2f, 0.2f, 0.2f}, {1, 1, 1}, {{1, 0.3f}}, 1};
+    const wend_flight_settings settings = {0.3f, WEND_GUIDE_SCATTERING_AND_DISTANCE};
+    wend_flight_start start = {{0.5f, 0.5f, 0}, {0, 0, 1}, 1,
+                               {1, 1, 1},       1,         {WEND_END_SURFACE, {0.5f, 0.5f, 1}, {0, 0, -1}, 0}};
+    wend_scatter_record records[count];
+    wend_ray_cell cells[64];
+    wend_field *fitted = train(1), *volume = NULL;
+    wend_flight flight;
+    wend_error error;
+    uint64_t seed = 11;
+    size_t cell_count = 0;
+    double guided = 0, classical = 0, distance;
+    float radiance = -1, passed[3];
+    int i, looks = 0;
+    for (i = 0; i < count; ++i) {
+        wend_scatter_record* r = &records[i];
+        const float x = uniform(&seed), y = uniform(&seed), z = uniform(&seed);
+        r->position = vector(x, y, z);
+        r->normal = vector(0, 0, 0);
+        r->to_light = towards_lamp(r->position, &distance);
+        r->light_distance = (float)distance;
+        r->connected = (float)(1 / (distance * distance));
+        r->leaving = r->connected * 0.1f;
+    }
+    check(wend_field_fit_scattered(fitted, records, count, 0.8, 2, &volume, &error) == WEND_OK, "scattered light",
+          &error);
+    wend_field_destroy(fitted);
+    check(wend_field_leaving(volume, start.origin, start.direction, &radiance, &error) == WEND_OK && radiance > 0,
+          "leaving light", &error);
+    check(wend_field_cells_along_ray(volume, start.origin, start.direction, 0, 1, 0, cells, 64, &cell_count, &error) ==
+                  WEND_OK &&
+              cell_count > 1 && cells[0].t_in == 0 && cells[cell_count - 1].t_out == 1,
+          "cells along a ray", &error);
+    check(cells[0].walked.fluence > 0 && cells[0].connected.mean.z > 0.5f && cells[0].confidence > 0, "what they tell",
+          NULL);
+    check(wend_flight_looks_ahead(&fog, &start, &looks, &error) == WEND_OK && looks, "guided flights look ahead",
+          &error);
+    check(wend_flight_pass_probability(&fog, 1, passed, &error) == WEND_OK && fabs(passed[1] - exp(-1.2)) < 1e-4,
+          "the probability of passing", &error);
+    for (i = 0; i < flights; ++i) {
+        const float u = uniform(&seed);
+        check(wend_flight_guided(surface, volume, &settings, &fog, &start, u, &flight, &error) == WEND_OK,
+              "a guided flight", &error);
+        guided += flight.scatters ? flight.weight[0] * flight.distance : 0;
+        check(wend_flight_classical(&fog, &start, u, &flight, &error) == WEND_OK, "a classical flight", &error);
+        classical += flight.scatters ? flight.weight[0] * flight.distance : 0;
+    }
+    check(fabs(guided / classical - 1) < 0.05 && guided != classical, "both have the same mean", NULL);
+    wend_field_destroy(volume);
+}
+
+/* White wax without absorption, a half-space, in a white sky: whatever enters brings 1. */
+static void check_interior(void) {
+    enum { walks = 500 };
+    const wend_medium wax = {{0, 0, 0}, {10, 10, 10}, {{1, 0.5f}}, 1};
+    const float channels[3] = {0.5f, 0.25f, 0.25f};
+    const wend_vec3 up = {0, 0, 1}, down = {0, 0, -1};
+    wend_interior_guide* guide = NULL;
+    wend_error error;
+    uint64_t seed = 17;
+    double sum = 0;
+    int i;
+    check(wend_interior_guide_create(&wax, 0.25f, &guide, &error) == WEND_OK, "a guide", &error);
+    for (i = 0; i < walks; ++i) {
+        wend_interior_walk walk, there;
+        wend_vec3 direction = down;
+        double height = 0, throughput = 1;
+        check(wend_interior_enter(guide, channels, &walk, &error) == WEND_OK &&
+                  wend_interior_aim(&walk, up, 1, &error) == WEND_OK &&
+                  wend_interior_head(&walk, direction, &error) == WEND_OK,
+              "enter, aim, head", &error);
+        for (;;) {
+            const double exit = direction.z > 0 ? -height / direction.z : 1e30;
+            wend_interior_flight flight;
+            wend_interior_direction s;
+            float drawn, passed, density, survival;
+            int turned;
+            check(wend_interior_draw_distance(&walk, uniform(&seed), &drawn, &error) == WEND_OK &&
+                      wend_interior_fly(&walk, (float)exit, drawn, &flight, &error) == WEND_OK,
+                  "fly", &error);
+            throughput *= flight.weight[0];
+            if (!flight.scatters) {
+                check(wend_interior_has_turned(&walk, &turned, &error) == WEND_OK && turned, "a turn", &error);
+                sum += throughput;
+                break;
+            }
+            height = fmin(0, height + flight.distance * direction.z);
+            check(wend_interior_density(&walk, direction, up, &density, &error) == WEND_OK && density > 0, "density",
+                  &error);
+            there = walk;
+            check(wend_interior_turn(&there, direction, up, &error) == WEND_OK &&
+                      wend_interior_pass(&there, (float)-height, &passed, &error) == WEND_OK && passed > 0 &&
+                      passed <= 1,
+                  "a connection", &error);
+            check(wend_interior_sample(&walk, direction, uniform(&seed), uniform(&seed), uniform(&seed),
+                                       (uint64_t)(uniform(&seed) * 0x1p24f), &s, &error) == WEND_OK &&
+                      s.density > 0,
+                  "a direction", &error);
+            check(wend_interior_turn(&walk, direction, s.direction, &error) == WEND_OK, "turn", &error);
+            throughput *= s.weight;
+            direction = s.direction;
+            check(wend_interior_survival(&walk, (float)throughput, &survival, &error) == WEND_OK, "survive", &error);
+            if (uniform(&seed) >= survival) {
+                break;
+            }
+            throughput /= survival;
+        }
+    }
+    check(fabs(sum / walks - 1) < 0.05, "all light comes back", NULL);
+    wend_interior_guide_destroy(guide);
 }
 
 int main(void) {
@@ -235,6 +460,11 @@ int main(void) {
     check_saving(field);
     check_threads(field);
     check_path();
+    check_survival();
+    check_pixels();
+    check_lights();
+    check_flights(field);
+    check_interior();
     wend_field_destroy(field);
     printf("%s\n", failures ? "FAILED" : "passed");
     return failures ? 1 : 0;

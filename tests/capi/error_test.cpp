@@ -1,49 +1,10 @@
 // Bad input to the C interface: an error with a clear message, never a crash.
-#include <wend/capi/guide.h>
-
-#include <gtest/gtest.h>
+#include <tests/capi/support.h>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
+namespace wend::capi {
 namespace {
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr wend_bounds unit_cube = {{0, 0, 0}, {1, 1, 1}};
-constexpr wend_vec3 inside = {0.5f, 0.5f, 0.5f};
-constexpr wend_vec3 up = {0, 0, 1};
-
-struct Destroy {
-    void operator()(wend_field* field) const { wend_field_destroy(field); }
-};
-using FieldPointer = std::unique_ptr<wend_field, Destroy>;
-
-FieldPointer empty_field() {
-    wend_field* field = nullptr;
-    EXPECT_EQ(wend_field_create(unit_cube, &field, nullptr), WEND_OK);
-    return FieldPointer(field);
-}
-
-FieldPointer trained_field() {
-    const std::vector<wend_record> records(100, {inside, up, 1, 0.5f, inf, 0, 0, 0, {1, 1, 1}});
-    wend_field* field = nullptr;
-    EXPECT_EQ(wend_field_fit(empty_field().get(), records.data(), records.size(), nullptr, 1, &field, nullptr, nullptr),
-              WEND_OK);
-    return FieldPointer(field);
-}
-
-std::vector<char> bytes_of(const wend_field* field) {
-    std::size_t size = 0;
-    EXPECT_EQ(wend_field_save(field, nullptr, 0, &size, nullptr), WEND_OK);
-    std::vector<char> bytes(size);
-    EXPECT_EQ(wend_field_save(field, bytes.data(), size, &size, nullptr), WEND_OK);
-    return bytes;
-}
 
 wend_distribution incident_of(const wend_field* field) {
     wend_distribution incident;
@@ -56,18 +17,6 @@ wend_lobes cosine() {
     EXPECT_EQ(wend_lobes_cosine(&lobes, nullptr), WEND_OK);
     return lobes;
 }
-
-/// The call is refused with the status and a message that has the words; without a place for the message as well.
-#define EXPECT_REFUSED(expected, words, call_with)                                             \
-    do {                                                                                       \
-        wend_error error;                                                                      \
-        std::memset(&error, 'x', sizeof error);                                                \
-        const auto call = [&](wend_error* e) { return call_with; };                            \
-        EXPECT_EQ(call(&error), expected);                                                     \
-        ASSERT_NE(std::memchr(error.message, 0, sizeof error.message), nullptr);               \
-        EXPECT_NE(std::string(error.message).find(words), std::string::npos) << error.message; \
-        EXPECT_EQ(call(nullptr), expected);                                                    \
-    } while (false)
 
 TEST(CErrors, SuccessLeavesNoMessage) {
     wend_error error;
@@ -263,15 +212,19 @@ TEST(CErrors, SmallBuffersAreLeftAlone) {
 TEST(CErrors, PathsMustBeTrees) {
     std::vector<wend_path_vertex> path(3);
     std::vector<wend_record> records(3);
+    std::vector<wend_scatter_record> scattered(3);
     for (int i = 0; i < 3; ++i) {
         path[static_cast<std::size_t>(i)].parent = i - 1;
     }
     EXPECT_EQ(wend_records_of_path(path.data(), 3, records.data(), nullptr), WEND_OK);
     EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_records_of_path(path.data(), 3, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_scatter_records_of_path(nullptr, 3, scattered.data(), e));
     for (const int parent : {1, 2, 1000000, -2, std::numeric_limits<int>::min()}) {
         path[1].parent = parent;
         EXPECT_REFUSED(WEND_BAD_ARGUMENT, "parent", wend_records_of_path(path.data(), 3, records.data(), e));
+        EXPECT_REFUSED(WEND_BAD_ARGUMENT, "parent", wend_scatter_records_of_path(path.data(), 3, scattered.data(), e));
     }
 }
 
 }  // namespace
+}  // namespace wend::capi

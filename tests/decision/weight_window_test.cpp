@@ -49,6 +49,25 @@ TEST(WeightWindow, CutsAndSplitsByTheRatio) {
     EXPECT_GT(std::abs(split.mean() - 2), 40 * split.standard_error());
 }
 
+TEST(WeightWindow, TakesNumbersFromAnywhere) {
+    const WeightWindow window;
+    for (const double ratio : {0.01, 0.2, 1.0, 1.7, 2.0, 30.5, 1000.0}) {
+        for (std::uint64_t key = 0; key < 100; ++key) {
+            Pcg32 random(key), same(key);
+            int asked = 0;
+            const WeightWindow::Outcome outcome = window.sample(ratio, [&] {
+                ++asked;
+                return same.uniform_double();
+            });
+            const WeightWindow::Outcome expected = window.sample(ratio, random);
+            EXPECT_EQ(outcome.copies, expected.copies);
+            EXPECT_EQ(outcome.expected, expected.expected);
+            EXPECT_EQ(asked, ratio == 1 ? 0 : 1);
+            EXPECT_EQ(random.next(), same.next());
+        }
+    }
+}
+
 TEST(WeightWindow, LimitsBothWays) {
     Pcg32 random(1);
     const WeightWindow window;

@@ -53,4 +53,37 @@ Vec3 to_direction(const wend_vec3& v, const char* name) {
     return direction;
 }
 
+Box3 to_box(const wend_bounds& bounds) {
+    const Box3 box(to_position(bounds.min, "bounds.min"), to_position(bounds.max, "bounds.max"));
+    require(!box.isEmpty(), "bounds.min must not be above bounds.max");
+    return box;
+}
+
+Rgb to_weight(const float (&c)[3], const char* name) {
+    for (const float channel : c) {
+        require_weight(channel, name);
+    }
+    return to_rgb(c);
+}
+
+void put(const Rgb& colour, float* channels) {
+    for (int c = 0; c < 3; ++c) {
+        channels[c] = colour[c];
+    }
+}
+
+void require_weight(float number, const char* name) {
+    if (!(number >= 0 && std::isfinite(number))) {
+        throw Refusal{WEND_BAD_ARGUMENT, std::string(name) + " must be finite and not negative"};
+    }
+}
+
+void require_uniform(double u) {
+    require(u >= 0 && u < 1, "uniform numbers must be in [0,1)");
+}
+
+void require_threads(int threads) {
+    require(threads >= 0 && threads <= 1024, "the threads must be 0 to 1024");
+}
+
 }  // namespace wend::capi

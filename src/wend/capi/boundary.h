@@ -1,11 +1,11 @@
 // Between C and C++: checks of what comes in, and exceptions that must not go out.
 #pragma once
 
-#include <wend/capi/guide.h>
+#include <wend/capi/base.h>
+#include <wend/core/colour.h>
 #include <wend/core/vector.h>
 
 #include <concepts>
-#include <cstdint>
 #include <string>
 
 namespace wend::capi {
@@ -47,14 +47,26 @@ Vec3 to_direction(const wend_vec3& v, const char* name);
 inline wend_vec3 from_vector(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
+/// As it is: nothing is checked.
+inline Vec3 to_vector(const wend_vec3& v) {
+    return {v.x, v.y, v.z};
+}
+/// A box that is not empty.
+Box3 to_box(const wend_bounds& bounds);
 
-/// A C++ value inside an opaque object of C. The mark tells it from memory that nobody has filled.
-template <class Value, std::uint64_t own_mark>
-struct Stored {
-    static constexpr std::uint64_t mark = own_mark;
+/// As it is: nothing is checked.
+inline Rgb to_rgb(const float (&c)[3]) {
+    return {c[0], c[1], c[2]};
+}
+/// Finite channels, not negative.
+Rgb to_weight(const float (&c)[3], const char* name);
+void put(const Rgb& colour, float* channels);
 
-    std::uint64_t found = mark;
-    Value value;
-};
+/// A finite number that is not negative.
+void require_weight(float number, const char* name);
+/// A number of [0,1).
+void require_uniform(double u);
+/// A number of threads, 0 for all.
+void require_threads(int threads);
 
 }  // namespace wend::capi

@@ -1,12 +1,11 @@
-#include <wend/capi/boundary.h>
+#include <wend/capi/field.h>
 #include <wend/capi/handles.h>
-#include <wend/medium/phase.h>
+#include <wend/capi/media.h>
+#include <wend/capi/opaque.h>
 
 #include <array>
 #include <cmath>
-#include <new>
 #include <span>
-#include <type_traits>
 
 using namespace wend;
 using namespace wend::capi;
@@ -19,32 +18,6 @@ using Lobes = Stored<AxialLobes, 0x57454e444c4f4231>;
 
 constexpr const char* nothing_learned = "the field has learned nothing yet";
 
-template <class Object>
-bool is_aligned(const Object* object) {
-    return reinterpret_cast<std::uintptr_t>(object) % alignof(Object) == 0;
-}
-
-/// Puts a value into an opaque object. The value is of numbers alone: C copies it byte by byte and forgets it.
-template <class Kind, class Object, class Value>
-void store(Object& object, const Value& value) {
-    static_assert(sizeof(Kind) <= sizeof(Object) && alignof(Kind) <= alignof(Object));
-    static_assert(std::is_trivially_destructible_v<Kind>);
-    new (static_cast<void*>(object.bytes)) Kind{.value = value};
-}
-
-/// The value in an opaque object, or null if there is none of this kind.
-template <class Kind, class Object>
-const decltype(Kind::value)* stored(const Object& object) {
-    const auto& kind = *std::launder(reinterpret_cast<const Kind*>(object.bytes));
-    return kind.found == Kind::mark ? &kind.value : nullptr;
-}
-
-template <class Object>
-void require_object(const Object* object, const char* null_message) {
-    require(object, null_message);
-    require(is_aligned(object), "an opaque object is not aligned as its type demands");
-}
-
 /// Calls body(value) with the mixture or product in a distribution.
 template <class Body>
 void visit(const wend_distribution* distribution, const Body& body) {
@@ -56,12 +29,6 @@ void visit(const wend_distribution* distribution, const Body& body) {
     const auto* incident = stored<Incident>(*distribution);
     require(incident, "the distribution was not filled by this library");
     body(*incident);
-}
-
-void put(const Rgb& colour, float* channels) {
-    for (int c = 0; c < 3; ++c) {
-        channels[c] = colour[c];
-    }
 }
 
 const guide::Region* find(const wend_field* field, const wend_vec3& position) {
@@ -152,18 +119,9 @@ wend_status wend_lobes_phase(const wend_phase_part* parts, size_t count, wend_lo
                              wend_error* error) noexcept {
     return guarded(error, [&] {
         require(parts, "the parts are null");
-        require(count >= 1 && count <= HenyeyGreensteinMixture::max_lobes, "a phase function has 1 to 4 parts");
+        require(count >= 1, "a phase function has 1 to 4 parts");
         require_object(lobes, "the place for the lobes is null");
-        HenyeyGreensteinMixture phase;
-        float total = 0;
-        for (const wend_phase_part& part : std::span(parts, count)) {
-            require(part.weight > 0 && std::isfinite(part.weight), "the weight of a part must be positive and finite");
-            require(std::abs(part.g) < 1, "the mean cosine of a part must be between -1 and 1");
-            phase.add(part.weight, part.g);
-            total += part.weight;
-        }
-        require(std::isfinite(total), "the weights of the parts must have a finite sum");
-        store<Lobes>(*lobes, phase.lobes());
+        store<Lobes>(*lobes, to_phase({parts, count}).lobes(Vec3(0, 0, 1)));
         return WEND_OK;
     });
 }

@@ -1,9 +1,12 @@
 #include <wend/capi/boundary.h>
+#include <wend/capi/field.h>
 #include <wend/capi/handles.h>
 #include <wend/capi/settings.h>
 #include <wend/core/error.h>
+#include <wend/guide/scatter_fit.h>
 #include <wend/guide/serialization.h>
 
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string_view>
@@ -14,15 +17,26 @@ using namespace wend::capi;
 namespace {
 
 guide::Record to_record(const wend_record& r) {
-    return {{r.position.x, r.position.y, r.position.z},
-            {r.direction.x, r.direction.y, r.direction.z},
-            r.radiance,
-            r.density,
-            r.distance,
-            r.classical_density,
-            r.guided_density,
-            r.scattered,
-            {r.colour[0], r.colour[1], r.colour[2]}};
+    return {to_vector(r.position), to_vector(r.direction), r.radiance,  r.density,       r.distance,
+            r.classical_density,   r.guided_density,       r.scattered, to_rgb(r.colour)};
+}
+
+guide::ScatterRecord to_record(const wend_scatter_record& r) {
+    return {to_vector(r.position), to_vector(r.normal),   r.leaving,
+            r.connected,           to_vector(r.to_light), r.light_distance};
+}
+
+/// Copies of records that C gave.
+template <class Records, class Record>
+Records to_records(const Record* records, std::size_t count) {
+    require(records || count == 0, "the records are null");
+    require(count < std::numeric_limits<std::uint32_t>::max(), "there are 2^32 - 1 records or more");
+    Records copies;
+    copies.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        copies.push_back(to_record(records[i]));
+    }
+    return copies;
 }
 
 }  // namespace
@@ -30,9 +44,7 @@ guide::Record to_record(const wend_record& r) {
 wend_status wend_field_create(wend_bounds bounds, wend_field** field, wend_error* error) noexcept {
     return guarded(error, [&] {
         require(field, "the place for the field is null");
-        const Box3 box(to_position(bounds.min, "bounds.min"), to_position(bounds.max, "bounds.max"));
-        require(!box.isEmpty(), "bounds.min must not be above bounds.max");
-        *field = new wend_field{guide::Field::empty(box)};
+        *field = new wend_field{guide::Field::empty(to_box(bounds))};
         return WEND_OK;
     });
 }
@@ -49,23 +61,28 @@ wend_status wend_field_fit(const wend_field* previous, const wend_record* record
                            const wend_fit_settings* settings, int threads, wend_field** next, wend_fit_report* report,
                            wend_error* error) noexcept {
     return guarded(error, [&] {
-        constexpr int most_threads = 1024;
         require(previous, "the previous field is null");
         require(next, "the place for the next field is null");
-        require(records || count == 0, "the records are null");
-        require(count < std::numeric_limits<std::uint32_t>::max(), "there are 2^32 - 1 records or more");
-        require(threads >= 0 && threads <= most_threads, "the threads must be 0 to 1024");
+        require_threads(threads);
         const guide::FitSettings chosen = settings ? to_settings(*settings) : guide::FitSettings();
-        guide::Records copies;
-        copies.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            copies.push_back(to_record(records[i]));
-        }
+        const auto copies = to_records<guide::Records>(records, count);
         guide::FitResult result = guide::fit(previous->value, copies, chosen, threads);
         *next = new wend_field{std::move(result.field)};
         if (report) {
             *report = from_report(result.report);
         }
+        return WEND_OK;
+    });
+}
+
+wend_status wend_field_fit_scattered(const wend_field* previous, const wend_scatter_record* records, size_t count,
+                                     double decay, int threads, wend_field** next, wend_error* error) noexcept {
+    return guarded(error, [&] {
+        require(previous, "the previous field is null");
+        require(next, "the place for the next field is null");
+        require_threads(threads);
+        const auto copies = to_records<guide::ScatterRecords>(records, count);
+        *next = new wend_field{guide::fit_scattered(previous->value, copies, decay, threads)};
         return WEND_OK;
     });
 }

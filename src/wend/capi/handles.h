@@ -1,7 +1,7 @@
-// What is behind the handles of capi/guide.h.
+// What is behind the handles of the interface for C.
 #pragma once
 
-#include <wend/capi/guide.h>
+#include <wend/capi/field.h>
 #include <wend/guide/field.h>
 
 struct wend_field {

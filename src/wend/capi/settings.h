@@ -1,7 +1,7 @@
 // Settings and reports of a fit, field by field.
 #pragma once
 
-#include <wend/capi/guide.h>
+#include <wend/capi/field.h>
 #include <wend/guide/fit.h>
 
 namespace wend::capi {

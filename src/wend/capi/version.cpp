@@ -1,4 +1,4 @@
-#include <wend/capi/guide.h>
+#include <wend/capi/base.h>
 
 const char* wend_version() noexcept {
     return WEND_VERSION;

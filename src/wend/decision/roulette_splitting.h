@@ -75,6 +75,11 @@ public:
                                   state.index_scale / ends_below);
     }
 
+    /// As it was made.
+    constexpr float ends_below() const { return ends_below_; }
+    /// As it was made.
+    constexpr bool media_absorb() const { return media_absorb_; }
+
 private:
     float ends_below_ = 1;
     bool media_absorb_ = false;
@@ -110,6 +115,12 @@ public:
 
     /// How many directions to draw; nothing where neither expected contribution nor weight calls for a decision here.
     std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected, Pcg32& random) const {
+        return before_direction(expected, [&] { return random.uniform_double(); });
+    }
+    /// The same by a number of [0,1) from draw(), which is asked only where something is left to chance.
+    template <std::invocable Draw>
+    std::optional<WeightWindow::Outcome> before_direction(const ExpectedContribution& expected,
+                                                          const Draw& draw) const {
         std::optional<float> ratio = expected.ratio;
         if (splitting_ && expected.weight > window_.high) {
             ratio = std::max(expected.weight, ratio.value_or(0));
@@ -119,7 +130,7 @@ public:
         }
         WeightWindow window = window_;
         window.most = std::min(window.most, expected.split_capacity);
-        return window.sample(*ratio, random);
+        return window.sample(*ratio, draw);
     }
     /// Probability of going on by weight alone, for where before_direction() had nothing to say.
     float after_direction(const WalkState& state) const {

@@ -4,6 +4,7 @@
 #include <wend/core/random.h>
 
 #include <algorithm>
+#include <concepts>
 
 namespace wend {
 
@@ -24,12 +25,17 @@ struct WeightWindow {
     };
     /// What becomes of a walk whose ratio is this; one that is NaN or negative goes on as it is.
     Outcome sample(double ratio, Pcg32& random) const {
+        return sample(ratio, [&] { return random.uniform_double(); });
+    }
+    /// The same by a number of [0,1) from draw(), which is asked outside of the window only.
+    template <std::invocable Draw>
+    Outcome sample(double ratio, const Draw& draw) const {
         if (!(ratio >= 0) || (ratio >= low && ratio <= high)) {
             return {};
         }
         const double expected = std::clamp(ratio, least, static_cast<double>(most));
         const int whole = static_cast<int>(expected);
-        return {whole + (random.uniform_double() < expected - whole ? 1 : 0), expected};
+        return {whole + (draw() < expected - whole ? 1 : 0), expected};
     }
 };
 

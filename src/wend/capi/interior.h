@@ -1,0 +1,115 @@
+/* Walks inside dense media, wax, skin or marble, for C. */
+#ifndef WEND_CAPI_INTERIOR_H
+#define WEND_CAPI_INTERIOR_H
+
+#include <wend/capi/flight.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** @addtogroup wend_c
+ * @{ */
+
+/** What walks in one dense medium know about it beforehand: the light deep inside. It never changes; any number of
+ * threads may walk by it. */
+typedef struct wend_interior_guide wend_interior_guide;
+
+/** Solves for the light deep in a medium, which takes milliseconds: once a medium. It must scatter, and the mean
+ * cosines of its phase function must be within -0.96 and 0.96. `classical_share` in (0,1] of the walks are classical,
+ * so no weight exceeds the classical one by more than 1 / classical_share; 0.25 is good, with 1 none is guided. The
+ * guide belongs to the caller and must outlive the walks by it: wend_interior_guide_destroy(). */
+WEND_API wend_status wend_interior_guide_create(const wend_medium* medium, float classical_share,
+                                                wend_interior_guide** guide, wend_error* error) WEND_NOEXCEPT;
+
+/** Ends a guide. Null is allowed. */
+WEND_API void wend_interior_guide_destroy(wend_interior_guide* guide) WEND_NOEXCEPT;
+
+/** A walk inside a dense medium, in the caller's memory, aligned as this type is. It may be copied, where a path
+ * splits, and forgotten; it refers to its guide alone. One thread at a time may change it.
+ *
+ * At the boundary, going in: enter, aim, head. Then fly, and at a collision aim again (if the normal is to change),
+ * draw a direction and turn. Where the boundary reflects: head, then fly again. A call that comes too early is a bad
+ * argument. */
+typedef union wend_interior_walk {
+    long double alignment;    /**< for the compiler: never read or written */
+    unsigned char bytes[512]; /**< the library's own */
+} wend_interior_walk;
+
+/** Begins a walk. `channels` are the probabilities of the colour channels, with the sum 1: in proportion to the
+ * throughput. A channel of probability 0 must have throughput 0. */
+WEND_API wend_status wend_interior_enter(const wend_interior_guide* guide, const float channels[3],
+                                         wend_interior_walk* walk, wend_error* error) WEND_NOEXCEPT;
+
+/** From now on light comes from a boundary of this outward unit normal. `steepness` in [0,1] is how steeply it grows
+ * that way: 1 as under a wide plane boundary, less where it comes from several sides. The choice is yours, and may
+ * depend on all that has happened to the walk. */
+WEND_API wend_status wend_interior_aim(wend_interior_walk* walk, wend_vec3 normal, float steepness,
+                                       wend_error* error) WEND_NOEXCEPT;
+
+/** Goes on in a unit direction that the walk has not drawn: at the entry, or where the boundary reflects. */
+WEND_API wend_status wend_interior_head(wend_interior_walk* walk, wend_vec3 direction, wend_error* error) WEND_NOEXCEPT;
+
+/** How far the next flight goes if nothing is in its way, by a number `u` in [0,1): no ray need be traced further. It
+ * may be INFINITY. */
+WEND_API wend_status wend_interior_draw_distance(const wend_interior_walk* walk, float u, float* distance,
+                                                 wend_error* error) WEND_NOEXCEPT;
+
+/** How far a walk got. */
+typedef struct wend_interior_flight {
+    int scatters;           /**< whether it ends in a collision, 0 or 1; else it has reached the boundary */
+    float distance;         /**< of the collision, or of the boundary */
+    float weight[3];        /**< what the throughput is multiplied by, complete: no albedo comes on top */
+    float pass_probability; /**< of passing the segment under all ways that the walk is drawn by; 1 if it scatters */
+} wend_interior_flight;
+
+/** The flight that was drawn where the medium goes on for `length`, 0 to 1e30. */
+WEND_API wend_status wend_interior_fly(wend_interior_walk* walk, float length, float drawn,
+                                       wend_interior_flight* flight, wend_error* error) WEND_NOEXCEPT;
+
+/** The probability of flying through `length`, 0 to 1e30; the walk goes on behind it. For connections to lights, ask a
+ * copy that has turned to the light. */
+WEND_API wend_status wend_interior_pass(wend_interior_walk* walk, float length, float* probability,
+                                        wend_error* error) WEND_NOEXCEPT;
+
+/** A direction after a collision. */
+typedef struct wend_interior_direction {
+    wend_vec3 direction; /**< of unit length */
+    float weight;        /**< what the throughput is multiplied by: phase function over density */
+    float density;       /**< of the direction, in 1/sr, under all ways that the walk is drawn by */
+} wend_interior_direction;
+
+/** A direction after a collision, of a walk that arrived along the unit vector `before`: by a number `choice` in [0,1),
+ * which chooses how it is drawn, and a point of the unit square, [0,1)^2. Directions towards the light take further
+ * numbers from a generator that `key` is the seed of: draw 64 random bits for it. The walk does not change; tell it by
+ * wend_interior_turn(). */
+WEND_API wend_status wend_interior_sample(const wend_interior_walk* walk, wend_vec3 before, float choice, float u,
+                                          float v, uint64_t key, wend_interior_direction* direction,
+                                          wend_error* error) WEND_NOEXCEPT;
+
+/** The density of any direction at that collision, before the walk turns. */
+WEND_API wend_status wend_interior_density(const wend_interior_walk* walk, wend_vec3 before, wend_vec3 direction,
+                                           float* density, wend_error* error) WEND_NOEXCEPT;
+
+/** Goes on in a direction from a collision, of a walk that arrived along `before`. */
+WEND_API wend_status wend_interior_turn(wend_interior_walk* walk, wend_vec3 before, wend_vec3 direction,
+                                        wend_error* error) WEND_NOEXCEPT;
+
+/** Whether the walk's direction is one that wend_interior_turn() told, 0 or 1: then a connection to a light might have
+ * gone the same way. */
+WEND_API wend_status wend_interior_has_turned(const wend_interior_walk* walk, int* has_turned,
+                                              wend_error* error) WEND_NOEXCEPT;
+
+/** The probability that the walk goes on, in [0,1], given the largest channel of the throughput, which is finite and
+ * not negative; divide squared ratios of refractive indices out of it. It is counted in: draw roulette by it and divide
+ * the weight. Put no limit on the number of collisions; this ends every walk. */
+WEND_API wend_status wend_interior_survival(wend_interior_walk* walk, float throughput, float* probability,
+                                            wend_error* error) WEND_NOEXCEPT;
+
+/** @} */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+// The example in C is the example in C++, bit for bit: examples/embed_c and examples/embed render the same pictures.
+#include <examples/embed_c/rooms.h>
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+// The example's own walk and passes, without its program.
+#define main example_main
+#include <examples/embed/main.cpp>
+#undef main
+
+namespace {
+
+void expect_same(const rooms_picture& c, const Picture& cpp) {
+    ASSERT_EQ(c.samples, cpp.samples);
+    for (std::size_t i = 0; i < rooms_pixels; ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            ASSERT_EQ(c.sum[i][channel], cpp.sum.pixels[i][channel]) << i;
+            ASSERT_EQ(c.squares[i][channel], cpp.squares.pixels[i][channel]) << i;
+        }
+    }
+}
+
+TEST(CRooms, AreThoseOfTheExample) {
+    constexpr int samples = 4, passes = 4;
+    const auto in_c = std::make_unique<std::array<rooms_picture, 2>>();
+    rooms_render(samples, passes, &(*in_c)[0], &(*in_c)[1]);
+
+    Picture classical, guided, training;
+    wend::LearnedLights lights(bounds, lamps.size());
+    render(Decisions{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights}, {}, 0,
+           samples, classical);
+    expect_same((*in_c)[0], classical);
+    wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
+    std::vector<float> expected;
+    const auto decide = [&] {
+        const double noise = training.samples > 1 ? training.variance() / std::pow(training.mean(), 2) : 1;
+        return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
+                                                     wend::DistanceGuiding::scatter_and_distance),
+                         wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
+                         wend::AdjointRouletteSplitting(true, true, noise), lights};
+    };
+    for (int pass = 0; pass < passes; ++pass) {
+        std::vector<PathRecords> records;
+        for (Told& told : render(decide(), expected, samples + training.samples, 1 << pass, training)) {
+            records.push_back(std::move(told.records));
+            lights.add(told.lights);
+        }
+        fields = wend::guide::learn(fields, std::move(records), 0);
+        lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
+        wend::Image mean = training.sum;
+        for (Rgb& pixel : mean.pixels) {
+            pixel *= 1 / static_cast<float>(training.samples);
+        }
+        expected = wend::pixel_estimates(mean, training.samples);
+    }
+    render(decide(), expected, samples + training.samples, samples, guided);
+    expect_same((*in_c)[1], guided);
+    // It is a guided picture, by then.
+    EXPECT_LT(guided.variance(), classical.variance() / 2);
+}
+
+}  // namespace
