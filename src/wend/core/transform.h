@@ -19,26 +19,35 @@ public:
     /// Throws std::domain_error if the matrix is singular or not finite.
     explicit Transform(const Matrix& m);
 
+    /// By a vector.
     static Transform translate(double x, double y, double z);
+    /// By a factor along each axis.
     static Transform scale(double x, double y, double z);
+    /// Around an axis through the origin, of any length but 0.
     static Transform rotate(double degrees, double x, double y, double z);
     /// World-to-camera transform with the camera at `eye`, looking along +z, left-handed as in pbrt. Throws
     /// std::domain_error if the vectors are degenerate.
     static Transform look_at(const Imath::V3d& eye, const Imath::V3d& look, const Imath::V3d& up);
 
+    /// The map that does `first` and then this.
     Transform operator*(const Transform& first) const;
+    /// The map back.
     Transform inverse() const;
 
+    /// Where a point goes.
     Vec3 point(const Vec3& p) const;
+    /// Where a direction goes, with its length.
     Vec3 vector(const Vec3& v) const;
     /// Normals map by the inverse transpose; the result is not normalized.
     Vec3 normal(const Vec3& n) const;
     /// Whether right-handed frames become left-handed.
     bool swaps_handedness() const;
+    /// Of the matrix, rows and columns from 0.
     double element(int row, int column) const { return m_.x[column][row]; }
     /// The volume factor |det| of the linear part.
     double determinant() const;
 
+    /// Whether the matrices are the same.
     friend bool operator==(const Transform&, const Transform&) = default;
 
 private:
@@ -63,9 +72,12 @@ public:
     /// Of its rows, without the projective one.
     explicit AffineMap(const float (&rows)[3][4]) { std::copy_n(&rows[0][0], 12, &m_[0][0]); }
 
+    /// Rows from 0 to 2, columns from 0 to 3.
     float element(int row, int column) const { return m_[row][column]; }
 
+    /// Where a point goes.
     Vec3 point(const Vec3& p) const { return vector(p) + Vec3(m_[0][3], m_[1][3], m_[2][3]); }
+    /// Where a direction goes, with its length.
     Vec3 vector(const Vec3& v) const {
         return {m_[0][0] * v.x + m_[0][1] * v.y + m_[0][2] * v.z, m_[1][0] * v.x + m_[1][1] * v.y + m_[1][2] * v.z,
                 m_[2][0] * v.x + m_[2][1] * v.y + m_[2][2] * v.z};

@@ -9,7 +9,7 @@ namespace wend {
 
 /// What a spot light lights, but for what stands in its way.
 struct Beam {
-    Vec3 position;
+    Vec3 position;        ///< of the lamp, in scene units
     Vec3 axis;            ///< unit length, the way that it shines
     float cosine = 1;     ///< of half the cone's angle, above 0
     float intensity = 0;  ///< power per steradian, mean of the channels, along the axis
@@ -17,7 +17,8 @@ struct Beam {
 
 /// A part of a ray.
 struct RayInterval {
-    float t_in, t_out;
+    float t_in;   ///< distance of its beginning
+    float t_out;  ///< distance of its end
 };
 
 /// Where the first `length` of a ray with a unit direction is in the cone; none where it is not. The cone is convex.

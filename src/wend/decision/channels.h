@@ -31,6 +31,7 @@ inline int choose_channel(const Rgb& probabilities, float& u) {
     return probabilities.b > 0 ? 2 : (probabilities.g > 0 ? 1 : 0);
 }
 
+/// The sum over the channels of their products.
 constexpr float dot(const Rgb& a, const Rgb& b) {
     return a.r * b.r + a.g * b.g + a.b * b.b;
 }

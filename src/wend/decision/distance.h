@@ -15,11 +15,12 @@ void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length
 /// What a walk knows about the end of a flight's segment when the flight is drawn, for decisions that ask what lies
 /// ahead.
 struct FlightEnd {
+    /// What the segment ends at.
     enum class Kind { nothing, surface, interface };
 
-    Kind kind = Kind::nothing;
-    Vec3 position{0, 0, 0};  ///< of the surface or interface
-    Vec3 normal{0, 0, 0};    ///< of a surface, towards the segment
+    Kind kind = Kind::nothing;  ///< what it is
+    Vec3 position{0, 0, 0};     ///< of the surface or interface
+    Vec3 normal{0, 0, 0};       ///< of a surface, towards the segment
     /// Radiance of lights at the end, with their weights of multiple importance sampling, as a scalar.
     float emitted = 0;
 };
@@ -44,14 +45,14 @@ struct EmissionShare {
 
 /// What is known before a flight.
 struct FlightStart {
-    Ray ray;
+    Ray ray;           ///< from where the flight begins
     float length = 0;  ///< to the end of the segment; may be beyond any scene
     /// Of the walk so far: chooses among colour channels.
     Rgb throughput{1.0f};
     /// Of the walk so far (ExpectedContribution::weight); 0 where the share of classical flights does not depend on it.
     float weight = 0;
-    FlightEnd end;
-    EmissionShare keeps{};
+    FlightEnd end;          ///< as far as is known
+    EmissionShare keeps{};  ///< of the light of a medium that glows
 };
 
 /// A decision about flights: draws one, and tells the probability, under each colour channel, of flying through a
@@ -71,11 +72,14 @@ concept DistanceDecision = requires(const D& d, const Medium& m, const FlightSta
 /// tracked all the same.
 class ClassicalDistance {
 public:
+    /// Never.
     bool looks_ahead(const Medium& /*medium*/, const FlightStart& /*start*/) const { return false; }
 
     /// `u` is uniform in [0,1).
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const;
+    /// By delta tracking.
     Flight sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const;
+    /// The transmittance of a homogeneous medium; 1 for a grid, where it is not known.
     Rgb pass_probability(const Medium& medium, const Ray& ray, float length) const;
 };
 

@@ -23,9 +23,9 @@ class FlightPieces {
 public:
     /// A place in a flight and its density or, at the end, probability.
     struct Outcome {
-        bool scatters = false;
-        float distance = 0;
-        float density = 0;
+        bool scatters = false;  ///< whether it is a collision
+        float distance = 0;     ///< from the beginning
+        float density = 0;      ///< per unit length; at the end a probability
         /// What it would be with a classical share of 1.
         float classical = 0;
     };
@@ -39,12 +39,15 @@ public:
 
     /// The next piece has a light close by, of this in-scattered radiance times squared distance. There must be room.
     void add_near(const Equiangular& along, float strength);
+    /// For another light that is close by.
     bool has_room_for_near() const { return near_count_ - beam_count_ < most_near; }
 
     /// A light whose beam the ray crosses there, of this in-scattered radiance times squared distance. Before the first
     /// piece, and as long as there is room.
     void add_beam(const Equiangular& along, float strength);
+    /// For another beam.
     bool has_room_for_beam() const { return beam_count_ < most_beams; }
+    /// Whether there is one.
     bool has_beam() const { return beam_count_ > 0; }
 
     /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
@@ -57,6 +60,7 @@ public:
 
     /// The density of a collision within the segment, and the probability of the end.
     Outcome collision(float distance, float defensive_fraction) const;
+    /// See collision().
     Outcome end(float defensive_fraction) const;
 
     /// Whether there is anything to be guided to.

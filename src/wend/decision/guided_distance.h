@@ -52,6 +52,7 @@ public:
                start.length > 0;
     }
 
+    /// A flight, from `u` in [0,1); classical ones may want more random numbers.
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
         if (!looks_ahead(medium, start) || (!volume_->is_trained() && beams_.empty())) {
             return classical_.sample(medium, start, u, random);

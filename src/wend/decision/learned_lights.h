@@ -46,9 +46,9 @@ public:
     template <LightChoice First>
     float probability(const First& first, const LightReceiver& receiver, int light) const {
         const float* learned = cumulative(receiver);
-        return learned ? share_of_first * first.probability(receiver, light) +
-                             (1 - share_of_first) * share(learned, light)
-                       : first.probability(receiver, light);
+        return learned
+                   ? share_of_first * first.probability(receiver, light) + (1 - share_of_first) * share(learned, light)
+                   : first.probability(receiver, light);
     }
 
     /// For what its connection to a light brought.

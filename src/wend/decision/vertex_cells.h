@@ -14,8 +14,10 @@ namespace wend {
 /// and its direction.
 class VertexCells {
 public:
+    /// Of all cells.
     static constexpr std::size_t count = 7 * 12 * 12 * 12;
 
+    /// Over that box.
     explicit VertexCells(const Box3& box) : box_(box) {}
 
     /// Positions outside the box, and those that are not numbers, belong to cells at the rim.

@@ -1,7 +1,7 @@
 #include <wend/core/error.h>
+#include <wend/decision/pixel_estimate.h>
 #include <wend/film/chess_board.h>
 #include <wend/film/film.h>
-#include <wend/decision/pixel_estimate.h>
 
 #include <algorithm>
 #include <cmath>

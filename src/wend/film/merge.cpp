@@ -1,8 +1,8 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
+#include <wend/decision/pixel_estimate.h>
 #include <wend/film/chess_board.h>
 #include <wend/film/merge.h>
-#include <wend/decision/pixel_estimate.h>
 #include <wend/stats/moments.h>
 
 #include <algorithm>

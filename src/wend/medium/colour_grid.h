@@ -13,6 +13,7 @@ namespace wend {
 class ColourGrid {
 public:
     ColourGrid() = default;
+    /// Red, green and blue.
     explicit ColourGrid(std::array<Grid, 3> channels) : channels_(std::move(channels)) {}
 
     /// At a point in index space.
@@ -25,6 +26,7 @@ public:
         return {channels_[0].sample_nearest(p, u), channels_[1].sample_nearest(p, u),
                 channels_[2].sample_nearest(p, u)};
     }
+    /// Red, green and blue.
     const std::array<Grid, 3>& channels() const { return channels_; }
 
 private:

@@ -18,8 +18,9 @@ public:
     EmissionSampler(const Box3& box, const Transform& world_from_index,
                     const std::function<float(const Vec3&)>& emitted);
 
+    /// A point that was drawn.
     struct Sample {
-        Vec3 position;
+        Vec3 position;  ///< in the world
         float density;  ///< per unit volume of the world
     };
     /// `u` and `w` uniform in [0,1). Only where power() is positive.

@@ -17,8 +17,10 @@ namespace wend {
 
 /// A box of voxels, inclusive; empty where its last is below its first.
 struct VoxelBox {
-    Vec3i first, last;
+    Vec3i first;  ///< the voxel of least coordinates
+    Vec3i last;   ///< the opposite one
 
+    /// Whether there is no voxel in it.
     bool is_empty() const { return last.x < first.x || last.y < first.y || last.z < first.z; }
 };
 
@@ -29,6 +31,7 @@ class Grid {
 public:
     /// Voxels along the side of a brick, whose first one has coordinates that are multiples of it.
     static constexpr int brick_side = 8;
+    /// All voxels of a brick.
     static constexpr int brick_voxels = brick_side * brick_side * brick_side;
 
     /// Whether the box of voxels [first, last] (inclusive) may hold anything but zeros.
@@ -62,8 +65,11 @@ public:
 
     /// Index-space box where the value can differ from 0: one cell more than the voxels on each side.
     const Box3& bounds() const { return bounds_; }
+    /// The voxel of least coordinates.
     Vec3i first() const { return first_; }
+    /// Voxels a side.
     Vec3i size() const { return size_; }
+    /// The largest value.
     float max_value() const { return max_; }
     /// Memory of its own; that of bricks which lie elsewhere is their owner's.
     std::size_t bytes() const;
@@ -72,13 +78,14 @@ public:
 
     /// Smallest and largest value of a part of the field.
     struct Range {
-        float min = 0;
-        float max = 0;
+        float min = 0;  ///< the smallest
+        float max = 0;  ///< the largest
     };
     /// The values that interpolate() takes in an index-space box: exact up to rounding, whatever the box. An empty box
     /// has {0, 0}.
     Range range(const Box3& box) const;
 
+    /// What a grid may take unless it is said otherwise.
     static constexpr std::size_t default_max_bytes = std::size_t{12} << 30;
     /// Beyond this, index-space points in single precision would not resolve a voxel's neighbourhood.
     static constexpr int max_coordinate = 1 << 20;

@@ -13,9 +13,10 @@ namespace wend {
 /// ahead of time.
 class MajorantGrid {
 public:
+    /// What is known of a cell.
     struct Cell {
-        float minimum = 0;
-        float maximum = 0;
+        float minimum = 0;  ///< a lower bound
+        float maximum = 0;  ///< an upper bound
         /// About the mean density in the cell, not 0 where the maximum is not: for guesses, bounds have to hold.
         float mean = 0;
     };
@@ -24,11 +25,15 @@ public:
     /// Covers `box` (index space of the grid) with cells of about `cell_size` voxels a side.
     MajorantGrid(const Grid& grid, const Box3& box, float cell_size);
 
+    /// That is covered, in index space.
     const Box3& box() const { return box_; }
+    /// Cells a side.
     const Vec3i& resolution() const { return resolution_; }
+    /// By its place, from 0 along each axis.
     const Cell& cell(int x, int y, int z) const {
         return cells_[static_cast<std::size_t>((z * resolution_.y + y) * resolution_.x + x)];
     }
+    /// Memory.
     std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
 
     /// Walks the cells that a ray crosses between t0 and t1, nearest first (a 3-D digital differential analyser). The

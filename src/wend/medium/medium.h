@@ -25,12 +25,12 @@ struct GridEmission {
     AffineMap field_from_world;                 ///< of colours as well
     std::shared_ptr<const ColourGrid> colours;  ///< multiply `radiance`, in place of a field; null: 1
     std::shared_ptr<const Grid> strength;       ///< multiplies all of it; null: 1
-    AffineMap strength_from_world;
+    AffineMap strength_from_world;              ///< to the voxels of `strength`
     /// Radiance of a black body at 0, step, 2 step, ... kelvin; empty if `field` is a plain scale.
     std::vector<Rgb> black_body;
-    float black_body_step = 10;
-    float temperature_offset = 0;
-    float temperature_scale = 1;
+    float black_body_step = 10;    ///< kelvin
+    float temperature_offset = 0;  ///< is taken off the field's value before it is scaled
+    float temperature_scale = 1;   ///< kelvin per unit of the field
 
     /// Radiance of the emitter at a point in the world.
     Rgb at(const Vec3& p) const;
@@ -38,8 +38,8 @@ struct GridEmission {
 
 /// Coefficients of their own at each voxel, per scene unit.
 struct VoxelCoefficients {
-    ColourGrid absorption;
-    ColourGrid scattering;
+    ColourGrid absorption;  ///< coefficient
+    ColourGrid scattering;  ///< coefficient
 };
 
 /// A medium whose coefficients vary in proportion to a density grid, or from voxel to voxel below the bound that such a
@@ -60,11 +60,15 @@ public:
 
     /// Not null where voxels have coefficients of their own: density is a bound of their extinction then.
     const VoxelCoefficients* voxels() const { return voxels_.get(); }
+    /// Coefficient at density 1.
     const Rgb& absorption() const { return absorption_; }
+    /// Coefficient at density 1.
     const Rgb& scattering() const { return scattering_; }
     /// Extinction at density 1; 1 where that is a bound.
     const Rgb& extinction() const { return extinction_; }
+    /// Where collisions send light.
     const PhaseFunction& phase() const { return phase_; }
+    /// The light of its own; null where there is none.
     const GridEmission* emission() const { return emission_.get(); }
     /// Where the medium can be connected to for its light; null where it emits none.
     const EmissionSampler* glow() const { return glow_.get(); }
@@ -74,15 +78,19 @@ public:
         return voxels_ ? voxels_->absorption.interpolate(q) * emission_->at(p)
                        : absorption_ * emission_->at(p) * density_->interpolate(q);
     }
+    /// What the coefficients are in proportion to, or a bound.
     const Grid& density() const { return *density_; }
+    /// Bounds of the density.
     const MajorantGrid& majorants() const { return majorants_; }
 
     /// A world-space ray in index space: t stays a distance in the world.
     struct IndexRay {
-        Vec3 origin;
-        Vec3 direction;
+        Vec3 origin;     ///< in index space
+        Vec3 direction;  ///< for a unit of length in the world
+        /// The point at a distance in the world.
         Vec3 at(float t) const { return origin + direction * t; }
     };
+    /// The ray as the grid sees it.
     IndexRay to_index(const Ray& ray) const {
         return {index_from_world_.point(ray.origin), index_from_world_.vector(ray.direction)};
     }
@@ -108,6 +116,7 @@ private:
 /// The closed set of media.
 using Medium = std::variant<HomogeneousMedium, GridMedium>;
 
+/// Of either kind.
 inline const PhaseFunction& phase_function(const Medium& medium) {
     if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
         return homogeneous->phase;

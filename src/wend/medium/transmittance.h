@@ -40,6 +40,7 @@ inline Rgb emitted_along(const HomogeneousMedium& medium, float distance) {
 /// scatter: there transmittance is all that is seen, and without noise it is worth its voxels.
 Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random);
 
+/// The same for either kind; exact in a homogeneous medium.
 inline Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float distance, Pcg32& random) {
     if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
         return transmittance(*homogeneous, distance);

@@ -24,6 +24,7 @@ public:
 
     /// Where along the ray the light is closest, before its origin if negative, and how far away it is there.
     float along() const { return along_; }
+    /// How far away that is.
     float beside() const { return std::sqrt(beside_squared_); }
     /// The squared distance of the light.
     float squared_distance(float t) const { return beside_squared_ + sqr(t - along_); }
