@@ -1,4 +1,5 @@
 #include <tests/scene/small_scene.h>
+#include <tests/support/scenes.h>
 #include <wend/sampling/warp.h>
 
 #include <gtest/gtest.h>
