@@ -186,7 +186,6 @@ TEST(TracedRay, GoesBackThroughWhatTouchesTheSurfaceItLeaves) {
     }
 }
 
-// Nearly the same floor twice, as modellers leave it: neither is in the shadow of the other.
 TEST(TracedRay, LeavesTheSeamOfAMeshWhereNothingIsRounded) {
     // On the diagonal of two triangles at the origin a position has no rounding, and so no clearance.
     SceneDescription s;
@@ -205,6 +204,7 @@ TEST(TracedRay, LeavesTheSeamOfAMeshWhereNothingIsRounded) {
     }
 }
 
+// Nearly the same floor twice, as modellers leave it: neither is in the shadow of the other.
 TEST(TracedRay, LeavesOpaqueSurfacesThatCoincide) {
     auto description = test::two_materials();
     for (const float height : {1.0f, 1.0f, 1 + 1e-7f}) {
