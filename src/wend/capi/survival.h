@@ -16,8 +16,8 @@ extern "C" {
 typedef struct wend_survival_settings {
     int roulette;           /**< whether walks of little expected contribution may end, 0 or 1 */
     int splitting;          /**< whether walks of much are split, 0 or 1 */
-    double sample_variance; /**< of one sample of a pixel, relative and as a mean over the picture, where it is low
-                               roulette is reluctant; not negative, INFINITY is allowed */
+    double sample_variance; /**< of one sample of a pixel, relative and as a mean over the picture; where it is low,
+                               roulette is reluctant. Not negative, INFINITY is allowed */
 } wend_survival_settings;
 
 /** What is known of a walk at a vertex before its direction is drawn. */
@@ -25,14 +25,14 @@ typedef struct wend_expected_contribution {
     float ratio;        /**< the walk's expected contribution from here on (throughput times albedo times
                            wend_field_in_scattered(), a mean over the channels) over the value that it estimates
                            (wend_pixel_estimates()); negative where it is not known, INFINITY is allowed */
-    float weight;       /**< what the walk carries over what it began with, a mean over the channels; not negative */
+    float weight;       /**< what the walk carries over what it began with, a mean over the channels, times
+                           wend_walk_state::index_scale; not negative */
     int split_capacity; /**< most continuations here, at least 1 */
 } wend_expected_contribution;
 
 /** How many directions a walk draws at a vertex. */
 typedef struct wend_continuations {
-    int judged_by_weight; /**< 1: nothing is decided here. Draw one direction, then ask wend_survival_after_direction()
-                           */
+    int judged_by_weight; /**< 1: nothing is decided yet. Draw one direction, then wend_survival_after_direction() */
     int copies;           /**< directions to draw; 0 ends the walk */
     double expected;      /**< their mean number, positive: the weight of each is divided by it */
     int uses_number; /**< whether `u` was looked at, 0 or 1: who draws numbers one after another may ask with 0 first,
