@@ -322,16 +322,17 @@ struct Picture {
     int samples = 0;
     double seconds = 0;
 
-    /// Of the pixels to some power.
-    double average(int power = 1) const {
-        const auto add = [&](double sum, const Rgb& p) {
-            return sum + std::pow(static_cast<double>(mean_value(p)), power);
+    /// Of the pixels, or of their squares.
+    double average(bool squared = false) const {
+        const auto add = [&](double sum, const Rgb& pixel) {
+            const auto value = static_cast<double>(mean_value(pixel));
+            return sum + (squared ? value * value : value);
         };
         return std::accumulate(mean.pixels.begin(), mean.pixels.end(), 0.0, add) / (width * height);
     }
     /// Of one sample, as a mean over the picture.
     double variance() const {
-        return std::accumulate(squares.begin(), squares.end(), 0.0) / (samples * width * height) - average(2);
+        return std::accumulate(squares.begin(), squares.end(), 0.0) / (samples * width * height) - average(true);
     }
 };
 
@@ -359,7 +360,8 @@ std::vector<Told> render(const Decisions& decisions, const std::vector<float>& e
                 const Rgb radiance = walk.run(Vec3(0.4f, 1.3f, 3.6f), camera_direction(x, y));
                 Rgb& mean = picture.mean.pixels[i];
                 mean += (radiance - mean) / static_cast<float>(sample + 1);
-                picture.squares[row] += std::pow(static_cast<double>(mean_value(radiance)), 2);
+                const auto value = static_cast<double>(mean_value(radiance));
+                picture.squares[row] += value * value;
                 if (learns) {
                     rows[row].records.add(log.vertices(), 64);
                 }
@@ -388,7 +390,7 @@ int main() {
     wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
     std::vector<float> expected;
     const auto decide = [&] {
-        const double noise = training.samples > 1 ? training.variance() / std::pow(training.average(), 2) : 1;
+        const double noise = training.samples > 1 ? training.variance() / (training.average() * training.average()) : 1;
         return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
                                                      wend::DistanceGuiding::scatter_and_distance),
                          wend::GuidedDirection<Field>(&fields.surface, &fields.volume),

@@ -713,27 +713,29 @@ static void tell(const walk* w) {
 
 /* ---- 3. Render in passes ---- */
 
-static double pixel_mean(const float (*sums)[3], int samples, int i) {
-    rgb sum;
-    memcpy(sum.c, sums[i], sizeof sum.c);
-    return (double)mean(sum) / samples;
+/* Of the pixels, or of their squares. */
+static double average(const rooms_picture* picture, int squared) {
+    double total = 0;
+    int i;
+    for (i = 0; i < rooms_pixels; ++i) {
+        rgb pixel;
+        double value;
+        memcpy(pixel.c, picture->mean[i], sizeof pixel.c);
+        value = (double)mean(pixel);
+        total += squared ? value * value : value;
+    }
+    return total / rooms_pixels;
 }
 double rooms_mean(const rooms_picture* picture) {
-    double total = 0;
-    int i;
-    for (i = 0; i < rooms_pixels; ++i) {
-        total += pixel_mean(picture->sum, picture->samples, i);
-    }
-    return total / rooms_pixels;
+    return average(picture, 0);
 }
 double rooms_variance(const rooms_picture* picture) {
-    double total = 0;
-    int i;
-    for (i = 0; i < rooms_pixels; ++i) {
-        const double m = pixel_mean(picture->sum, picture->samples, i);
-        total += pixel_mean(picture->squares, picture->samples, i) - m * m;
+    double squares = 0;
+    int row;
+    for (row = 0; row < rooms_height; ++row) {
+        squares += picture->squares[row];
     }
-    return total / rooms_pixels;
+    return squares / (picture->samples * rooms_width * rooms_height) - average(picture, 1);
 }
 
 static vec3 camera_direction(float x, float y) {
@@ -743,25 +745,27 @@ static vec3 camera_direction(float x, float y) {
 }
 
 /* Adds samples to every pixel. A random number depends on pixel and sample. */
-static void render(const decisions* d, const float* expected, int first, int count, rooms_picture* picture, told* t) {
+static void render(const decisions* d, const float* expected, int count, rooms_picture* picture, told* t) {
     walk w;
     int i, sample, c;
     memset(&w, 0, sizeof w);
     w.d = d;
     w.told = t;
     for (i = 0; i < rooms_pixels; ++i) {
-        for (sample = first; sample < first + count; ++sample) {
-            generator random = generator_of((uint64_t)i, (uint64_t)sample);
+        for (sample = picture->samples; sample < picture->samples + count; ++sample) {
+            generator random = generator_of((uint64_t)i, (uint64_t)(picture->first + sample));
             const float x = (float)(i % rooms_width) + uniform(&random);
             const float y = (float)(i / rooms_width) + uniform(&random);
             rgb radiance;
+            double value;
             w.random = &random;
             w.expected = expected[i];
             radiance = run(&w, make(0.4f, 1.3f, 3.6f), camera_direction(x, y));
             for (c = 0; c < 3; ++c) {
-                picture->sum[i][c] += radiance.c[c];
-                picture->squares[i][c] += mean(radiance) * mean(radiance);
+                picture->mean[i][c] += (radiance.c[c] - picture->mean[i][c]) * (1 / (float)(sample + 1));
             }
+            value = (double)mean(radiance);
+            picture->squares[i / rooms_width] += value * value;
             tell(&w);
         }
     }
@@ -794,15 +798,9 @@ static void learn(decisions* d, told* t) {
 
 /* What pixels will be is known from the passes, too, and how noisy their samples are. */
 static void expect(const rooms_picture* training, float* expected, wend_survival_settings* survival) {
-    float means[rooms_pixels][3];
     wend_error error;
-    int i, c;
-    for (i = 0; i < rooms_pixels; ++i) {
-        for (c = 0; c < 3; ++c) {
-            means[i][c] = training->sum[i][c] * (1 / (float)training->samples);
-        }
-    }
-    learned(wend_pixel_estimates(means[0], rooms_width, rooms_height, training->samples, expected, &error), &error);
+    learned(wend_pixel_estimates(training->mean[0], rooms_width, rooms_height, training->samples, expected, &error),
+            &error);
     if (training->samples > 1) {
         survival->sample_variance = rooms_variance(training) / (rooms_mean(training) * rooms_mean(training));
     }
@@ -835,15 +833,17 @@ void rooms_render(int samples, int passes, rooms_picture* classical, rooms_pictu
     d.survival.roulette = d.survival.splitting = 1;
     d.survival.sample_variance = 1;
 
-    render(&d, expected, 0, samples, classical, &t);
+    training->first = samples;
+    guided->first = samples + (1 << passes);
+    render(&d, expected, samples, classical, &t);
     t.count[0] = t.count[1] = t.light_count = 0; /* of a classical picture nothing is learned here */
     d.guided = 1;
     for (pass = 0; pass < passes; ++pass) {
-        render(&d, expected, samples + training->samples, 1 << pass, training, &t);
+        render(&d, expected, 1 << pass, training, &t);
         learn(&d, &t);
         expect(training, expected, &d.survival);
     }
-    render(&d, expected, samples + training->samples, samples, guided, &t);
+    render(&d, expected, samples, guided, &t);
 
     for (v = 0; v < 2; ++v) {
         wend_field_destroy(d.fields[v]);

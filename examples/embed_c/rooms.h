@@ -8,11 +8,11 @@ extern "C" {
 
 enum { rooms_width = 64, rooms_height = 36, rooms_pixels = rooms_width * rooms_height };
 
-/* Sums over the samples of each pixel. */
 typedef struct rooms_picture {
-    int samples;
-    float sum[rooms_pixels][3];
-    float squares[rooms_pixels][3]; /* of the mean channel of each sample, three times */
+    int first;   /* of the samples of all pictures */
+    int samples; /* of each pixel */
+    float mean[rooms_pixels][3];
+    double squares[rooms_height]; /* of the mean channel of each sample, summed by row */
 } rooms_picture;
 
 /* The mean of a picture, and the variance of one sample. */
