@@ -3,7 +3,7 @@
 usage: wheel.py SOURCE BUILD PROGRAM
 
 SOURCE is the checkout, BUILD a folder for what is made, PROGRAM the wend program whose picture must be the same bits.
-As root, the wheel runs in a folder that holds Python and the C library alone (chroot); otherwise in an environment of
+As root, the wheel runs in a folder that holds Python and the C and C++ libraries alone (chroot); otherwise in an environment of
 its own. Ends with status 77 where auditwheel is absent.
 """
 
@@ -60,7 +60,13 @@ def bare_system(folder: Path, site: Path) -> None:
     python = Path(os.path.realpath(sys.executable))
     standard = Path(sysconfig.get_paths()["stdlib"])
     extensions = glob.glob(str(standard / "lib-dynload" / "*.so"))
-    for library in libraries_of([str(python), *extensions]):
+    # What every system has, so that no wheel brings it: the C library, in its parts, and the C++ library.
+    native = libraries_of(glob.glob(str(site / "wend" / "_wend*.so")))
+    runtime = {name for name in native if re.match(r"lib(stdc\+\+|gcc_s|c)\.so|ld-linux", Path(name).name)}
+    (c_library,) = (Path(name) for name in runtime if Path(name).name.startswith("libc.so"))
+    parts = ("libdl.so.2", "libm.so.6", "libpthread.so.0", "librt.so.1", "libutil.so.1")
+    runtime |= {str(c_library.with_name(part)) for part in parts if c_library.with_name(part).exists()}
+    for library in libraries_of([str(python), *extensions]) | runtime:
         target = folder / library.lstrip("/")
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(library, target)
@@ -87,7 +93,7 @@ def main() -> int:
     if os.geteuid() == 0:
         system = build / "system"
         bare_system(system, build / "site")
-        run("chroot", system, Path(sys.base_prefix) / "bin" / "python", "-c", RENDER.format(picture="/found.exr"),
+        run(shutil.which("chroot"), system, Path(sys.base_prefix) / "bin" / "python", "-c", RENDER.format(picture="/found.exr"),
             env={"PYTHONPATH": "/site", "PYTHONHOME": sys.base_prefix})
         shutil.move(system / "found.exr", found)
         shutil.rmtree(system)
