@@ -122,7 +122,8 @@ class Scene:
                 are an "rgb", a text is a "string". A pair (type, value), such as ("spectrum", "metal-Cu-eta") or
                 ("texture", "marble"), says the type itself.
 
-        The file is not read again, and the numbers of its shapes are shared; what renders them is built anew.
+        The file is not read again (meshes, pictures and volumes of their own are); what renders the scene is built
+        anew.
 
         Raises:
             InputError: for a directive that the scene has not, or a value that it does not take.

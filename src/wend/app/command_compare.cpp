@@ -63,13 +63,9 @@ Reference make_reference(const Session& session, const CompareOptions& options, 
         streams, fmt::format("{} beside the scene: rendering a reference, two halves of {:g} s each{}",
                              what_is_missing(scene.parent_path() / scene.stem()), reference_effort * options.seconds,
                              name.empty() ? " (--out keeps it)" : ", for --reference " + name.string() + " next time"));
-    std::optional<ProgressBar> bar;
+    ProgressOfRenders bars(streams.err, !options.common.quiet);
     return render_reference(session, options.seconds, name, [&](int half, const RenderProgress& progress) {
-        if (progress.seconds == 0) {
-            bar.emplace(streams.err, !options.common.quiet, fmt::format("reference {}/2", half + 1));
-        } else {
-            bar->update(progress);
-        }
+        bars.update(fmt::format("reference {}/2", half + 1), progress);
     });
 }
 

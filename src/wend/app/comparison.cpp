@@ -67,13 +67,9 @@ std::string to_string(const WayOfSampling& way) {
 }
 
 ComparisonWatcher comparison_bars(int seeds, const CommonOptions& common, const Streams& streams) {
-    const auto bar = std::make_shared<std::optional<ProgressBar>>();
-    return [=](const WayOfSampling& way, int seed, const RenderProgress& progress) {
-        if (progress.seconds == 0) {
-            bar->emplace(streams.err, !common.quiet, fmt::format("{} {}/{}", to_string(way), seed + 1, seeds));
-        } else {
-            (*bar)->update(progress);
-        }
+    return [bars = std::make_shared<ProgressOfRenders>(streams.err, !common.quiet), seeds](
+               const WayOfSampling& way, int seed, const RenderProgress& progress) {
+        bars->update(fmt::format("{} {}/{}", to_string(way), seed + 1, seeds), progress);
     };
 }
 

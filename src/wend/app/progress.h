@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 namespace wend {
@@ -28,6 +29,25 @@ private:
     std::string label_;
     std::chrono::steady_clock::time_point last_;
     bool drawn_ = false;
+};
+
+/// Shows renders one after the other: a bar for each, which begins with a progress of 0 seconds.
+class ProgressOfRenders {
+public:
+    ProgressOfRenders(std::ostream& stream, bool enabled) : stream_(stream), enabled_(enabled) {}
+
+    void update(const std::string& label, const RenderProgress& progress) {
+        if (progress.seconds == 0) {
+            bar_.emplace(stream_, enabled_, label);
+        } else {
+            bar_->update(progress);
+        }
+    }
+
+private:
+    std::ostream& stream_;
+    bool enabled_;
+    std::optional<ProgressBar> bar_;
 };
 
 /// "1:05" or "2:03:04".
