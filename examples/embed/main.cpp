@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -60,7 +59,7 @@ const wend::Box3 bounds(Vec3(0, 0, 0), Vec3(6, 2.5f, 4));
 
 struct Hit {
     const Wall* wall = nullptr;
-    float distance = std::numeric_limits<float>::infinity();
+    float distance = INFINITY;
     Vec3 normal;  ///< towards where the ray came from
 };
 Hit intersect(const Vec3& origin, const Vec3& direction) {
@@ -77,13 +76,10 @@ Hit intersect(const Vec3& origin, const Vec3& direction) {
     return nearest;
 }
 
-/// The cosine at a lamp on its bright side of a direction towards it; 0 on its back.
-float cosine_at(const Wall& lamp, const Vec3& direction) {
-    return std::max(0.0f, -lamp.shines * direction[lamp.axis]);
-}
-/// Of choosing a direction by choosing a point of a lamp, per steradian.
-float emitter_density(const Wall& lamp, float distance, float cosine) {
-    return distance * distance / (cosine * lamp.area());
+/// Of choosing a direction by choosing a point of a lamp, per steradian; 0 on its dark side.
+float emitter_density(const Wall& lamp, const Vec3& direction, float distance) {
+    const float cosine = -lamp.shines * direction[lamp.axis];
+    return cosine > 0 ? distance * distance / (cosine * lamp.area()) : 0.0f;
 }
 
 /// Which lamp is connected to, as long as nothing is learned: by power. (wend::LightChoice)
@@ -173,13 +169,12 @@ private:
 
     /// Radiance of a lamp that is met, weighted against connect(), which might have found it (balance heuristic).
     Rgb met(const Hit& hit) const {
-        const float cosine = hit.wall->lamp < 0 ? 0.0f : cosine_at(*hit.wall, now_.ray.direction);
-        if (cosine == 0 || now_.depth == 0) {
-            return cosine > 0 ? hit.wall->radiance : black;
+        const float point = hit.wall->lamp < 0 ? 0 : emitter_density(*hit.wall, now_.ray.direction, hit.distance);
+        if (point == 0 || now_.depth == 0) {
+            return point > 0 ? hit.wall->radiance : black;
         }
         const float own = now_.density * std::exp(-extinction * hit.distance);
-        const float other = d_.lights.probability(ByPower(), now_.last, hit.wall->lamp) *
-                            emitter_density(*hit.wall, hit.distance, cosine);
+        const float other = d_.lights.probability(ByPower(), now_.last, hit.wall->lamp) * point;
         return hit.wall->radiance * (own / (own + other));
     }
 
@@ -193,7 +188,10 @@ private:
         const Rgb light = met(hit);
         const wend::FlightEnd end{wend::FlightEnd::Kind::surface, there, hit.normal, mean_value(light)};
         const wend::FlightStart start{now_.ray, hit.distance, now_.throughput, mean_value(now_.throughput), end, {}};
-        const wend::Flight flight = d_.distances.sample(fog, start, random_.uniform(), random_);
+        const float u = random_.uniform();
+        // These rays are cheap, and a guided flight costs five of them. The first flights are worth it.
+        const wend::Flight flight = now_.depth < 2 ? d_.distances.sample(fog, start, u, random_)
+                                                   : classical_flights_.sample(fog, start, u, random_);
         weigh(flight.weight);
         now_.ratio *= flight.density_ratio;
         log_.meet(flight.scatters ? flight.distance : hit.distance);
@@ -215,14 +213,12 @@ private:
         ++now_.depth;
         const auto directions = d_.directions.at(position, f, mean_value(now_.throughput));
         connect(f, directions, here);
-        const std::optional<Rgb> ahead = expected_ > 0 ? directions.in_scattered() : std::nullopt;
-        const auto ratio = [&](const Rgb& light) {
-            return mean_value(now_.throughput * f.albedo() * light) / expected_;
-        };
-        const auto outcome =
-            d_.survival.before_direction({ahead ? std::optional(ratio(*ahead)) : std::nullopt,
-                                          mean_value(now_.throughput), static_cast<int>(64 / now_.copies) + 1},
-                                         random_);
+        std::optional<float> ahead;  // what the walk will bring, in pixels
+        if (const auto light = directions.in_scattered(); light && expected_ > 0) {
+            ahead = mean_value(now_.throughput * f.albedo() * *light) / expected_;
+        }
+        const int most_copies = static_cast<int>(64 / now_.copies) + 1;
+        const auto outcome = d_.survival.before_direction({ahead, mean_value(now_.throughput), most_copies}, random_);
         if (!outcome) {
             return draw(f, directions, here, position) && survives();
         }
@@ -269,12 +265,11 @@ private:
         const Vec3 to_lamp = Vec3(lamp.at, q.x, q.y) - here.position;
         const float distance = length(to_lamp);
         const Vec3 w = to_lamp / distance;
-        const float cosine = cosine_at(lamp, w);
+        const float point = emitter_density(lamp, w, distance);
         Rgb brought;
-        if (cosine > 0 && intersect(here.position + here.normal * 1e-4f, w).wall == &lamp) {
+        if (point > 0 && intersect(here.position + here.normal * 1e-4f, w).wall == &lamp) {
             const float transmittance = std::exp(-extinction * distance);
-            const float both =
-                chosen.probability * emitter_density(lamp, distance, cosine) + directions.density(w) * transmittance;
+            const float both = chosen.probability * point + directions.density(w) * transmittance;
             const Rgb fluence = lamp.radiance * (transmittance / both);
             brought = f.evaluate(w) * fluence;
             log_.connect(w, distance, mean_value(fluence), brought);
@@ -302,6 +297,7 @@ private:
     }
 
     const Decisions& d_;
+    const wend::ClassicalDistance classical_flights_{};
     float expected_;
     wend::Pcg32& random_;
     PathLog& log_;
@@ -322,17 +318,14 @@ struct Picture {
     int samples = 0;
     double seconds = 0;
 
-    /// Of the pixels, or of their squares.
-    double average(bool squared = false) const {
-        const auto add = [&](double sum, const Rgb& pixel) {
-            const auto value = static_cast<double>(mean_value(pixel));
-            return sum + (squared ? value * value : value);
-        };
+    /// Of the pixels, to a power.
+    double average(int power = 1) const {
+        const auto add = [&](double sum, const Rgb& pixel) { return sum + std::pow(double{mean_value(pixel)}, power); };
         return std::accumulate(mean.pixels.begin(), mean.pixels.end(), 0.0, add) / (width * height);
     }
     /// Of one sample, as a mean over the picture.
     double variance() const {
-        return std::accumulate(squares.begin(), squares.end(), 0.0) / (samples * width * height) - average(true);
+        return std::accumulate(squares.begin(), squares.end(), 0.0) / (samples * width * height) - average(2);
     }
 };
 
@@ -376,21 +369,24 @@ std::vector<Told> render(const Decisions& decisions, const std::vector<float>& e
     return rows;
 }
 
-}  // namespace
+// ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
 
-int main() {
-    constexpr int samples = 128, passes = 6;
-    Picture classical, training{samples}, guided{samples + (1 << passes)};
+struct Pictures {
+    Picture classical, training, guided;
+};
+
+Pictures render_both(int samples, int passes) {
+    Pictures all{{}, {samples}, {samples + (1 << passes)}};
     wend::LearnedLights lights(bounds, lamps.size());
     const Decisions unguided{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights};
-    render(unguided, {}, samples, false, classical);
-    // ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
+    render(unguided, {}, samples, false, all.classical);
     // Surfaces and volumes have a field each: what they see differs. Decisions refer to the fields: new ones are
     // assigned to them. What pixels will be is known from those passes, too.
     wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
     std::vector<float> expected;
+    const Picture& so_far = all.training;
     const auto decide = [&] {
-        const double noise = training.samples > 1 ? training.variance() / (training.average() * training.average()) : 1;
+        const double noise = so_far.samples > 1 ? so_far.variance() / (so_far.average() * so_far.average()) : 1;
         return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
                                                      wend::DistanceGuiding::scatter_and_distance),
                          wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
@@ -398,17 +394,24 @@ int main() {
     };
     for (int pass = 0; pass < passes; ++pass) {
         std::vector<PathRecords> records;
-        for (Told& told : render(decide(), expected, 1 << pass, true, training)) {
+        for (Told& told : render(decide(), expected, 1 << pass, true, all.training)) {
             records.push_back(std::move(told.records));
             lights.add(told.lights);
         }
         fields = wend::guide::learn(fields, std::move(records), 0);
         lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
-        expected = wend::pixel_estimates(training.mean, training.samples);
+        expected = wend::pixel_estimates(so_far.mean, so_far.samples);
     }
     // Training pictures are right, but noisier than what follows: this one shows what has been learned.
-    render(decide(), expected, samples, false, guided);
+    render(decide(), expected, samples, false, all.guided);
+    return all;
+}
 
+}  // namespace
+
+int main() {
+    constexpr int samples = 128;
+    const auto [classical, training, guided] = render_both(samples, 6);
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
     for (const auto& [name, picture] : {std::pair("classical", &classical), {"guided", &guided}}) {
         std::printf("%-9s  mean %.4f, relative error of a sample %.2f, %.2f s\n", name, picture->average(),

@@ -637,7 +637,8 @@ static int fly(walk* w) {
     start.end.normal = h.normal;
     start.end.emitted = mean(light);
     u = uniform(w->random);
-    learned(w->d->guided
+    /* These rays are cheap, and a guided flight costs five of them. The first flights are worth it. */
+    learned(w->d->guided && w->now.depth < 2
                 ? wend_flight_guided(w->d->fields[0], w->d->fields[1], &w->d->flights, &fog, &start, u, &flight, &error)
                 : wend_flight_classical(&fog, &start, u, &flight, &error),
             &error);

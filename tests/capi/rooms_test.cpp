@@ -29,34 +29,11 @@ TEST(CRooms, AreThoseOfTheExample) {
     const auto in_c = std::make_unique<std::array<rooms_picture, 2>>();
     rooms_render(samples, passes, &(*in_c)[0], &(*in_c)[1]);
 
-    Picture classical, training{samples}, guided{samples + (1 << passes)};
-    wend::LearnedLights lights(bounds, lamps.size());
-    render(Decisions{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights}, {},
-           samples, false, classical);
-    expect_same((*in_c)[0], classical);
-    wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
-    std::vector<float> expected;
-    const auto decide = [&] {
-        const double noise = training.samples > 1 ? training.variance() / (training.average() * training.average()) : 1;
-        return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
-                                                     wend::DistanceGuiding::scatter_and_distance),
-                         wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
-                         wend::AdjointRouletteSplitting(true, true, noise), lights};
-    };
-    for (int pass = 0; pass < passes; ++pass) {
-        std::vector<PathRecords> records;
-        for (Told& told : render(decide(), expected, 1 << pass, true, training)) {
-            records.push_back(std::move(told.records));
-            lights.add(told.lights);
-        }
-        fields = wend::guide::learn(fields, std::move(records), 0);
-        lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
-        expected = wend::pixel_estimates(training.mean, training.samples);
-    }
-    render(decide(), expected, samples, false, guided);
-    expect_same((*in_c)[1], guided);
+    const Pictures in_cpp = render_both(samples, passes);
+    expect_same((*in_c)[0], in_cpp.classical);
+    expect_same((*in_c)[1], in_cpp.guided);
     // It is a guided picture, by then.
-    EXPECT_LT(guided.variance(), classical.variance() / 2);
+    EXPECT_LT(in_cpp.guided.variance(), in_cpp.classical.variance() / 2);
 }
 
 }  // namespace
