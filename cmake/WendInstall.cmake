@@ -1,4 +1,5 @@
-# The installed package: find_package(wend) gives the target wend::guide.
+# The installed package: find_package(wend) gives the targets wend::guide, wend::guide_shared and, where the renderer is
+# built, wend::render.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -47,6 +48,7 @@ if(WEND_OPENPGL)
 endif()
 
 if(WEND_BUILD_RENDERER)
+  install(TARGETS wend_renderer EXPORT wend-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT library)
   install(TARGETS wend RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   # What `wend demo` renders; it looks for them beside the installed program.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/wend COMPONENT program)

@@ -1,10 +1,10 @@
 #include <wend/app/comparison.h>
 #include <wend/app/comparison_page.h>
+#include <wend/app/parsed_scene.h>
 #include <wend/app/reference_render.h>
 #include <wend/app/report_folder.h>
 
 #include "bindings.h"
-#include "scenes.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +16,7 @@ using Watcher = nb::typed<nb::callable, void(std::string, int, double, double)>;
 /// A comparison and what it was judged by.
 class PythonComparison {
 public:
-    PythonComparison(std::shared_ptr<PythonScene> scene, double seconds, int seeds, Reference reference,
+    PythonComparison(std::shared_ptr<ParsedScene> scene, double seconds, int seeds, Reference reference,
                      std::vector<ComparisonRow> rows)
         : scene_(std::move(scene)),
           seconds_(seconds),
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    std::shared_ptr<PythonScene> scene_;
+    std::shared_ptr<ParsedScene> scene_;
     double seconds_;
     int seeds_;
     Reference reference_;
@@ -103,7 +103,7 @@ void tell(const Watcher& watcher, const std::string& name, int number, const Ren
 
 /// `ways` are pairs of names of how to sample, and how inside dense media. Without halves of a reference, one is
 /// rendered first.
-PythonComparison compare(std::shared_ptr<PythonScene> scene,
+PythonComparison compare(std::shared_ptr<ParsedScene> scene,
                          const std::vector<std::pair<std::string, std::string>>& ways, double seconds, int seeds,
                          std::optional<Pixels> a, std::optional<Pixels> b, const Watcher& watcher) {
     std::vector<WayOfSampling> compared;

@@ -1,8 +1,6 @@
-#include "scenes.h"
-
+#include <wend/app/parsed_scene.h>
 #include <wend/core/error.h>
 #include <wend/io/pbrt/named_parameters.h>
-#include <wend/io/pbrt/parser.h>
 
 #include "bindings.h"
 
@@ -13,30 +11,25 @@
 namespace wend::python {
 namespace {
 
-using ScenePointer = std::shared_ptr<PythonScene>;
+using ScenePointer = std::shared_ptr<ParsedScene>;
 
 ScenePointer load(const std::string& file, const std::string& resolution, const std::string& crop,
                   std::optional<int> max_depth, const std::string& sampler) {
     const nb::gil_scoped_release release;
-    const SceneOptions options{file, resolution, crop, max_depth, sampler};
-    options.check();
-    return std::make_shared<PythonScene>(options, pbrt::parse_file(file), std::string());
+    return ParsedScene::load({file, resolution, crop, max_depth, sampler});
 }
 
-/// As a text of its own where there is no file: for scenes that a program writes.
+/// For scenes that a program writes.
 ScenePointer load_text(std::string text, const std::string& folder, const std::string& name,
                        const std::string& resolution, const std::string& crop, std::optional<int> max_depth,
                        const std::string& sampler) {
     const nb::gil_scoped_release release;
-    const SceneOptions options{name, resolution, crop, max_depth, sampler};
-    options.check();
-    pbrt::Description description = pbrt::parse_string(text, folder, name);
-    return std::make_shared<PythonScene>(options, std::move(description), std::move(text));
+    return ParsedScene::of_text(std::move(text), folder, {name, resolution, crop, max_depth, sampler});
 }
 
 /// Of each parameter its name, its type as files spell it, and the values, flat; those with more than `most` elements
 /// are left out.
-std::vector<std::tuple<std::string, std::string, pbrt::ParameterValues>> parameters(const PythonScene& scene,
+std::vector<std::tuple<std::string, std::string, pbrt::ParameterValues>> parameters(const ParsedScene& scene,
                                                                                     std::size_t most) {
     std::vector<std::tuple<std::string, std::string, pbrt::ParameterValues>> all;
     for (const auto& [name, parameter] : pbrt::named_parameters(scene.description())) {
@@ -73,7 +66,7 @@ pbrt::ParameterValues values_of(const std::string& name, pbrt::ParameterType typ
     return std::vector<float>(numbers.begin(), numbers.end());
 }
 
-ScenePointer with_parameters(const PythonScene& scene, const Changes& changes) {
+ScenePointer with_parameters(const ParsedScene& scene, const Changes& changes) {
     const nb::gil_scoped_release release;
     pbrt::Description description = scene.description();
     std::string text = scene.changes();
@@ -94,37 +87,30 @@ ScenePointer with_parameters(const PythonScene& scene, const Changes& changes) {
         text += fmt::format("{} {}", type, name);
         std::visit([&](const auto& list) { text += fmt::format(" {}\n", fmt::join(list, " ")); }, given);
     }
-    return std::make_shared<PythonScene>(scene.options(), std::move(description), std::move(text));
+    return std::make_shared<ParsedScene>(scene.options(), std::move(description), std::move(text));
 }
 
 }  // namespace
 
-PythonScene::PythonScene(const SceneOptions& options, pbrt::Description description, std::string changes)
-    : options_(options),
-      description_(std::move(description)),
-      changes_(std::move(changes)),
-      session_(options_, {}, description_, changes_) {
-}
-
 void bind_scenes(nb::module_& module) {
-    nb::class_<PythonScene>(module, "Scene", "A scene and its settings, ready to be rendered.")
-        .def_prop_ro("file", [](const PythonScene& s) { return s.session().scene_file(); })
-        .def_prop_ro("film_file", [](const PythonScene& s) { return s.session().film_file(); })
+    nb::class_<ParsedScene>(module, "Scene", "A scene and its settings, ready to be rendered.")
+        .def_prop_ro("file", [](const ParsedScene& s) { return s.session().scene_file(); })
+        .def_prop_ro("film_file", [](const ParsedScene& s) { return s.session().film_file(); })
         .def_prop_ro("resolution",
-                     [](const PythonScene& s) {
+                     [](const ParsedScene& s) {
                          const Vec2i& size = s.session().resolution();
                          return std::pair(size.x, size.y);
                      })
-        .def_prop_ro("spp", [](const PythonScene& s) { return s.session().settings().samples; })
-        .def_prop_ro("max_depth", [](const PythonScene& s) { return s.session().settings().max_depth; })
-        .def_prop_ro("seed", [](const PythonScene& s) { return s.session().settings().seed; })
+        .def_prop_ro("spp", [](const ParsedScene& s) { return s.session().settings().samples; })
+        .def_prop_ro("max_depth", [](const ParsedScene& s) { return s.session().settings().max_depth; })
+        .def_prop_ro("seed", [](const ParsedScene& s) { return s.session().settings().seed; })
         .def_prop_ro("bounds",
-                     [](const PythonScene& s) {
+                     [](const ParsedScene& s) {
                          const Box3& box = s.session().scene().bounds();
                          return std::pair(std::tuple(box.min.x, box.min.y, box.min.z),
                                           std::tuple(box.max.x, box.max.y, box.max.z));
                      })
-        .def_prop_ro("warnings", [](const PythonScene& s) { return s.session().warnings(); })
+        .def_prop_ro("warnings", [](const ParsedScene& s) { return s.session().warnings(); })
         .def("parameters", &parameters, nb::arg("most"))
         .def("with_parameters", &with_parameters, nb::arg("changes"));
     module.def("load", &load, nb::arg("file"), nb::arg("resolution"), nb::arg("crop"), nb::arg("max_depth").none(),

@@ -1,6 +1,8 @@
 // Running the wend program from tests: inside this process, or as a child that signals can reach.
 #pragma once
 
+#include <tests/support/scratch_folder.h>
+
 #include <sys/resource.h>
 #include <sys/types.h>
 #include <nlohmann/json.hpp>
@@ -12,26 +14,6 @@
 #include <vector>
 
 namespace wend::test {
-
-/// A folder of its own for each test, removed at the end.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    /// The path of a file in the folder, as an argument.
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-    /// Writes a file into the folder; returns its path.
-    std::string write(const std::string& name, std::string_view content) const;
-    /// Names of all there is in the folder, hidden files included, in order.
-    std::vector<std::string> names() const;
-
-private:
-    std::filesystem::path path_;
-};
 
 /// What a run of the program left.
 struct ProgramResult {

@@ -18,6 +18,8 @@ from pathlib import Path
 def promised(source):
     names = set()
     for header in (source / "src" / "wend").rglob("*.h"):
+        if header.parent.name == "library":
+            continue  # of the renderer, which is a library of its own
         text = header.read_text()
         names.update(re.findall(r"(?:class|struct) WEND_API (\w+)", text))
         names.update(re.findall(r"WEND_API (?!const\s)[\w:<>,&*\s]*?[\s&*](\w+)\(", text))

@@ -21,6 +21,7 @@ LEVEL = {
     "transport": 8,
     "render": 9,
     "app": 10,
+    "library": 11,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

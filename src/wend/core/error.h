@@ -10,9 +10,9 @@ namespace wend {
 
 /// A position in a file that a user wrote. Line and column count from 1; 0 means "the whole file".
 struct Place {
-    std::string file;
-    int line = 0;
-    int column = 0;
+    std::string file;  ///< as the user named it
+    int line = 0;      ///< from 1
+    int column = 0;    ///< from 1
 };
 
 /// `file:line:column`, or as much of it as is known.
@@ -21,7 +21,9 @@ WEND_API std::string to_string(const Place& place);
 /// Bad input: the message says what is wrong, where, and what would be right. The program ends with exit status 2.
 class WEND_API InputError : public std::runtime_error {
 public:
+    /// Of no known place.
     explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    /// The place comes before the message.
     InputError(const Place& place, const std::string& message)
         : std::runtime_error(to_string(place) + ": error: " + message), place_(place) {}
 

@@ -1,0 +1,35 @@
+// A scene for those who call the renderer from a program: with what it was loaded from, so that it can be changed.
+#pragma once
+
+#include <wend/app/session.h>
+#include <wend/io/pbrt/description.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace wend {
+
+class ParsedScene {
+public:
+    /// Of `options.file`. Throws InputError, as all of these do.
+    static std::shared_ptr<ParsedScene> load(const SceneOptions& options);
+    /// Of a text; it refers to files in the folder. `options.file` is what messages call it.
+    static std::shared_ptr<ParsedScene> of_text(std::string text, const std::filesystem::path& folder,
+                                                const SceneOptions& options);
+    /// `changes` says in which way it is not that of the files; empty: in none.
+    ParsedScene(const SceneOptions& options, pbrt::Description description, std::string changes);
+
+    const Session& session() const { return session_; }
+    const pbrt::Description& description() const { return description_; }
+    const SceneOptions& options() const { return options_; }
+    const std::string& changes() const { return changes_; }
+
+private:
+    SceneOptions options_;
+    pbrt::Description description_;
+    std::string changes_;
+    Session session_;
+};
+
+}  // namespace wend
