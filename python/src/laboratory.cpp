@@ -12,8 +12,10 @@
 namespace wend::python {
 namespace {
 
-/// Runs one experiment, described by the options of `wend halfspace`, or of `wend slab`; the result is its JSON.
-std::string run_experiment(std::vector<std::string> options, bool slab) {
+/// Runs one experiment, described by the options of `wend halfspace`, or of `wend slab`; the result is its JSON. An
+/// adjoint of one's own comes as the rows of planar_adjoint().
+std::string run_experiment(std::vector<std::string> options, bool slab,
+                           const std::optional<std::vector<std::vector<double>>>& adjoint) {
     const nb::gil_scoped_release release;
     CLI::App command;
     PlanarOptions planar;
@@ -27,13 +29,16 @@ std::string run_experiment(std::vector<std::string> options, bool slab) {
     } catch (const CLI::ParseError& error) {
         throw InputError(error.what());
     }
+    if (adjoint) {
+        planar.experiment.adjoint = planar_adjoint(*adjoint);
+    }
     return planar_json(planar.experiment, planar.run(), run_planar(planar.experiment, planar.run())).dump();
 }
 
 }  // namespace
 
 void bind_laboratory(nb::module_& module) {
-    module.def("run_experiment", &run_experiment, nb::arg("options"), nb::arg("slab"));
+    module.def("run_experiment", &run_experiment, nb::arg("options"), nb::arg("slab"), nb::arg("adjoint").none());
     module.def("planar_samplers", &planar_samplers);
 }
 

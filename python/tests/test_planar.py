@@ -19,6 +19,19 @@ def test_a_slab_wants_a_thickness():
         wend.slab(albedo=0.5)
 
 
+def test_an_adjoint_of_ones_own():
+    table = [[2.5, 1, 0, 1, -0.6], [1, 0.5, 0, 1]]
+    own = wend.halfspace(albedo=0.9, sampler="modes", adjoint=table, walks=20000)
+    classical = wend.halfspace(albedo=0.9, walks=20000)
+    assert abs(own["mean"][0] - own["exact"][0]) < 4.5 * own["std_error"][0]
+    assert own["variance"][0] != classical["variance"][0]
+    for wrong in ([], [[1, 1, 0]], [[1, -1, 0, 1]], np.full((80, 4), 1.0)):
+        with pytest.raises(wend.InputError, match="adjoint"):
+            wend.halfspace(albedo=0.9, sampler="modes", adjoint=wrong)
+    with pytest.raises(wend.InputError, match="modes"):
+        wend.halfspace(albedo=0.9, adjoint=table)
+
+
 def test_colours_are_tuples():
     table = wend.halfspace(albedo=(0.9, 0.8, 0.7), walks=2000)
     assert len(table["mean"]) == 1 and len(table["mean"][0]) == 3

@@ -13,10 +13,11 @@
 Colours are linear (Rec. 709 primaries), arrays float32, rows from the top. What is wrong raises `InputError`, with
 file, line and column. Long work lets other Python threads run, and Ctrl-C ends it within a second.
 
-`wend.Render` steps a render; `wend.guide` guides a renderer of your own.
+`wend.SceneBuilder` takes a scene from a program, arrays as they are; `wend.Render` steps a render; `wend.guide` guides a renderer of your own.
 """
 
 from . import guide
+from ._builder import SceneBuilder
 from ._compare import Comparison, compare
 from ._errors import InputError, SceneWarning
 from ._film import Film, merge, metric, read
@@ -32,6 +33,7 @@ __all__ = [
     "InputError",
     "Render",
     "Scene",
+    "SceneBuilder",
     "SceneWarning",
     "Table",
     "compare",

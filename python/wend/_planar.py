@@ -32,6 +32,11 @@ def halfspace(**parameters: Any) -> Table:
         incidence: "normal" or "diffuse", in place of mu0.
         sampler: one of `wend.samplers` ("classical"); stretch, first_flight, exponentials, moments, modes and
             guide_albedo are options of some.
+        adjoint: one of your own, which the sampler "modes" then follows: a table with a row for each mode, longest
+            first, of (length in mean free paths, amplitude at the near side, at the far side, Legendre coefficients of
+            its shape ...). The mode's part of the source is amplitude * exp(-depth / length) * shape(cosine), a
+            cosine being positive deeper. The longest mode must be positive in every direction; negative terms are
+            lowered where the sum would not be.
         window: "none", "adjoint" or "weight": what ends walks early or splits them.
         walks: how many (1e5).
         seed: of the random numbers (0).
@@ -76,10 +81,12 @@ def _text(value: Any) -> str:
 
 def _run(parameters: dict[str, Any], slab: bool) -> Table:
     rows = []
+    adjoint = parameters.pop("adjoint", None)
+    modes = None if adjoint is None else [[float(x) for x in row] for row in adjoint]
     choices = {name: _choices(value) for name, value in parameters.items()}
     for values in itertools.product(*choices.values()):
         varied = dict(zip(choices, values))
         options = [part for name, value in varied.items() for part in ("--" + name.replace("_", "-"), _text(value))]
-        found = json.loads(_wend.run_experiment(options, slab))
+        found = json.loads(_wend.run_experiment(options, slab, modes))
         rows.append(varied | {"sampler": found["sampler"]} | {name: found[name] for name in _RESULTS})
     return Table.of(rows)

@@ -41,10 +41,11 @@ TEST(PlanarCommands, SayHowTheyAreUsed) {
     for (const std::string command : {"halfspace", "slab"}) {
         const auto help = run_wend({command, "--help"});
         EXPECT_EQ(help.status, 0);
-        for (const char* option : {"--albedo",       "--extinction", "--g",       "--ior",          "--roughness",
-                                   "--mu0",          "--incidence",  "--sampler", "--stretch",      "--first-flight",
-                                   "--exponentials", "--moments",    "--modes",   "--guide-albedo", "--window",
-                                   "--walks",        "--seed",       "--threads", "--json",         "--quiet"}) {
+        for (const char* option :
+             {"--albedo",    "--extinction",   "--g",       "--ior",          "--roughness",    "--mu0",
+              "--incidence", "--sampler",      "--stretch", "--first-flight", "--exponentials", "--moments",
+              "--modes",     "--guide-albedo", "--window",  "--adjoint",      "--walks",        "--seed",
+              "--threads",   "--json",         "--quiet"}) {
             EXPECT_TRUE(contains(help.out, option)) << command << ' ' << option;
         }
         EXPECT_TRUE(contains(help.out, "Example")) << command;
@@ -124,6 +125,7 @@ TEST(PlanarCommands, OptionsReachTheExperiment) {
                            {"exponentials", 2},
                            {"moments", "12"},
                            {"modes", 4},
+                           {"adjoint", nullptr},
                            {"guide_albedo", 0.6},
                            {"window", "adjoint"},
                            {"seed", 0},
@@ -209,6 +211,30 @@ TEST(PlanarCommands, RefuseWhatCannotBeAndNameIt) {
             }
         }
     }
+}
+
+TEST(PlanarCommands, AnAdjointOfOnesOwnIsAFile) {
+    const test::ScratchFolder folder;
+    const std::string file = folder.write("adjoint.csv", "# length, near, far, shape\n2.5,1,0,1,-0.6\n\n1,0.5,0,1\n");
+    const std::vector<std::string> arguments = {"--albedo", "0.9", "--sampler", "modes", "--json", "-"};
+    const auto with = [&](const std::string& adjoint) {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), {"--adjoint", adjoint});
+        return run_with("halfspace", all);
+    };
+    const auto result = with(file);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.json()["settings"]["adjoint"], json({{2.5, 1, 0, 1, -0.6}, {1, 0.5, 0, 1}}));
+    EXPECT_EQ(result.json()["sampler"], "modes");
+    const double error = result.json()["std_error"];
+    EXPECT_NEAR(result.json()["mean"].get<double>(), result.json()["exact"].get<double>(), 4.5 * error);
+    for (const auto& [content, part] :
+         {std::pair("1,1,0,1\n1,1,x,1\n", ":2"), {"1,1,0\n", "3 numbers"}, {"", "modes"}}) {
+        const auto wrong = with(folder.write("wrong.csv", content));
+        EXPECT_EQ(wrong.status, 2);
+        EXPECT_TRUE(contains(wrong.err, part)) << wrong.err;
+    }
+    EXPECT_EQ(with(folder.file("absent.csv")).status, 2);
 }
 
 TEST(PlanarCommands, ASlabNeedsAThickness) {

@@ -1,8 +1,10 @@
 // Guides made for another albedo: where their variance is finite, and where it is not.
 #include <tests/lab/experiments.h>
+#include <wend/planar/discrete_ordinates.h>
 #include <wend/planar/half_space.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -71,6 +73,46 @@ TEST(GuideForAnotherAlbedo, BrightChannelsAreNotLeftToDarkGuides) {
     e.albedo = {0.95, 0.5, 0.1};
     EXPECT_NEAR(typical_variance(e, 64000) / typical_variance(e, 1000), 1, 0.15);
     EXPECT_LT(typical_variance(e, 4000), 3 * dwivedi_variance(0.95, 1, FirstFlight::stretched) + 0.3);
+}
+
+PlanarModes one_mode(double length, double near, double far, std::vector<double> shape) {
+    return {{{length, near, far, std::move(shape)}}};
+}
+
+// The medium's own modes, given as a table, are what the sampler follows anyway.
+TEST(AdjointOfOnesOwn, TheSolutionIsTheSampler) {
+    const PlanarExperiment e = half_space(0.9, "modes");
+    PlanarExperiment own = e;
+    PlanarProblem problem;
+    problem.albedo = 0.9;
+    problem.slab.near.illumination = [](double /*cosine*/) { return 1.0; };
+    problem.transients = e.modes;
+    own.adjoint = solve_planar(problem);
+    const PlanarResult a = run(e, 10000), b = run(own, 10000);
+    EXPECT_NEAR(b.channels[0].mean(), a.channels[0].mean(), 1e-9);
+    EXPECT_LT(b.channels[0].variance(), 1e-6);
+}
+
+// A guess keeps the mean, in any medium: it costs variance alone.
+TEST(AdjointOfOnesOwn, AnyGuessKeepsTheMean) {
+    for (const double g : {-0.5, 0.0, 0.6}) {
+        PlanarExperiment e = half_space(0.9, "modes");
+        e.g = g;
+        e.adjoint = one_mode(2.5 / (1 - g), 1, 0, {1, 0.2});
+        const PlanarResult result = run(e, 400000);
+        EXPECT_TRUE(test::is_exact(result)) << g;
+        EXPECT_LT(4 * result.channels[0].standard_error(), 0.01 * result.exact[0]) << g;
+    }
+    PlanarExperiment slab = half_space(0.8, "modes");
+    slab.thickness = 4;
+    slab.tally = Tally::transmittance;
+    slab.ior = 1.4;
+    // Terms that together are negative here and there are lowered.
+    slab.adjoint = one_mode(2, 0.01, 1, {1});
+    slab.adjoint->modes.push_back({0.5, 0, -0.8, {1, 0.3, 0.2}});
+    const PlanarResult result = run(slab, 400000);
+    EXPECT_TRUE(test::is_exact(result));
+    EXPECT_LT(4 * result.channels[0].standard_error(), 0.01 * result.exact[0]);
 }
 
 }  // namespace

@@ -142,6 +142,43 @@ TEST(PlanarLab, RefusesWhatItCannotDoWithTheRange) {
         {"1 or 2", [](auto& e) { e.exponentials = 3; }},
         {"[0, 71]", [](auto& e) { e.modes = 72; }},
         {"guide albedo", [](auto& e) { e.guide_albedo = -0.1; }},
+        {"1 to 72", [](auto& e) { e.adjoint = PlanarModes(); }},
+        {"longest first",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 0, {1}}, {2, 1, 0, {1}}}};
+         }},
+        {"every direction",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 0, {0.5, 1}}}};
+         }},
+        {"every direction",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, -1, 0, {1}}}};
+         }},
+        {"grows",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 1, {1}}}};
+         }},
+        {"coefficients",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 0, {}}}};
+         }},
+        {"finite",
+         [=](auto& e) {
+             e.adjoint = PlanarModes{{{1, nan, 0, {1}}}};
+         }},
+        {"length",
+         [=](auto& e) {
+             e.adjoint = PlanarModes{{{nan, 1, 0, {1}}}};
+         }},
+        {"alone",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 0, {1}}}}, e.sampler = "boundary";
+         }},
+        {"one channel",
+         [](auto& e) {
+             e.adjoint = PlanarModes{{{1, 1, 0, {1}}}}, e.albedo = {0.5, 0.5, 0.5};
+         }},
         {"analog classical", [](auto& e) { e.sampler = "perfect"; }},
         {"analog",
          [](auto& e) {

@@ -19,7 +19,7 @@ struct HalfspaceOptions {
 
 void refuse_what_the_table_varies(const CLI::App& command) {
     for (const char* varied : {"--albedo", "--extinction", "--sampler", "--stretch", "--first-flight", "--exponentials",
-                               "--moments", "--modes", "--guide-albedo"}) {
+                               "--moments", "--modes", "--adjoint", "--guide-albedo"}) {
         if (command.count(varied) > 0) {
             throw InputError(std::string("--table runs all samplers at albedos of its own: leave out ") + varied);
         }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 namespace wend {
@@ -104,6 +105,36 @@ CLI::Option* add_channels(CLI::App& command, const std::string& option, std::vec
     return command.add_option_function<std::string>(option, set, help)->type_name("NUMBER[,NUMBER,NUMBER]");
 }
 
+/// Lines of numbers with commas between them; empty ones and those that begin with # are left out.
+std::vector<std::vector<double>> read_rows(const std::string& file) {
+    std::ifstream lines(file);
+    if (!lines) {
+        throw InputError({file}, "cannot be read");
+    }
+    constexpr std::size_t most_rows = 1000;
+    std::vector<std::vector<double>> rows;
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        if (line.empty() || line[0] == '#') {
+            continue;
+        }
+        const Place place{file, number};
+        if (rows.size() == most_rows) {
+            throw InputError(place, fmt::format("more than {} rows", most_rows));
+        }
+        rows.emplace_back();
+        for (const std::string& part : split_list(line)) {
+            double value = 0;
+            if (!CLI::detail::lexical_cast(part, value)) {
+                throw InputError(place, fmt::format("'{}' is no number", part));
+            }
+            rows.back().push_back(value);
+        }
+    }
+    return rows;
+}
+
 void add_medium(CLI::App& command, PlanarExperiment& e) {
     const char* group = "Medium";
     add_channels(command, "--albedo", e.albedo,
@@ -151,6 +182,14 @@ void add_sampler(CLI::App& command, PlanarExperiment& e) {
         ->group(group);
     add_number(command, "--guide-albedo", e.guide_albedo, "guide as if the albedo were this one (grey media)")
         ->group(group);
+    const auto set_adjoint = [&e](const std::string& file) { e.adjoint = planar_adjoint(read_rows(file)); };
+    command
+        .add_option_function<std::string>(
+            "--adjoint", set_adjoint,
+            "of 'modes': an adjoint of your own, a line each mode, longest first: its length, amplitudes at the near "
+            "and the far side, and Legendre coefficients of its shape")
+        ->type_name("FILE")
+        ->group(group);
     add_choice(command, "--window", windows, e.window,
                "roulette and splitting by weight times adjoint, or by the weight alone")
         ->group(group);
@@ -186,8 +225,31 @@ PlanarRun PlanarOptions::run() const {
     return {walks, common.seed.value_or(0), common.threads};
 }
 
+PlanarModes planar_adjoint(const std::vector<std::vector<double>>& rows) {
+    constexpr std::size_t before_shape = 3;
+    PlanarModes modes;
+    for (const std::vector<double>& row : rows) {
+        if (row.size() <= before_shape) {
+            throw InputError(fmt::format(
+                "mode {} of the adjoint: {} numbers, expected length, two amplitudes, and a shape of one or more",
+                modes.modes.size() + 1, row.size()));
+        }
+        modes.modes.push_back({row[0], row[1], row[2], {row.begin() + before_shape, row.end()}});
+    }
+    return modes;
+}
+
 nlohmann::json planar_settings(const PlanarExperiment& e, const PlanarRun& run) {
     const std::string incidence = name_of(incidences, e.mu0);
+    nlohmann::json adjoint(nullptr);
+    if (e.adjoint) {
+        for (const PlanarModes::Mode& mode : e.adjoint->modes) {
+            adjoint.push_back({json_number(mode.length), mode.near, mode.far});
+            for (const double coefficient : mode.shape) {
+                adjoint.back().push_back(coefficient);
+            }
+        }
+    }
     return {{"albedo", e.albedo},
             {"extinction", e.extinction},
             {"g", e.g},
@@ -203,6 +265,7 @@ nlohmann::json planar_settings(const PlanarExperiment& e, const PlanarRun& run) 
             {"exponentials", e.exponentials},
             {"moments", name_of(moments, e.moments)},
             {"modes", e.modes},
+            {"adjoint", adjoint},
             {"guide_albedo", e.guide_albedo ? nlohmann::json(*e.guide_albedo) : nlohmann::json(nullptr)},
             {"window", name_of(windows, e.window)},
             {"seed", run.seed},
@@ -220,6 +283,9 @@ std::string sampler_text(const PlanarExperiment& e) {
         return e.exponentials == 2                         ? "boundary, 2 exponentials"
                : e.moments == MatchedMoments::zeroth_first ? "boundary, moments 0 and 1"
                                                            : "boundary, moments 1 and 2";
+    }
+    if (e.adjoint) {
+        return fmt::format("modes, {} of one's own", e.adjoint->modes.size());
     }
     return e.sampler == "modes" ? fmt::format("modes, {} transients", e.modes) : e.sampler;
 }

@@ -5,6 +5,7 @@
 #include <wend/lab/lab.h>
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class Option;
@@ -26,6 +27,11 @@ struct PlanarOptions {
 
     PlanarRun run() const;
 };
+
+/// An adjoint of one's own, a row each mode: length, amplitudes at the near and at the far side, and one or more
+/// Legendre coefficients of its shape (PlanarModes). Throws InputError for shorter rows; what else is wrong with it is
+/// for the experiment to say.
+PlanarModes planar_adjoint(const std::vector<std::vector<double>>& rows);
 
 /// The experiment and the run as the "settings" key of results has them.
 nlohmann::json planar_settings(const PlanarExperiment& experiment, const PlanarRun& run);

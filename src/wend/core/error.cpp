@@ -7,6 +7,8 @@ std::string to_string(const Place& place) {
     if (place.line > 0) {
         text += ':';
         text += std::to_string(place.line);
+    }
+    if (place.line > 0 && place.column > 0) {
         text += ':';
         text += std::to_string(place.column);
     }

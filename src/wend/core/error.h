@@ -8,7 +8,7 @@
 
 namespace wend {
 
-/// A position in a file that a user wrote. Line and column count from 1; 0 means "the whole file".
+/// A position in a file that a user wrote. Line and column count from 1; 0 means the whole file, or the whole line.
 struct Place {
     std::string file;  ///< as the user named it
     int line = 0;      ///< from 1

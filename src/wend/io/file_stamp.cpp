@@ -40,9 +40,9 @@ std::vector<FileStamp> stamps_of(std::span<const std::filesystem::path> files, c
     return stamps;
 }
 
-FileStamp stamp_of(const std::string& text, const std::string& name) {
-    const uLong checksum = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(text.data()), text.size());
-    return {name, text.size(), static_cast<std::uint32_t>(checksum)};
+FileStamp stamp_of(std::string_view bytes, const std::string& name) {
+    const uLong checksum = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    return {name, bytes.size(), static_cast<std::uint32_t>(checksum)};
 }
 
 std::string digest_of(std::span<const FileStamp> stamps) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wend {
@@ -22,8 +23,8 @@ struct FileStamp {
 /// for one that cannot be read.
 std::vector<FileStamp> stamps_of(std::span<const std::filesystem::path> files, const std::filesystem::path& folder);
 
-/// Of a text that is no file.
-FileStamp stamp_of(const std::string& text, const std::string& name);
+/// Of bytes that are no file.
+FileStamp stamp_of(std::string_view bytes, const std::string& name);
 
 /// 16 hexadecimal digits for all of them.
 std::string digest_of(std::span<const FileStamp> stamps);

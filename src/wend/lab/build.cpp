@@ -4,18 +4,56 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace wend::planar_build {
 namespace {
 
 /// Thicker slabs transmit less than a double can say.
 constexpr double thickest = 600;
+/// Of a mode of a caller's own adjoint.
+constexpr std::size_t most_shape_coefficients = 256;
 
 void require(bool condition, const std::string& message) {
     if (!condition) {
         throw InputError(message);
     }
+}
+
+/// Of a caller's own adjoint: PlanarAdjoint::keep_positive makes what is left of it one that can be sampled.
+void validate_adjoint(const PlanarExperiment& e) {
+    const std::vector<PlanarModes::Mode>& modes = e.adjoint->modes;
+    require(e.sampler == "modes", "an adjoint is followed by the sampler 'modes' alone");
+    require(e.albedo.size() == 1, "an adjoint is for one channel");
+    require(!e.guide_albedo, "give an adjoint, or the albedo that one is made for");
+    require(!modes.empty() && modes.size() <= PlanarAdjoint::max_modes,
+            fmt::format("adjoint: {} modes, expected 1 to {}", modes.size(), PlanarAdjoint::max_modes));
+    const auto is_plain = [](double x) { return std::abs(x) <= 1e30; };  // neither infinite nor NaN
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+        const PlanarModes::Mode& mode = modes[k];
+        const std::string name = fmt::format("mode {} of the adjoint: ", k + 1);
+        require(mode.length > 0, name + "expected a positive length");
+        require(is_plain(mode.near) && is_plain(mode.far), name + "its amplitudes are not finite");
+        require(mode.far == 0 || !std::isinf(e.thickness), name + "in a half-space nothing grows with depth");
+        require(!mode.shape.empty() && mode.shape.size() <= most_shape_coefficients &&
+                    std::all_of(mode.shape.begin(), mode.shape.end(), is_plain),
+                name + fmt::format("expected 1 to {} finite coefficients of its shape", most_shape_coefficients));
+    }
+    // What has no part of it that is positive everywhere cannot be made positive, and would leave directions out.
+    require(
+        std::is_sorted(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.length > b.length; }),
+        "the modes of an adjoint must come longest first");
+    const PlanarModes::Mode& longest = modes.front();
+    bool is_positive = longest.near >= 0 && longest.far >= 0 && longest.near + longest.far > 0;
+    constexpr int cosines = 256;
+    std::vector<double> p(longest.shape.size());
+    for (int i = 0; i <= cosines; ++i) {
+        legendre_polynomials(2.0 * i / cosines - 1, p);
+        is_positive &= std::inner_product(p.begin(), p.end(), longest.shape.begin(), 0.0) > 0;
+    }
+    require(is_positive, "the longest mode of an adjoint must be positive in every direction");
 }
 
 }  // namespace
@@ -60,6 +98,9 @@ void validate(const PlanarExperiment& e) {
             message += ' ' + name;
         }
         throw InputError(message);
+    }
+    if (e.adjoint) {
+        validate_adjoint(e);
     }
     if (e.albedo.size() > 1) {
         require(e.sampler != "analog", "analog walks have one albedo: what would absorb one channel and not another?");
@@ -130,7 +171,8 @@ std::function<double(double)> asymptotic_radiance(double albedo, double g, doubl
 
 std::unique_ptr<PlanarAdjoint> make_guide(const PlanarExperiment& e, double albedo, const PlanarSlab& slab) {
     const bool few = e.sampler == "boundary";
-    PlanarModes modes = solve_planar(make_problem(albedo, e.g, slab, few ? reference_transients : e.modes));
+    PlanarModes modes =
+        e.adjoint ? *e.adjoint : solve_planar(make_problem(albedo, e.g, slab, few ? reference_transients : e.modes));
     if (few) {
         const bool lit_at_far = heading_of(e) == Heading::far;
         modes = e.exponentials == 1 ? match_one_exponential(modes, slab.thickness, lit_at_far, e.moments)

@@ -1,6 +1,7 @@
 // The one-dimensional laboratory: half-spaces and slabs, where the exact answer is known and a sampler can be judged.
 #pragma once
 
+#include <wend/planar/adjoint.h>
 #include <wend/planar/half_space.h>
 #include <wend/planar/moment_match.h>
 #include <wend/stats/moments.h>
@@ -37,6 +38,7 @@ struct PlanarExperiment {
     int exponentials = 1;                               ///< of `boundary`: 1 or 2
     MatchedMoments moments = MatchedMoments::zeroth_first;
     int modes = 8;                       ///< transients of `modes` beside the discrete mode, 0 to 71
+    std::optional<PlanarModes> adjoint;  ///< what `modes` follows in place of the medium's own (grey media)
     std::optional<double> guide_albedo;  ///< a guide made for another albedo than the medium's (grey media)
     PlanarWindow window = PlanarWindow::none;
 };

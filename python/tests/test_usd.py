@@ -1,0 +1,361 @@
+"""Stages of USD: what cameras see, what lights give by their specification, shapes, materials, instances."""
+
+import math
+import subprocess
+import sys
+import warnings
+
+import numpy as np
+import pytest
+import wend
+
+pytest.importorskip("pxr", reason="usd-core is absent")
+pytestmark = pytest.mark.filterwarnings("ignore:.*no light:wend.SceneWarning")
+
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt  # noqa: E402
+
+import wend.usd  # noqa: E402
+
+
+class Stage:
+    """A stage in a file, with a camera at the origin that looks along -z and sees 90 degrees across."""
+
+    def __init__(self, folder):
+        self.file = folder / "stage.usda"
+        self.stage = Usd.Stage.CreateNew(str(self.file))
+        camera = UsdGeom.Camera.Define(self.stage, "/camera")
+        camera.CreateHorizontalApertureAttr(20)
+        camera.CreateVerticalApertureAttr(20)
+        camera.CreateFocalLengthAttr(10)
+        self.camera = camera
+
+    def read(self, *, size=(9, 9), spp=16, **options):
+        self.stage.GetRootLayer().Save()
+        return wend.usd.read(self.file, resolution=size, spp=spp, **options)
+
+    def image(self, **options):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", wend.SceneWarning)
+            return wend.render(self.read(**options).scene(), sampling="classical", progress=False).image.copy()
+
+    def look(self, towards):
+        """The camera looks along +-x, +-y or +z."""
+        degrees = {"+x": (0, -90, 0), "-x": (0, 90, 0), "+y": (90, 0, 0), "-y": (-90, 0, 0), "+z": (0, 180, 0)}[towards]
+        UsdGeom.XformCommonAPI(self.camera).SetRotate(Gf.Vec3f(*degrees))
+
+    def lamp(self, kind, place=(0, 0, -3), turn=(0, 180, 0), scale=(1, 1, 1), **inputs):
+        """By default it shines at the camera."""
+        prim = self.stage.DefinePrim("/lamp", kind)
+        api = UsdGeom.XformCommonAPI(prim)
+        api.SetTranslate(Gf.Vec3d(*place))
+        api.SetRotate(Gf.Vec3f(*turn))
+        api.SetScale(Gf.Vec3f(*scale))
+        for name, value in inputs.items():
+            prim.GetAttribute(f"inputs:{name}").Set(value)
+        return prim
+
+    def card(self, colour=(0.5, 0.5, 0.5), distance=2.0, half=10.0, path="/card"):
+        mesh = UsdGeom.Mesh.Define(self.stage, path)
+        h, z = half, -distance
+        mesh.CreatePointsAttr([(-h, -h, z), (h, -h, z), (h, h, z), (-h, h, z)])
+        mesh.CreateFaceVertexCountsAttr([4])
+        mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+        mesh.CreateSubdivisionSchemeAttr("none")
+        mesh.CreateDisplayColorAttr([colour])
+        return mesh
+
+
+@pytest.fixture
+def stage(tmp_path):
+    return Stage(tmp_path)
+
+
+def middle(image):
+    return image[image.shape[0] // 2, image.shape[1] // 2]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inputs", "scale", "area"),
+    [
+        ("RectLight", {"width": 2.0, "height": 3.0}, (1, 1, 1), 6),
+        ("RectLight", {"width": 2.0, "height": 3.0}, (2, 0.5, 3), 6),
+        ("RectLight", {"width": 2.0, "height": 3.0}, (2, 1, 1), 12),
+        ("DiskLight", {"radius": 1.5}, (1, 1, 1), math.pi * 2.25),
+        ("DiskLight", {"radius": 1.5}, (2, 2, 1), math.pi * 9),
+        ("SphereLight", {"radius": 1.5}, (1, 1, 1), 4 * math.pi * 2.25),
+        ("SphereLight", {"radius": 0.75}, (2, 2, 2), 4 * math.pi * 2.25),
+        ("CylinderLight", {"radius": 1.0, "length": 3.0}, (1, 1, 1), 6 * math.pi),
+    ],
+)
+def test_area_lights_have_the_radiance_of_their_specification(stage, kind, inputs, scale, area):
+    stage.lamp(kind, scale=scale, color=Gf.Vec3f(1, 0.5, 0.25), intensity=3.0, exposure=2.0, **inputs)
+    assert middle(stage.image()) == pytest.approx((12, 6, 3), rel=1e-4)
+    stage.stage.GetPrimAtPath("/lamp").GetAttribute("inputs:normalize").Set(True)
+    assert middle(stage.image()) == pytest.approx(np.array((12, 6, 3)) / area, rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", ["RectLight", "DiskLight"])
+def test_flat_lights_shine_along_minus_z_alone(stage, kind):
+    stage.lamp(kind, turn=(0, 0, 0), intensity=3.0, **({"radius": 2.0} if kind == "DiskLight" else {"width": 4.0, "height": 4.0}))
+    assert middle(stage.image()) == pytest.approx((0, 0, 0), abs=1e-6)
+
+
+def test_distant_lights_give_their_irradiance(stage):
+    stage.card()
+    prim = stage.lamp("DistantLight", turn=(0, 0, 0), intensity=2 * math.pi, angle=0.5, normalize=True)
+    # Irradiance 2 pi on a matt card of albedo 1/2.
+    assert middle(stage.image(spp=64)) == pytest.approx((1, 1, 1), rel=1e-3)
+    prim.GetAttribute("inputs:normalize").Set(False)
+    prim.GetAttribute("inputs:intensity").Set(1000.0)
+    expected = 0.5 / math.pi * 1000 * math.pi * math.sin(math.radians(0.25)) ** 2
+    assert middle(stage.image(spp=64)) == pytest.approx(np.full(3, expected), rel=1e-3)
+
+
+def test_a_sphere_that_is_a_point_has_its_intensity(stage):
+    stage.card()
+    stage.lamp("SphereLight", place=(0, 0, 0.5), turn=(0, 0, 0), radius=0.1, intensity=100.0)
+    prim = stage.stage.GetPrimAtPath("/lamp")
+    prim.GetAttribute("treatAsPoint").Set(True)
+    # Radiance 100 over a disc of radius 0.1, at 2.5 from the card.
+    expected = 0.5 / math.pi * 100 * math.pi * 0.01 / 2.5**2
+    assert middle(stage.image(spp=64, size=(91, 91))) == pytest.approx(np.full(3, expected), rel=2e-3)
+    UsdLux.ShapingAPI.Apply(prim).CreateShapingConeAngleAttr(20)
+    UsdLux.ShapingAPI(prim).CreateShapingConeSoftnessAttr(0.1)
+    image = stage.image(spp=16, size=(91, 91))
+    assert middle(image) == pytest.approx(np.full(3, expected), rel=2e-3)
+    assert image[2, 2] == pytest.approx((0, 0, 0), abs=1e-9)
+
+
+def test_temperatures_colour_lights(stage):
+    stage.lamp("RectLight", width=4.0, height=4.0, intensity=2.0, enableColorTemperature=True, colorTemperature=3000.0)
+    red, _, blue = middle(stage.image())
+    assert red > 3 * blue > 0
+    seen = middle(stage.image())
+    assert 0.2126 * seen[0] + 0.7152 * seen[1] + 0.0722 * seen[2] == pytest.approx(2, rel=0.02)
+
+
+@pytest.mark.parametrize(("towards", "colour"), [("+z", 0), ("+x", 1), ("+y", 2), ("-x", 3)])
+def test_domes_are_turned_as_openexr_says(stage, tmp_path, towards, colour):
+    colours = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0.5, 0)], dtype=np.float32)
+    picture = np.zeros((64, 128, 3), dtype=np.float32)
+    picture[:, 56:72] = colours[0]  # the middle: longitude 0, +z
+    picture[:, 24:40] = colours[1]  # longitude pi / 2, +x
+    picture[:, 88:104] = colours[3]
+    picture[:10] = colours[2]
+    wend.Film.of(picture).save(tmp_path / "sky.exr")
+    prim = stage.stage.DefinePrim("/sky", "DomeLight")
+    prim.GetAttribute("inputs:texture:file").Set(Sdf.AssetPath(str(tmp_path / "sky.exr")))
+    prim.GetAttribute("inputs:intensity").Set(3.0)
+    stage.look(towards)
+    assert middle(stage.image()) == pytest.approx(3 * colours[colour], abs=1e-3)
+
+
+def test_cameras_see_what_usd_says(stage):
+    # A bright card of 0.2 x 0.2 at a known place, right of and above the middle.
+    card = stage.card(half=0.1, path="/mark")
+    UsdGeom.XformCommonAPI(card).SetTranslate(Gf.Vec3d(1.0, 0.5, 0))
+    material = UsdShade.Material.Define(stage.stage, "/m")
+    shader = UsdShade.Shader.Define(stage.stage, "/m/s")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set((5, 5, 5))
+    material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(card.GetPrim()).Bind(material)
+
+    def centre(**options):
+        image = stage.image(**options)[:, :, 1]
+        y, x = np.nonzero(image > 1)
+        return (x.mean() + 0.5) / image.shape[1], (y.mean() + 0.5) / image.shape[0]
+
+    # At distance 2 the half width is 2.
+    assert centre(size=(160, 160)) == pytest.approx((0.75, 0.375), abs=0.01)
+    # A wider picture sees more at the sides.
+    assert centre(size=(320, 160)) == pytest.approx((0.625, 0.375), abs=0.01)
+    assert centre(size=(160, 320)) == pytest.approx((0.75, 0.4375), abs=0.01)
+    stage.camera.CreateHorizontalApertureOffsetAttr(5)
+    assert centre(size=(160, 160)) == pytest.approx((0.5, 0.375), abs=0.01)
+    stage.camera.CreateHorizontalApertureOffsetAttr(0)
+    stage.camera.CreateProjectionAttr("orthographic")
+    stage.camera.CreateHorizontalApertureAttr(40)
+    stage.camera.CreateVerticalApertureAttr(40)
+    # Four units across.
+    assert centre(size=(160, 160)) == pytest.approx((0.75, 0.375), abs=0.01)
+
+
+def coverage(stage, size=(80, 80)):
+    """The share of the picture that black things take before a white sky."""
+    sky = stage.stage.DefinePrim("/sky", "DomeLight")
+    sky.GetAttribute("inputs:intensity").Set(1.0)
+    return 1 - float(stage.image(size=size, spp=64)[:, :, 0].mean())
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "share"),
+    [
+        # At distance 10 the picture is 20 across.
+        ("Cube", {"size": 4.0}, 16 / 400 * (10 / 8) ** 2),
+        ("Sphere", {"radius": 2.0}, math.pi * 4 / 400 * 100 / 96),
+        ("Cylinder", {"radius": 2.0, "height": 0.01}, math.pi * 4 / 400),
+        ("Plane", {"width": 4.0, "length": 2.0}, 8 / 400),
+        ("Cone", {"radius": 2.0, "height": 0.01}, math.pi * 4 / 400),
+        ("Capsule", {"radius": 2.0, "height": 0.01}, math.pi * 4 / 400 * 100 / 96),
+    ],
+)
+def test_primitives_have_their_sizes(stage, kind, values, share):
+    prim = stage.stage.DefinePrim("/thing", kind)
+    for name, value in values.items():
+        prim.GetAttribute(name).Set(value)
+    UsdGeom.XformCommonAPI(prim).SetTranslate(Gf.Vec3d(0, 0, -10))
+    UsdGeom.Gprim(prim).CreateDisplayColorAttr([(0, 0, 0)])
+    assert coverage(stage, (160, 160)) == pytest.approx(share, rel=0.04)
+
+
+def test_faces_keep_their_materials_and_their_holes(stage):
+    mesh = UsdGeom.Mesh.Define(stage.stage, "/mesh")
+    x = [-2, -1, 0, 1, 2]
+    mesh.CreatePointsAttr([(a, b, -2) for b in (-2, 2) for a in x])
+    mesh.CreateFaceVertexCountsAttr([4, 4, 4, 4])
+    mesh.CreateFaceVertexIndicesAttr([k + d for k in range(4) for d in (0, 1, 6, 5)])
+    mesh.CreateSubdivisionSchemeAttr("none")
+    mesh.CreateHoleIndicesAttr([3])
+    for k, colour in enumerate([(2, 0, 0), (0, 3, 0)]):
+        material = UsdShade.Material.Define(stage.stage, f"/m{k}")
+        shader = UsdShade.Shader.Define(stage.stage, f"/m{k}/s")
+        shader.CreateIdAttr("UsdPreviewSurface")
+        shader.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(colour)
+        shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((0, 0, 0))
+        material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+        if k == 0:
+            subset = UsdGeom.Subset.CreateGeomSubset(mesh, "part", UsdGeom.Tokens.face, Vt.IntArray([1]), "materialBind")
+            UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(material)
+        else:
+            UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+    image = stage.image(size=(32, 32))[16]
+    for column, (red, green) in zip((4, 12, 20), ((0, 3), (2, 0), (0, 3))):
+        assert image[column][0] >= red and (image[column][0] < 1) == (red == 0)
+        assert image[column][1] >= green and (image[column][1] < 1) == (green == 0)
+    assert image[28] == pytest.approx((0, 0, 0), abs=1e-6)
+
+
+def test_textures_lie_as_usd_has_them(stage, tmp_path):
+    picture = np.zeros((32, 32, 3), dtype=np.float32)
+    picture[:16] = (0.8, 0.1, 0.1)  # the upper half
+    picture[16:] = (0.1, 0.1, 0.8)
+    wend.Film.of(picture).save(tmp_path / "map.exr")
+    card = stage.card(half=2, distance=2)
+    UsdGeom.PrimvarsAPI(card).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "faceVarying").Set(
+        [(0, 0), (1, 0), (1, 1), (0, 1)]
+    )
+    material = UsdShade.Material.Define(stage.stage, "/m")
+    shader = UsdShade.Shader.Define(stage.stage, "/m/s")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    texture = UsdShade.Shader.Define(stage.stage, "/m/t")
+    texture.CreateIdAttr("UsdUVTexture")
+    texture.CreateInput("file", Sdf.ValueTypeNames.Asset).Set("map.exr")
+    texture.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set("raw")
+    texture.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).ConnectToSource(texture.ConnectableAPI(), "rgb")
+    material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(card.GetPrim()).Bind(material)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    image = stage.image(size=(8, 8), spp=64)
+    assert image[1, 4][0] > 2 * image[1, 4][2] and image[6, 4][2] > 2 * image[6, 4][0]
+
+
+def test_instances_are_where_they_are_put(stage):
+    root = UsdGeom.Xform.Define(stage.stage, "/things")
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/things/copies")
+    cube = UsdGeom.Cube.Define(stage.stage, "/things/copies/cube")
+    cube.CreateSizeAttr(1)
+    cube.CreateDisplayColorAttr([(0, 0, 0)])
+    UsdGeom.XformCommonAPI(cube).SetScale(Gf.Vec3f(2, 2, 0.01))
+    instancer.CreatePrototypesRel().AddTarget(cube.GetPath())
+    instancer.CreateProtoIndicesAttr([0, 0, 0])
+    instancer.CreatePositionsAttr([(-5, 0, 0), (5, 5, 0), (0, 0, 0)])
+    instancer.CreateInvisibleIdsAttr([2])
+    UsdGeom.XformCommonAPI(root).SetTranslate(Gf.Vec3d(0, 0, -10))
+    assert coverage(stage) == pytest.approx(2 * 4 / 400, rel=0.05)
+    image = stage.image(size=(80, 80))[:, :, 0]
+    assert image[40, 20] < 0.9 and image[20, 60] < 0.9 and image[40, 40] > 0.9
+
+
+@pytest.mark.parametrize("basis", ["linear", "bspline", "catmullRom", "bezier"])
+def test_curves_have_their_width(stage, basis):
+    curves = UsdGeom.BasisCurves.Define(stage.stage, "/hair")
+    curves.CreateTypeAttr("linear" if basis == "linear" else "cubic")
+    if basis != "linear":
+        curves.CreateBasisAttr(basis)
+    curves.CreateCurveVertexCountsAttr([7])
+    curves.CreatePointsAttr([(0, y, -10) for y in (-9, -6, -3, 0, 3, 6, 9)])
+    curves.CreateWidthsAttr([1.0])
+    curves.CreateDisplayColorAttr([(0, 0, 0)])
+    length = {"linear": 18, "bspline": 12, "catmullRom": 12, "bezier": 18}[basis]
+    assert coverage(stage, (160, 160)) == pytest.approx(length / 400, rel=0.08)
+
+
+def test_what_is_hidden_or_a_guide_is_not_seen(stage):
+    for k, (visible, purpose) in enumerate([("invisible", "default"), ("inherited", "guide"), ("inherited", "proxy")]):
+        sphere = UsdGeom.Sphere.Define(stage.stage, f"/s{k}")
+        sphere.CreateVisibilityAttr(visible)
+        sphere.CreatePurposeAttr(purpose)
+        UsdGeom.XformCommonAPI(sphere).SetTranslate(Gf.Vec3d(0, 0, -5))
+    assert coverage(stage) == 0
+
+
+def test_frames_are_those_of_the_time(stage):
+    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
+    place = cube.AddTranslateOp()
+    place.Set(Gf.Vec3d(-5, 0, -10), 1)
+    place.Set(Gf.Vec3d(5, 0, -10), 3)
+    stage.stage.SetStartTimeCode(1)
+    stage.stage.SetEndTimeCode(3)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    cube.CreateDisplayColorAttr([(0, 0, 0)])
+
+    def column(**options):
+        return np.nonzero(stage.image(size=(80, 80), **options)[40, :, 0] < 0.9)[0].mean()
+
+    assert column() == pytest.approx(20, abs=2)
+    assert column(time=2) == pytest.approx(39.5, abs=2)
+
+
+def test_volumes_are_named_with_their_files(stage):
+    volume = UsdVol.Volume.Define(stage.stage, "/smoke")
+    field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")
+    field.CreateFilePathAttr("smoke.vdb")
+    field.CreateFieldNameAttr("d")
+    volume.CreateFieldRelationship("density", field.GetPath())
+    volume.CreateExtentAttr([(-1, -1, -1), (1, 2, 3)])
+    with pytest.warns(wend.SceneWarning, match="/smoke: warning: a volume scatters"):
+        text = stage.read().text()
+    assert '"string filename" [ "smoke.vdb" ]' in text and '"string gridname" [ "d" ]' in text
+
+
+def test_what_is_wrong_is_named(stage, tmp_path):
+    broken = tmp_path / "broken.usda"
+    broken.write_text("#usda 1.0\ndef Sphere {\n")
+    for file in (broken, tmp_path / "absent.usda"):
+        with pytest.raises(wend.InputError, match=file.name):
+            wend.usd.read(file)
+    with pytest.raises(wend.InputError, match="/nowhere"):
+        stage.read(camera="/nowhere")
+    mesh = UsdGeom.Mesh.Define(stage.stage, "/mesh")
+    mesh.CreatePointsAttr([(0, 0, 0)])
+    mesh.CreateFaceVertexCountsAttr([3])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
+    with pytest.warns(wend.SceneWarning, match="/mesh: warning: a mesh whose faces"):
+        stage.read()
+
+
+def test_the_command_renders_and_writes(stage, tmp_path):
+    stage.card()
+    stage.lamp("SphereLight", place=(0, 0, 0.5), radius=0.1, intensity=100.0)
+    stage.stage.GetRootLayer().Save()
+    scene, picture = tmp_path / "scene.pbrt", tmp_path / "a.exr"
+    command = [sys.executable, "-m", "wend.usd", str(stage.file), "-o", str(scene), "--render", str(picture)]
+    done = subprocess.run([*command, "--resolution", "24x16", "--spp", "4"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    again = wend.render(wend.load(scene), progress=False)
+    assert np.array_equal(again.image, wend.read(picture).image)
+    assert subprocess.run([*command, "--resolution", "x"], capture_output=True).returncode == 2
+    missing = subprocess.run([command[0], "-m", "wend.usd", "absent.usda", "-o", "x.pbrt"], capture_output=True, text=True)
+    assert missing.returncode == 2 and "absent.usda" in missing.stderr

@@ -1,0 +1,242 @@
+"""Geometry of USD as arrays of the renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from pxr import UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+Parameters = dict[str, Any]
+
+
+def mesh_parts(reader: Any, prim: Any) -> Iterator[tuple[Any, tuple[str, Parameters]]]:
+    """The mesh, in the parts that materials are bound to: what is bound to, and the shape."""
+    mesh = UsdGeom.Mesh(prim)
+    time = reader.time
+    points = np.array(mesh.GetPointsAttr().Get(time) or [], dtype=np.float32).reshape(-1, 3)
+    counts = np.array(mesh.GetFaceVertexCountsAttr().Get(time) or [], dtype=np.int64)
+    corners = np.array(mesh.GetFaceVertexIndicesAttr().Get(time) or [], dtype=np.int64)
+    if not len(counts):
+        return
+    if counts.min() < 0 or counts.sum() != len(corners) or corners.min() < 0 or corners.max() >= len(points):
+        reader.warn(prim, "a mesh whose faces are not of its points is left out")
+        return
+    scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
+    if scheme != UsdGeom.Tokens.none:
+        reader.warn(prim, f"a {scheme} surface is taken as its control mesh, with smooth normals")
+    triangles, faces = _triangulate(counts)
+    if mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded:
+        triangles = triangles[:, ::-1]
+    keep = np.ones(len(counts), dtype=bool)
+    keep[np.array(mesh.GetHoleIndicesAttr().Get(time) or [], dtype=np.int64)] = False
+
+    values = {}
+    normals = _normals(mesh, time) if scheme == UsdGeom.Tokens.none else None
+    if normals is not None:
+        values["normal3 N"] = normals
+    elif scheme != UsdGeom.Tokens.none:
+        values["normal3 N"] = (_smooth_normals(points, corners[triangles]), UsdGeom.Tokens.vertex)
+    coordinates = _coordinates(prim, time)
+    if coordinates is not None:
+        values["point2 uv"] = coordinates
+    sizes = {
+        UsdGeom.Tokens.constant: 1,
+        UsdGeom.Tokens.uniform: len(counts),
+        UsdGeom.Tokens.vertex: len(points),
+        UsdGeom.Tokens.varying: len(points),
+        UsdGeom.Tokens.faceVarying: len(corners),
+    }
+    for name in list(values):
+        array, kind = values[name]
+        if sizes.get(kind) != len(array):
+            reader.warn(prim, f"{name.split()[1]} of another number than the mesh has are left out")
+            del values[name]
+
+    subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
+    parts = []
+    rest = keep.copy()
+    for subset in subsets:
+        chosen = np.zeros(len(counts), dtype=bool)
+        indices = np.array(subset.GetIndicesAttr().Get(time) or [], dtype=np.int64)
+        chosen[indices[(indices >= 0) & (indices < len(counts))]] = True
+        parts.append((subset.GetPrim(), chosen & keep))
+        rest &= ~chosen
+    parts.append((prim, rest))
+    for bound, chosen in parts:
+        selected = chosen[faces]
+        if selected.any():
+            yield bound, ("trianglemesh", _mesh(points, corners, triangles[selected], faces[selected], values))
+
+
+def _mesh(
+    points: npt.NDArray[np.float32],
+    corners: npt.NDArray[np.int64],
+    triangles: npt.NDArray[np.int64],
+    faces: npt.NDArray[np.int64],
+    values: dict[str, tuple[npt.NDArray[np.float32], str]],
+) -> Parameters:
+    """`triangles` count corners. Points stay shared where every value is one of a point."""
+    vertices = corners[triangles]
+    if all(kind in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying) for _, kind in values.values()):
+        parameters: Parameters = {"point3 P": points, "integer indices": vertices.astype(np.int32)}
+        return parameters | {name: array for name, (array, _) in values.items()}
+    flat = vertices.reshape(-1)
+    parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32)}
+    of_corner = {
+        UsdGeom.Tokens.constant: np.zeros(len(flat), dtype=np.int64),
+        UsdGeom.Tokens.uniform: np.repeat(faces, 3),
+        UsdGeom.Tokens.vertex: flat,
+        UsdGeom.Tokens.varying: flat,
+        UsdGeom.Tokens.faceVarying: triangles.reshape(-1),
+    }
+    return parameters | {name: array[of_corner[kind]] for name, (array, kind) in values.items()}
+
+
+def _triangulate(counts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Fans: of each triangle its corners, counted through all faces, and its face."""
+    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    of_face = np.maximum(counts - 2, 0)
+    faces = np.repeat(np.arange(len(counts)), of_face)
+    step = np.arange(len(faces)) - np.repeat(np.concatenate([[0], np.cumsum(of_face)[:-1]]), of_face)
+    return np.stack([first[faces], first[faces] + step + 1, first[faces] + step + 2], axis=1), faces
+
+
+def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
+    primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
+    if primvar and primvar.HasValue():
+        return np.array(primvar.ComputeFlattened(time), dtype=np.float32).reshape(-1, 3), primvar.GetInterpolation()
+    found = mesh.GetNormalsAttr().Get(time)
+    return (np.array(found, dtype=np.float32).reshape(-1, 3), mesh.GetNormalsInterpolation()) if found else None
+
+
+def _coordinates(prim: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
+    api = UsdGeom.PrimvarsAPI(prim)
+    primvars = [api.GetPrimvar("st"), api.GetPrimvar("UVMap"), *api.GetPrimvarsWithValues()]
+    for primvar in primvars:
+        if primvar and primvar.HasValue() and primvar.GetTypeName().role == "TextureCoordinate":
+            array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
+            if array.ndim == 2 and array.shape[1] == 2:
+                return array, primvar.GetInterpolation()
+    return None
+
+
+def _smooth_normals(points: npt.NDArray[np.float32], triangles: npt.NDArray[np.int64]) -> npt.NDArray[np.float32]:
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    across = np.cross(b - a, c - a)
+    normals = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], across)
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    # A point of no face has no normal; any will do.
+    return np.where(length > 0, normals / np.maximum(length, 1e-30), np.array([0, 0, 1], dtype=np.float32)).astype(np.float32)
+
+
+def box_mesh(low: npt.NDArray[np.float64], high: npt.NDArray[np.float64]) -> Parameters:
+    corner = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    triangles = [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))]
+    return {"point3 P": low + corner * (high - low), "integer indices": np.array(triangles, dtype=np.int32)}
+
+
+def primitive_mesh(prim: Any, time: Any) -> Parameters | None:
+    """A cube, plane, cylinder, cone or capsule; None for another prim."""
+    segments = 64
+    kind = prim.GetTypeName()
+
+    def value(name: str, fallback: float) -> float:
+        found = prim.GetAttribute(name).Get(time)
+        return fallback if found is None else float(found)
+
+    if kind == "Cube":
+        half = value("size", 2) / 2
+        return box_mesh(np.full(3, -half), np.full(3, half))
+    axis = prim.GetAttribute("axis").Get(time) or "Z"
+    if kind == "Plane":
+        x, y = value("width", 2) / 2, value("length", 2) / 2
+        points = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
+        return {"point3 P": _along(points, axis), "integer indices": np.array([0, 1, 2, 0, 2, 3], dtype=np.int32)}
+    radius, half = value("radius", 1), value("height", 2) / 2
+    if kind == "Cylinder":
+        profile = [(0.0, -half), (radius, -half), (radius, half), (0.0, half)]
+    elif kind == "Cone":
+        profile = [(0.0, -half), (radius, -half), (0.0, half)]
+    elif kind == "Capsule":
+        radius, half = value("radius", 0.5), value("height", 1) / 2
+        angles = np.linspace(-np.pi / 2, 0, segments // 4 + 1)
+        bottom = [(radius * np.cos(a), radius * np.sin(a) - half) for a in angles]
+        profile = bottom + [(r, -z) for r, z in reversed(bottom)]
+    else:
+        return None
+    return _turned(np.array(profile), segments, axis)
+
+
+def _turned(profile: npt.NDArray[np.float64], segments: int, axis: str) -> Parameters:
+    """The surface of a profile (radius, height) around the axis, facing outwards for one that goes up."""
+    turn = 2 * np.pi * np.arange(segments) / segments
+    radius, height = profile[:, :1], profile[:, 1:]
+    points = np.stack([radius * np.cos(turn), radius * np.sin(turn), height + 0 * turn], axis=-1).reshape(-1, 3)
+    k, i = np.meshgrid(np.arange(len(profile) - 1), np.arange(segments), indexing="ij")
+    a, b = k * segments + i, k * segments + (i + 1) % segments
+    triangles = np.concatenate([np.stack([a, b, b + segments], -1), np.stack([a, b + segments, a + segments], -1)])
+    triangles = triangles.reshape(-1, 3)
+    p = points[triangles]
+    area = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+    return {"point3 P": _along(points, axis), "integer indices": triangles[area > 0].astype(np.int32)}
+
+
+def _along(points: npt.NDArray[np.float64], axis: str) -> npt.NDArray[np.float64]:
+    """What was made around z, around another axis: the cyclic order of the axes keeps the surface's sides."""
+    return np.roll(points, {"Z": 0, "X": 1, "Y": 2}[axis], axis=-1)
+
+
+def curve_segments(reader: Any, prim: Any) -> Iterator[Parameters]:
+    """Each curve as cubic pieces of pbrt's."""
+    curves = UsdGeom.BasisCurves(prim)
+    time = reader.time
+    points = np.array(curves.GetPointsAttr().Get(time) or [], dtype=np.float64).reshape(-1, 3)
+    counts = np.array(curves.GetCurveVertexCountsAttr().Get(time) or [], dtype=np.int64)
+    if not len(counts) or counts.min() < 2 or counts.sum() != len(points):
+        reader.warn(prim, "curves whose counts are not of their points are left out")
+        return
+    kind = curves.GetTypeAttr().Get(time)
+    basis = "linear" if kind == UsdGeom.Tokens.linear else curves.GetBasisAttr().Get(time)
+    if curves.GetWrapAttr().Get(time) == UsdGeom.Tokens.periodic:
+        reader.warn(prim, "periodic curves are left open")
+    widths = np.array(curves.GetWidthsAttr().Get(time) or [1.0], dtype=np.float64)
+    by_point = len(widths) == len(points)
+    if not by_point and len(widths) > 1:
+        reader.warn(prim, "of widths that are not of the curves' points the mean is taken")
+    first = 0
+    for count in counts:
+        p = points[first : first + count]
+        w = widths[first : first + count] if by_point else np.full(count, widths.mean())
+        first += count
+        yield from _pieces(p, w, basis)
+
+
+#: Control points of a Bézier piece by those of a piece in another basis.
+_TO_BEZIER = {
+    "bspline": np.array([[1, 4, 1, 0], [0, 4, 2, 0], [0, 2, 4, 0], [0, 1, 4, 1]]) / 6,
+    "catmullRom": np.array([[0, 6, 0, 0], [-1, 6, 1, 0], [0, 1, 6, -1], [0, 0, 6, 0]]) / 6,
+    "bezier": np.eye(4),
+}
+
+
+def _pieces(points: npt.NDArray[np.float64], widths: npt.NDArray[np.float64], basis: str) -> Iterator[Parameters]:
+    if basis == "linear" or len(points) < 4:
+        for k in range(len(points) - 1):
+            t = np.linspace(0, 1, 4)[:, None]
+            yield _piece((1 - t) * points[k] + t * points[k + 1], widths[k], widths[k + 1])
+        return
+    step = 3 if basis == "bezier" else 1
+    matrix = _TO_BEZIER[basis]
+    for k in range(0, len(points) - 3, step):
+        width = matrix @ widths[k : k + 4]
+        yield _piece(matrix @ points[k : k + 4], width[0], width[3])
+
+
+def _piece(points: npt.NDArray[np.float64], width0: float, width1: float) -> Parameters:
+    return {"string type": "cylinder", "point3 P": points, "float width0": width0, "float width1": width1}

@@ -1,0 +1,333 @@
+"""USD stages as scenes: `python -m wend.usd stage.usda --render picture.exr`, or `wend.usd.read(path)`.
+
+Wants `usd-core` (`pip install 'wend[usd]'`). Lengths are the stage's. What has no counterpart here is told once for each
+kind, as a `SceneWarning` with the prim's path.
+"""
+
+from __future__ import annotations
+
+import argparse
+import atexit
+import math
+import os
+import shutil
+import sys
+import tempfile
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._builder import SceneBuilder
+from ._errors import InputError, SceneWarning
+
+try:
+    from pxr import Gf, Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
+except ImportError as error:
+    raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
+
+from . import _usd_lights as lights
+from . import _usd_materials as materials
+from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
+
+Matrix = npt.NDArray[np.float64]
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    time: float | None = None,
+    camera: str | None = None,
+    resolution: tuple[int, int] = (640, 360),
+    spp: int = 64,
+    maps: str | os.PathLike[str] | None = None,
+) -> SceneBuilder:
+    """A stage as it is composed, in the terms of the renderer.
+
+    Args:
+        path: a .usda, .usdc, .usd or .usdz file.
+        time: the time code; None: the stage's default values, or its first frame where it has frames.
+        camera: path of the camera's prim; None: the first one, or a view of all there is.
+        resolution: (width, height) of the picture; its shape decides what the camera sees above and below, or at the
+            sides, of its aperture.
+        spp: samples per pixel.
+        maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
+
+    Raises:
+        InputError: for a file that is no stage, or a camera that is not in it.
+
+    Warns:
+        SceneWarning: for what has no counterpart, each kind once, with the path of a prim.
+    """
+    try:
+        stage = Usd.Stage.Open(os.fspath(path))
+    except Tf.ErrorException as error:
+        raise InputError(f"{os.fspath(path)}: error: {_first_line(error)}") from None
+    if time is None and stage.HasAuthoredTimeCodeRange():
+        time = stage.GetStartTimeCode()
+    return _Reader(stage, os.fspath(path), Usd.TimeCode.Default() if time is None else Usd.TimeCode(time), maps).read(
+        camera, resolution, spp
+    )
+
+
+class _Reader:
+    def __init__(self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None) -> None:
+        self.stage = stage
+        self.time = time
+        self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
+        self.transforms = UsdGeom.XformCache(time)
+        self.told: set[str] = set()
+        self.materials: dict[str, materials.Look] = {}
+        self.objects: dict[str, str] = {}
+        self.has_light = False
+        self._maps = None if maps is None else Path(maps)
+
+    # What there is to say, once.
+    def warn(self, prim: Any, text: str) -> None:
+        if text not in self.told:
+            self.told.add(text)
+            warnings.warn(f"{prim.GetPath()}: warning: {text}", SceneWarning, stacklevel=2)
+
+    def map_file(self, name: str) -> str:
+        """A file for a picture that is made for the scene."""
+        if self._maps is None:
+            self._maps = Path(tempfile.mkdtemp(prefix="wend-usd-"))
+            atexit.register(shutil.rmtree, self._maps, ignore_errors=True)
+        self._maps.mkdir(parents=True, exist_ok=True)
+        return str(self._maps / name)
+
+    def read(self, camera: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
+        add = self.builder.add
+        self.camera(camera, resolution)
+        add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
+        add("Sampler", "sobol", {"integer pixelsamples": spp})
+        add("Integrator", "volpath", {"integer maxdepth": 64})
+        add("WorldBegin")
+        for prim in self.prims(self.stage.GetPseudoRoot()):
+            self.add_prim(prim, self.world(prim), in_object=False)
+        if not self.has_light:
+            self.warn(self.stage.GetPseudoRoot(), "no light: a grey sky of radiance 1 is put around")
+            add("LightSource", "infinite", {"rgb L": (1, 1, 1)})
+        return self.builder
+
+    def world(self, prim: Any) -> Matrix:
+        """Rows as USD has them: points are multiplied from the left."""
+        return np.array(self.transforms.GetLocalToWorldTransform(prim))
+
+    def prims(self, root: Any) -> Iterator[Any]:
+        """Those that are to be seen; what an instancer copies is left to it."""
+        walk = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
+        for prim in walk:
+            imageable = UsdGeom.Imageable(prim)
+            if imageable and not prim.IsPseudoRoot():
+                hidden = imageable.GetVisibilityAttr().Get(self.time) == UsdGeom.Tokens.invisible
+                if hidden or imageable.ComputePurpose() not in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render):
+                    walk.PruneChildren()
+                    continue
+            if prim.IsA(UsdGeom.PointInstancer):
+                walk.PruneChildren()
+            yield prim
+
+    def add_prim(self, prim: Any, world: Matrix, in_object: bool) -> None:
+        if prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase):
+            if in_object:
+                self.warn(prim, "a light that is copied by an instancer is left out")
+            else:
+                self.has_light = lights.add(self, prim, world) or self.has_light
+        elif prim.IsA(UsdGeom.Mesh):
+            for part, faces in mesh_parts(self, prim):
+                self.add_shape(prim, part, world, faces, in_object)
+        elif prim.IsA(UsdGeom.BasisCurves):
+            for segment in curve_segments(self, prim):
+                self.add_shape(prim, prim, world, ("curve", segment), in_object)
+        elif prim.IsA(UsdGeom.Sphere):
+            radius = float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(self.time))
+            self.add_shape(prim, prim, world, ("sphere", {"float radius": radius}), in_object)
+        elif prim.IsA(UsdVol.Volume):
+            self.add_volume(prim, world, in_object)
+        elif prim.IsA(UsdGeom.PointInstancer):
+            if in_object:
+                self.warn(prim, "an instancer inside what an instancer copies is left out")
+            else:
+                self.add_instances(prim, world)
+        elif prim.IsA(UsdGeom.Gprim):
+            mesh = primitive_mesh(prim, self.time)
+            if mesh is None:
+                self.warn(prim, f"a {prim.GetTypeName()} is left out")
+            else:
+                self.add_shape(prim, prim, world, ("trianglemesh", mesh), in_object)
+
+    def add_shape(
+        self, prim: Any, bound: Any, world: Matrix, shape: tuple[str, dict[str, Any]], in_object: bool
+    ) -> None:
+        """`bound` is what a material may be bound to: the prim, or a subset of its faces."""
+        kind, parameters = shape
+        with self.builder.block():
+            self.builder.add("Transform", world)
+            look = materials.look_of(self, prim, bound)
+            self.builder.add("NamedMaterial", look.name)
+            if look.emission is not None:
+                if in_object:
+                    self.warn(prim, "what shines and is copied by an instancer does not shine")
+                else:
+                    self.builder.add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
+                    self.has_light = True
+            self.builder.add("Shape", kind, parameters | look.shape_parameters)
+
+    def add_instances(self, prim: Any, world: Matrix) -> None:
+        instancer = UsdGeom.PointInstancer(prim)
+        names = []
+        for target in instancer.GetPrototypesRel().GetForwardedTargets():
+            key = str(target)
+            if key not in self.objects:
+                self.objects[key] = key
+                root = self.stage.GetPrimAtPath(target)
+                from_root = np.linalg.inv(self.world(root))
+                with self.builder.block("Object", key):
+                    for part in self.prims(root):
+                        self.add_prim(part, self.world(part) @ from_root, in_object=True)
+            names.append(key)
+        indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
+        places = instancer.ComputeInstanceTransformsAtTime(self.time, self.time)
+        mask = instancer.ComputeMaskAtTime(self.time)
+        shown = [i for i in range(len(indices)) if not mask or mask[i]]
+        for i, place in zip(shown, places):
+            if not 0 <= indices[i] < len(names):
+                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
+            with self.builder.block("Transform"):
+                self.builder.add("Transform", np.array(place) @ world)
+                self.builder.add("ObjectInstance", names[indices[i]])
+
+    def add_volume(self, prim: Any, world: Matrix, in_object: bool) -> None:
+        fields = UsdVol.Volume(prim).GetFieldPaths()
+        field = self.stage.GetPrimAtPath(fields["density"]) if "density" in fields else None
+        if not field or not field.IsA(UsdVol.OpenVDBAsset) or in_object:
+            self.warn(prim, "a volume without a field 'density' of OpenVDB, or one that is copied, is left out")
+            return
+        asset = UsdVol.OpenVDBAsset(field)
+        path = asset.GetFilePathAttr().Get(self.time)
+        extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time)
+        if not path or not extent:
+            self.warn(prim, "a volume without a file or an extent is left out")
+            return
+        colour = materials.display_colour(prim, self.time)
+        name = str(prim.GetPath())
+        with self.builder.block():
+            self.builder.add("Transform", world)
+            self.builder.add(
+                "MakeNamedMedium",
+                name,
+                {
+                    "string type": "nanovdb",
+                    "string filename": path.resolvedPath or path.path,
+                    "string gridname": asset.GetFieldNameAttr().Get(self.time) or "density",
+                    "rgb sigma_s": colour,
+                    "rgb sigma_a": np.maximum(1 - np.asarray(colour), 0),
+                },
+            )
+            self.builder.add("MediumInterface", name, "")
+            self.builder.add("Material", "interface")
+            self.builder.add("Shape", "trianglemesh", box_mesh(np.array(extent[0]), np.array(extent[1])))
+        self.warn(prim, "a volume scatters as much as its density says, with the display colour as its albedo")
+
+    def camera(self, path: str | None, resolution: tuple[int, int]) -> None:
+        if path is not None:
+            prim = self.stage.GetPrimAtPath(path)
+            if not prim or not prim.IsA(UsdGeom.Camera):
+                raise InputError(f"{path}: error: no camera of the stage")
+        else:
+            prim = next((p for p in self.prims(self.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
+        aspect = resolution[0] / resolution[1]
+        if prim is None:
+            self.warn(self.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
+            self.view_of_all(aspect)
+            return
+        lens = UsdGeom.Camera(prim).GetCamera(self.time)
+        # A tenth of a scene unit, which is a millimetre where that is a centimetre.
+        width, height = lens.horizontalAperture, lens.verticalAperture
+        shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
+        # The aperture is widened to the shape of the picture.
+        if aspect > width / height:
+            width = height * aspect
+        else:
+            height = width / aspect
+        window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
+        # A camera of USD looks along its -z.
+        self.builder.add("Transform", np.linalg.inv(np.diag([1, 1, -1, 1]) @ np.array(lens.transform)))
+        if lens.projection == Gf.Camera.Orthographic:
+            self.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
+            return
+        parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
+        if lens.fStop > 0:
+            parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
+            parameters["float focaldistance"] = lens.focusDistance
+        self.builder.add("Camera", "perspective", parameters)
+
+    def view_of_all(self, aspect: float) -> None:
+        bounds = UsdGeom.BBoxCache(self.time, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
+        box = bounds.ComputeWorldBound(self.stage.GetPseudoRoot()).ComputeAlignedRange()
+        middle = np.zeros(3) if box.IsEmpty() else np.array(box.GetMidpoint())
+        radius = 1.0 if box.IsEmpty() else max(float(np.linalg.norm(np.array(box.GetSize()))) / 2, 1e-6)
+        upwards = np.array([0, 0, 1.0]) if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else np.array([0, 1.0, 0])
+        forwards = np.array([0, 1.0, 0]) if upwards[2] else np.array([0, 0, -1.0])
+        fov = 40.0
+        eye = middle + (0.35 * upwards - forwards) * radius / math.sin(math.radians(fov / 2)) / min(aspect, 1)
+        # The camera's own axes are of the other hand, as pbrt's are.
+        self.builder.add("Scale", -1, 1, 1)
+        self.builder.add("LookAt", eye, middle, upwards)
+        self.builder.add("Camera", "perspective", {"float fov": fov})
+
+
+def _first_line(error: Exception) -> str:
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    return lines[-1] if lines else "cannot be read"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """What `python -m wend.usd` does; the exit status."""
+    import wend
+
+    parser = argparse.ArgumentParser(prog="python -m wend.usd", description="render a USD stage, or write it as a pbrt scene")
+    parser.add_argument("stage", help=".usda, .usdc, .usd or .usdz")
+    parser.add_argument("-o", "--output", metavar="SCENE.pbrt", help="write the scene as a pbrt-v4 file")
+    parser.add_argument("--render", metavar="PICTURE", help="render it: .exr, .png or .jpg")
+    parser.add_argument("--frame", type=float, help="time code (default: the first, or the default values)")
+    parser.add_argument("--camera", metavar="PRIM", help="path of the camera (default: the first)")
+    parser.add_argument("--resolution", default="640x360", metavar="WxH")
+    parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
+    parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
+    parser.add_argument("--sampling", default="full")
+    options = parser.parse_args(arguments)
+    if not options.output and not options.render:
+        parser.error("give --render PICTURE, or -o SCENE.pbrt, or both")
+    warnings.simplefilter("always", SceneWarning)
+    warnings.showwarning = lambda message, *_, **__: print(message, file=sys.stderr)
+    try:
+        width, _, height = options.resolution.partition("x")
+        if not (width.isdigit() and height.isdigit() and int(width) > 0 and int(height) > 0):
+            raise InputError(f"--resolution {options.resolution}: expected WIDTHxHEIGHT")
+        maps = None if not options.output else Path(options.output).with_suffix(".maps")
+        builder = read(
+            options.stage,
+            time=options.frame,
+            camera=options.camera,
+            resolution=(int(width), int(height)),
+            spp=options.spp,
+            maps=maps,
+        )
+        if options.output:
+            Path(options.output).write_text(builder.text())
+        if options.render:
+            amount = {"spp": options.spp} if options.time is None else {"time": options.time}
+            wend.render(builder.scene(), sampling=options.sampling, **amount).save(options.render)
+    except (InputError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
