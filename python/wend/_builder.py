@@ -66,7 +66,7 @@ class SceneBuilder:
 
     @contextmanager
     def block(self, kind: str = "Attribute", *arguments: Any) -> Iterator[None]:
-        """What is added inside stands between `kind`Begin and `kind`End: "Attribute", "Transform", or "Object" with its
+        """What is added inside stands between `kind`Begin and `kind`End: "Attribute", or "Object" with its
         name."""
         self.add(kind + "Begin", *arguments)
         yield

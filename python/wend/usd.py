@@ -65,7 +65,7 @@ def read(
     try:
         stage = Usd.Stage.Open(os.fspath(path))
     except Tf.ErrorException as error:
-        raise InputError(f"{os.fspath(path)}: error: {_first_line(error)}") from None
+        raise InputError(f"{os.fspath(path)}: error: {_reason(error)}") from None
     if time is None and stage.HasAuthoredTimeCodeRange():
         time = stage.GetStartTimeCode()
     return _Reader(stage, os.fspath(path), Usd.TimeCode.Default() if time is None else Usd.TimeCode(time), maps).read(
@@ -197,7 +197,7 @@ class _Reader:
         for i, place in zip(shown, places):
             if not 0 <= indices[i] < len(names):
                 raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
-            with self.builder.block("Transform"):
+            with self.builder.block():
                 self.builder.add("Transform", np.array(place) @ world)
                 self.builder.add("ObjectInstance", names[indices[i]])
 
@@ -281,9 +281,10 @@ class _Reader:
         self.builder.add("Camera", "perspective", {"float fov": fov})
 
 
-def _first_line(error: Exception) -> str:
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return lines[-1] if lines else "cannot be read"
+def _reason(error: Any) -> str:
+    """The first of USD's errors, which tells the place in the text."""
+    reasons = [str(getattr(reason, "commentary", reason)).strip() for reason in error.args]
+    return next((reason for reason in reasons if reason), "cannot be read")
 
 
 def main(arguments: list[str] | None = None) -> int:
