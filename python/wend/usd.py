@@ -33,7 +33,9 @@ from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
 
-Matrix = npt.NDArray[np.float64]
+#: (2, 4, 4): where a prim is when the shutter opens and when it closes. Rows as USD has them: points are multiplied from
+#: the left.
+Places = npt.NDArray[np.float64]
 
 
 def read(
@@ -78,7 +80,7 @@ class _Reader:
         self.stage = stage
         self.time = time
         self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
-        self.transforms = UsdGeom.XformCache(time)
+        self.transforms = [UsdGeom.XformCache(time)] * 2
         self.told: set[str] = set()
         self.materials: dict[str, materials.Look] = {}
         self.objects: dict[str, str] = {}
@@ -99,9 +101,9 @@ class _Reader:
         self._maps.mkdir(parents=True, exist_ok=True)
         return str(self._maps / name)
 
-    def read(self, camera: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
+    def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
         add = self.builder.add
-        self.camera(camera, resolution)
+        self.add_camera(self.find_camera(path), resolution)
         add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 64})
@@ -113,9 +115,19 @@ class _Reader:
             add("LightSource", "infinite", {"rgb L": (1, 1, 1)})
         return self.builder
 
-    def world(self, prim: Any) -> Matrix:
-        """Rows as USD has them: points are multiplied from the left."""
-        return np.array(self.transforms.GetLocalToWorldTransform(prim))
+    def world(self, prim: Any) -> Places:
+        return np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
+
+    def put(self, places: Places) -> None:
+        """What follows is there, and moves between them."""
+        add = self.builder.add
+        if np.allclose(places[0], places[1], rtol=1e-12, atol=0):
+            add("Transform", places[0])
+            return
+        for when, place in zip(("StartTime", "EndTime"), places):
+            add("ActiveTransform", when)
+            add("Transform", place)
+        add("ActiveTransform", "All")
 
     def prims(self, root: Any) -> Iterator[Any]:
         """Those that are to be seen; what an instancer copies is left to it."""
@@ -131,12 +143,12 @@ class _Reader:
                 walk.PruneChildren()
             yield prim
 
-    def add_prim(self, prim: Any, world: Matrix, in_object: bool) -> None:
+    def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
         if prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase):
             if in_object:
                 self.warn(prim, "a light that is copied by an instancer is left out")
             else:
-                self.has_light = lights.add(self, prim, world) or self.has_light
+                self.has_light = lights.add(self, prim, world[0]) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
             for part, faces in mesh_parts(self, prim):
                 self.add_shape(prim, part, world, faces, in_object)
@@ -161,12 +173,12 @@ class _Reader:
                 self.add_shape(prim, prim, world, ("trianglemesh", mesh), in_object)
 
     def add_shape(
-        self, prim: Any, bound: Any, world: Matrix, shape: tuple[str, dict[str, Any]], in_object: bool
+        self, prim: Any, bound: Any, world: Places, shape: tuple[str, dict[str, Any]], in_object: bool
     ) -> None:
         """`bound` is what a material may be bound to: the prim, or a subset of its faces."""
         kind, parameters = shape
         with self.builder.block():
-            self.builder.add("Transform", world)
+            self.put(world)
             look = materials.look_of(self, prim, bound)
             self.builder.add("NamedMaterial", look.name)
             if look.emission is not None:
@@ -177,7 +189,7 @@ class _Reader:
                     self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
-    def add_instances(self, prim: Any, world: Matrix) -> None:
+    def add_instances(self, prim: Any, world: Places) -> None:
         instancer = UsdGeom.PointInstancer(prim)
         names = []
         for target in instancer.GetPrototypesRel().GetForwardedTargets():
@@ -198,10 +210,10 @@ class _Reader:
             if not 0 <= indices[i] < len(names):
                 raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
             with self.builder.block():
-                self.builder.add("Transform", np.array(place) @ world)
+                self.put(np.array(place) @ world)
                 self.builder.add("ObjectInstance", names[indices[i]])
 
-    def add_volume(self, prim: Any, world: Matrix, in_object: bool) -> None:
+    def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
         field = self.stage.GetPrimAtPath(fields["density"]) if "density" in fields else None
         if not field or not field.IsA(UsdVol.OpenVDBAsset) or in_object:
@@ -216,7 +228,7 @@ class _Reader:
         colour = materials.display_colour(prim, self.time)
         name = str(prim.GetPath())
         with self.builder.block():
-            self.builder.add("Transform", world)
+            self.put(world)
             self.builder.add(
                 "MakeNamedMedium",
                 name,
@@ -233,19 +245,26 @@ class _Reader:
             self.builder.add("Shape", "trianglemesh", box_mesh(np.array(extent[0]), np.array(extent[1])))
         self.warn(prim, "a volume scatters as much as its density says, with the display colour as its albedo")
 
-    def camera(self, path: str | None, resolution: tuple[int, int]) -> None:
-        if path is not None:
-            prim = self.stage.GetPrimAtPath(path)
-            if not prim or not prim.IsA(UsdGeom.Camera):
-                raise InputError(f"{path}: error: no camera of the stage")
-        else:
-            prim = next((p for p in self.prims(self.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
+    def find_camera(self, path: str | None) -> Any:
+        """The prim; None where the stage has none."""
+        if path is None:
+            return next((p for p in self.prims(self.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
+        prim = self.stage.GetPrimAtPath(path)
+        if not prim or not prim.IsA(UsdGeom.Camera):
+            raise InputError(f"{path}: error: no camera of the stage")
+        return prim
+
+    def add_camera(self, prim: Any, resolution: tuple[int, int]) -> None:
         aspect = resolution[0] / resolution[1]
         if prim is None:
             self.warn(self.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
             self.view_of_all(aspect)
             return
-        lens = UsdGeom.Camera(prim).GetCamera(self.time)
+        camera = UsdGeom.Camera(prim)
+        lens = camera.GetCamera(self.time)
+        shutter = [camera.GetShutterOpenAttr().Get(self.time), camera.GetShutterCloseAttr().Get(self.time)]
+        if shutter[0] < shutter[1] and not self.time.IsDefault():
+            self.transforms = [UsdGeom.XformCache(self.time.GetValue() + offset) for offset in shutter]
         # A tenth of a scene unit, which is a millimetre where that is a centimetre.
         width, height = lens.horizontalAperture, lens.verticalAperture
         shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
@@ -256,7 +275,7 @@ class _Reader:
             height = width / aspect
         window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
         # A camera of USD looks along its -z.
-        self.builder.add("Transform", np.linalg.inv(np.diag([1, 1, -1, 1]) @ np.array(lens.transform)))
+        self.put(np.asarray(np.linalg.inv(np.diag([1, 1, -1, 1]) @ self.world(prim)), dtype=np.float64))
         if lens.projection == Gf.Camera.Orthographic:
             self.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
             return
