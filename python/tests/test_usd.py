@@ -261,6 +261,57 @@ def test_textures_lie_as_usd_has_them(stage, tmp_path):
     assert image[1, 4][0] > 2 * image[1, 4][2] and image[6, 4][2] > 2 * image[6, 4][0]
 
 
+def materialx(stage, prim, identifier, **inputs):
+    material = UsdShade.Material.Define(stage.stage, "/mx")
+    shader = UsdShade.Shader.Define(stage.stage, "/mx/s")
+    shader.CreateIdAttr(identifier)
+    for name, value in inputs.items():
+        kind = Sdf.ValueTypeNames.Color3f if isinstance(value, tuple) else Sdf.ValueTypeNames.Float
+        shader.CreateInput(name, kind).Set(value)
+    material.CreateSurfaceOutput("mtlx").ConnectToSource(shader.ConnectableAPI(), "out")
+    UsdShade.MaterialBindingAPI.Apply(prim).Bind(material)
+
+
+@pytest.mark.parametrize(
+    ("identifier", "names"),
+    [
+        ("ND_standard_surface_surfaceshader", ("transmission", "specular_IOR")),
+        ("ND_open_pbr_surface_surfaceshader", ("transmission_weight", "specular_ior")),
+    ],
+)
+def test_glass_of_a_depth_has_its_colour(stage, identifier, names):
+    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
+    UsdGeom.XformCommonAPI(cube).SetTranslate(Gf.Vec3d(0, 0, -3))
+    given = {names[0]: 1.0, names[1]: 1.0, "transmission_color": (0.8, 0.5, 0.2), "transmission_depth": 2.0}
+    materialx(stage, cube.GetPrim(), identifier, specular_roughness=0.0, **given)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    # The cube is as thick as the depth, and refracts nothing.
+    stage.camera.GetFocalLengthAttr().Set(1000)
+    seen = stage.image(size=(16, 16), spp=256).mean(axis=(0, 1))
+    assert seen == pytest.approx((0.8, 0.5, 0.2), rel=3e-3)
+    # Scattering takes nothing away: under a white sky, what does not absorb cannot be seen.
+    shader = UsdShade.Shader.Get(stage.stage, "/mx/s")
+    shader.GetInput("transmission_color").Set((0.5, 0.5, 0.5))
+    shader.CreateInput("transmission_scatter", Sdf.ValueTypeNames.Color3f).Set((math.log(2),) * 3)
+    assert middle(stage.image(size=(5, 5), spp=256)) == pytest.approx((1, 1, 1), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("identifier", "inputs"),
+    [
+        ("ND_standard_surface_surfaceshader", {"subsurface": 1.0, "subsurface_scale": 0.05, "specular_IOR": 1.0}),
+        ("ND_open_pbr_surface_surfaceshader", {"subsurface_weight": 1.0, "subsurface_radius": 0.05, "specular_ior": 1.0}),
+    ],
+)
+def test_dense_media_have_the_colour_that_is_asked_for(stage, identifier, inputs):
+    sphere = UsdGeom.Sphere.Define(stage.stage, "/ball")
+    sphere.CreateRadiusAttr(2)
+    UsdGeom.XformCommonAPI(sphere).SetTranslate(Gf.Vec3d(0, 0, -5))
+    materialx(stage, sphere.GetPrim(), identifier, subsurface_color=(0.8, 0.5, 0.3), **inputs)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    assert middle(stage.image(size=(5, 5), spp=1024)) == pytest.approx((0.8, 0.5, 0.3), abs=0.04)
+
+
 def test_instances_are_where_they_are_put(stage):
     root = UsdGeom.Xform.Define(stage.stage, "/things")
     instancer = UsdGeom.PointInstancer.Define(stage.stage, "/things/copies")

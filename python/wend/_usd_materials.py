@@ -1,4 +1,4 @@
-"""Materials of USD: UsdPreviewSurface, its textures, and display colours."""
+"""Materials of USD: UsdPreviewSurface, MaterialX's standard_surface and OpenPBR, textures, and display colours."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ class Look:
 
     name: str
     emission: tuple[float, ...] | None = None
+    medium: str | None = None  #: inside
     shape_parameters: dict[str, Any] = field(default_factory=dict)
 
 
@@ -35,7 +36,7 @@ def look_of(reader: Any, prim: Any, bound: Any) -> Look:
     if material:
         key = str(material.GetPath())
         if key not in looks:
-            looks[key] = _preview_surface(reader, material, key)
+            looks[key] = _surface(reader, material, key)
         return looks[key]
     colour = display_colour(prim, reader.time)
     key = "displayColor {:.6g} {:.6g} {:.6g}".format(*colour)
@@ -82,8 +83,9 @@ class _Inputs:
 
     def _texture(self, name: str, output: Any, kind: str) -> str | None:
         shader = UsdShade.Shader(output.GetPrim())
-        if shader.GetIdAttr().Get() != "UsdUVTexture":
-            self.reader.warn(self.shader.GetPrim(), f"{shader.GetIdAttr().Get()} as {name} is left out")
+        kind_of_node = str(shader.GetIdAttr().Get())
+        if kind_of_node != "UsdUVTexture" and not kind_of_node.startswith(("ND_image_", "ND_tiledimage_")):
+            self.reader.warn(self.shader.GetPrim(), f"{kind_of_node} as {name} is left out")
             return None
         inputs = _Inputs(self.reader, shader, self.key)
         file = inputs.constant("file", None)
@@ -105,36 +107,132 @@ class _Inputs:
         return texture
 
 
-def _preview_surface(reader: Any, material: Any, key: str) -> Look:
-    shader = material.ComputeSurfaceSource()[0]
-    if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
+#: What shaders of surfaces call the same things; the names that a shader has not are left out.
+_WORDS: dict[str, dict[str, str]] = {
+    "UsdPreviewSurface": {"colour": "diffuseColor", "metal": "metallic", "roughness": "roughness", "ior": "ior"},
+    "ND_standard_surface_surfaceshader": {
+        "colour": "base_color",
+        "weight": "base",
+        "metal": "metalness",
+        "roughness": "specular_roughness",
+        "ior": "specular_IOR",
+        "clear": "transmission",
+        "clear_colour": "transmission_color",
+        "clear_depth": "transmission_depth",
+        "clear_scatter": "transmission_scatter",
+        "clear_g": "transmission_scatter_anisotropy",
+        "inside": "subsurface",
+        "inside_colour": "subsurface_color",
+        "inside_radius": "subsurface_radius",
+        "inside_scale": "subsurface_scale",
+        "inside_g": "subsurface_anisotropy",
+        "shine": "emission",
+        "shine_colour": "emission_color",
+    },
+    "ND_open_pbr_surface_surfaceshader": {
+        "colour": "base_color",
+        "weight": "base_weight",
+        "metal": "base_metalness",
+        "roughness": "specular_roughness",
+        "ior": "specular_ior",
+        "clear": "transmission_weight",
+        "clear_colour": "transmission_color",
+        "clear_depth": "transmission_depth",
+        "clear_scatter": "transmission_scatter",
+        "clear_g": "transmission_scatter_anisotropy",
+        "inside": "subsurface_weight",
+        "inside_colour": "subsurface_color",
+        "inside_radius": "subsurface_radius",
+        "inside_radii": "subsurface_radius_scale",
+        "inside_g": "subsurface_scatter_anisotropy",
+        "shine": "emission_luminance",
+        "shine_colour": "emission_color",
+    },
+}
+
+
+def _surface(reader: Any, material: Any, key: str) -> Look:
+    shader = material.ComputeSurfaceSource("mtlx")[0]
+    if not shader or shader.GetIdAttr().Get() not in _WORDS:
         name = shader.GetIdAttr().Get() if shader else "no surface"
-        reader.warn(material.GetPrim(), f"a material of {name} is taken as its display colour")
-        colour = (0.18, 0.18, 0.18)
-        reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": colour})
+        reader.warn(material.GetPrim(), f"a material of {name} is taken as grey")
+        reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0.18, 0.18, 0.18)})
         return Look(key)
+    name = str(shader.GetIdAttr().Get())
+    words = _WORDS[name]
     inputs = _Inputs(reader, shader, key)
+
+    def constant(word: str, fallback: Any) -> Any:
+        return inputs.constant(words[word], fallback) if word in words else fallback
+
     look = Look(key)
-    emission = tuple(float(x) for x in inputs.constant("emissiveColor", (0, 0, 0)))
-    if max(emission) > 0:
-        look.emission = emission
-    roughness = float(inputs.constant("roughness", 0.5))
-    ior = float(inputs.constant("ior", 1.5))
-    opacity = float(inputs.constant("opacity", 1))
-    for name, plain in (("clearcoat", 0), ("displacement", 0), ("useSpecularWorkflow", 0)):
-        if float(inputs.constant(name, plain)) != plain:
-            reader.warn(shader.GetPrim(), f"{name} is left out")
-    # Its roughness is the square root of the facets' alpha.
+    if name == "UsdPreviewSurface":
+        emission = np.array(inputs.constant("emissiveColor", (0, 0, 0)), dtype=np.float64)
+        opacity = float(inputs.constant("opacity", 1))
+        is_clear = opacity <= 0.01
+        if not is_clear and opacity < 1:
+            look.shape_parameters["float alpha"] = opacity
+        _tell_of_others(reader, inputs, {"clearcoat": 0, "displacement": 0, "useSpecularWorkflow": 0})
+    else:
+        emission = float(constant("shine", 0)) * np.array(constant("shine_colour", (1, 1, 1)), dtype=np.float64)
+        is_clear = float(constant("clear", 0)) > 0.5
+        _tell_of_others(reader, inputs, {"coat": 0, "coat_weight": 0, "sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0})
+    if emission.max() > 0:
+        look.emission = tuple(float(x) for x in emission)
+    roughness = float(constant("roughness", 0.5 if name == "UsdPreviewSurface" else 0.2))
+    # All of them square it: that is the facets' alpha.
     parameters: dict[str, Any] = {"float roughness": roughness**2, "bool remaproughness": False}
-    if float(inputs.constant("metallic", 0)) > 0.5:
+    ior = float(constant("ior", 1.5))
+    grey = (0.18, 0.18, 0.18) if name == "UsdPreviewSurface" else (0.8, 0.8, 0.8)
+    if float(constant("metal", 0)) > 0.5:
         parameters["string type"] = "conductor"
-        inputs.add_to(parameters, "diffuseColor", "reflectance", "rgb", (0.18, 0.18, 0.18))
-    elif opacity <= 0.01:
+        inputs.add_to(parameters, words["colour"], "reflectance", "rgb", grey)
+    elif is_clear:
         parameters |= {"string type": "dielectric", "float eta": ior}
+        look.medium = _inside_of_glass(reader, key, constant)
+    elif float(constant("inside", 0)) > 0.5:
+        parameters |= {"string type": "subsurface", "float eta": ior, "float g": float(constant("inside_g", 0))}
+        inputs.add_to(parameters, words["inside_colour"], "reflectance", "rgb", grey)
+        radius = np.array(constant("inside_radius", (1, 1, 1)), dtype=np.float64) * float(constant("inside_scale", 1))
+        radii = radius * np.array(constant("inside_radii", (1, 1, 1)), dtype=np.float64)
+        parameters["rgb mfp"] = np.maximum(np.broadcast_to(radii, 3), 1e-6)
     else:
         parameters |= {"string type": "coateddiffuse", "float eta": ior}
-        inputs.add_to(parameters, "diffuseColor", "reflectance", "rgb", (0.18, 0.18, 0.18))
-        if opacity < 1:
-            look.shape_parameters["float alpha"] = opacity
+        inputs.add_to(parameters, words["colour"], "reflectance", "rgb", grey)
+        if "rgb reflectance" in parameters:
+            parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(constant("weight", 1))
     reader.builder.add("MakeNamedMaterial", key, parameters)
     return look
+
+
+def _tell_of_others(reader: Any, inputs: _Inputs, plain: dict[str, float]) -> None:
+    for name, value in plain.items():
+        if float(inputs.constant(name, value)) != value:
+            reader.warn(inputs.shader.GetPrim(), f"{name} is left out")
+
+
+def _inside_of_glass(reader: Any, key: str, constant: Any) -> str | None:
+    """A medium that colours what is `clear_depth` thick as it should, and scatters; none for clear glass."""
+    depth = float(constant("clear_depth", 0))
+    colour = np.clip(np.array(constant("clear_colour", (1, 1, 1)), dtype=np.float64), 1e-6, 1)
+    if depth <= 0:
+        if colour.min() < 1:
+            reader.warn(reader.stage.GetPrimAtPath(key), "a colour of transmission without a depth is left out")
+        return None
+    scattering = np.broadcast_to(np.array(constant("clear_scatter", (0, 0, 0)), dtype=np.float64), 3) / depth
+    absorption = -np.log(colour) / depth - scattering
+    # Where more is scattered than goes missing, all channels absorb more, so that none is negative.
+    absorption = absorption - min(float(absorption.min()), 0.0)
+    if max(absorption.max(), scattering.max()) <= 0:
+        return None
+    reader.builder.add(
+        "MakeNamedMedium",
+        key,
+        {
+            "string type": "homogeneous",
+            "rgb sigma_a": absorption,
+            "rgb sigma_s": scattering,
+            "float g": float(constant("clear_g", 0)),
+        },
+    )
+    return key

@@ -181,6 +181,8 @@ class _Reader:
             self.put(world)
             look = materials.look_of(self, prim, bound)
             self.builder.add("NamedMaterial", look.name)
+            if look.medium is not None:
+                self.builder.add("MediumInterface", look.medium, "")
             if look.emission is not None:
                 if in_object:
                     self.warn(prim, "what shines and is copied by an instancer does not shine")
