@@ -212,7 +212,7 @@ TEST_P(FurnaceMatrix, IsAsBrightAsItShouldBe) {
     const Furnace& f = GetParam();
     const auto references = read_references();
     const auto known = references.find(f.object());
-    const test::ChannelMeans got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0024, 512});
+    const test::ChannelMeans got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 512});
     for (int c = 0; c < 3; ++c) {
         ASSERT_TRUE(f.is_lossless(c) || known != references.end()) << references_path() << " has no such line";
         const Reference right = f.is_lossless(c) ? Reference{1, 0} : known->second[static_cast<std::size_t>(c)];
