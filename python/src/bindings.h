@@ -72,7 +72,7 @@ inline Image to_image(const Pixels& array) {
 
 void bind_pictures(nb::module_& module);
 void bind_scenes(nb::module_& module);
-void bind_told_scenes(nb::module_& module);
+void bind_directives(nb::module_& module);
 void bind_renders(nb::module_& module);
 void bind_comparisons(nb::module_& module);
 void bind_fields(nb::module_& module);

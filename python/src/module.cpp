@@ -30,7 +30,7 @@ NB_MODULE(_wend, module) {
     bind_pictures(module);
     bind_fields(module);
     bind_scenes(module);
-    bind_told_scenes(module);
+    bind_directives(module);
     bind_renders(module);
     bind_comparisons(module);
     bind_laboratory(module);

@@ -1,4 +1,4 @@
-"""Scenes that a program tells: no file, and no text in between."""
+"""Scenes that a program gives: no file, and no text in between."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class SceneBuilder:
                 change until then.
 
         Raises:
-            InputError: for arguments that are neither; what is wrong with them as a directive is told by `scene`.
+            InputError: for arguments that are neither; what is wrong with them as a directive is said by `scene`.
         """
         given = list(arguments)
         parameters = given.pop() if given and isinstance(given[-1], Mapping) else {}
@@ -88,10 +88,10 @@ class SceneBuilder:
         Warns:
             SceneWarning: for what is asked for and is done otherwise, each kind once.
         """
-        told = _wend.ToldScene(self._name, self._folder)
+        sequence = _wend.DirectiveSequence(self._name, self._folder)
         for directive in self._directives:
-            told.add(*directive)
-        return _checked(told.finish(*_options(resolution, crop, max_depth, sampler)))
+            sequence.add(*directive)
+        return _checked(sequence.finish(*_options(resolution, crop, max_depth, sampler)))
 
     def text(self) -> str:
         """The scene so far as a pbrt-v4 file says it."""

@@ -83,7 +83,7 @@ class _Reader:
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.told: set[str] = set()
         self.materials: dict[str, materials.Look] = {}
-        self.objects: dict[str, str] = {}
+        self.objects: set[str] = set()
         self.has_light = False
         self._maps = None if maps is None else Path(maps)
 
@@ -197,7 +197,7 @@ class _Reader:
         for target in instancer.GetPrototypesRel().GetForwardedTargets():
             key = str(target)
             if key not in self.objects:
-                self.objects[key] = key
+                self.objects.add(key)
                 root = self.stage.GetPrimAtPath(target)
                 from_root = np.linalg.inv(self.world(root))
                 with self.builder.block("Object", key):

@@ -1,4 +1,4 @@
-// A scene that a program tells directive by directive, with arrays as they are: no file, and no text in between.
+// A scene that a program gives directive by directive, with arrays as they are: no file, and no text in between.
 #pragma once
 
 #include <wend/io/pbrt/description.h>
@@ -15,10 +15,10 @@ namespace wend::pbrt {
 
 /// Throws InputError for what a file of the same directives could not have either. The line of a place is the number of
 /// the directive, from 1.
-class ToldScene {
+class DirectiveSequence {
 public:
     /// `name` stands for the file in messages; file names are relative to the folder.
-    ToldScene(std::string name, const std::filesystem::path& folder);
+    DirectiveSequence(std::string name, const std::filesystem::path& folder);
 
     /// A directive with the texts, or the numbers, that stand before its parameters, and these; their places and colour
     /// spaces are filled in here. Include and Import are for files.

@@ -1,7 +1,7 @@
 #include <wend/app/parsed_scene.h>
 #include <wend/core/error.h>
 #include <wend/io/file_stamp.h>
-#include <wend/io/pbrt/told_scene.h>
+#include <wend/io/pbrt/directive_sequence.h>
 
 #include "bindings.h"
 
@@ -60,13 +60,13 @@ std::string stamp_of_values(const std::variant<Floats, Integers, Texts>& given) 
     return integers ? stamp(*integers) : stamp(std::get<Floats>(given));
 }
 
-class PythonToldScene {
+class PythonDirectives {
 public:
-    PythonToldScene(const std::string& name, const std::string& folder) : name_(name), scene_(name, folder) {}
+    PythonDirectives(const std::string& name, const std::string& folder) : name_(name), scene_(name, folder) {}
 
     void add(const std::string& directive, std::vector<std::string> texts, const std::vector<double>& numbers,
              const std::vector<Given>& given) {
-        told_ += fmt::format("{} {} {}\n", directive, fmt::join(texts, " "), fmt::join(numbers, " "));
+        content_ += fmt::format("{} {} {}\n", directive, fmt::join(texts, " "), fmt::join(numbers, " "));
         std::vector<pbrt::Parameter> parameters;
         for (const auto& [declared, values] : given) {
             const std::size_t space = declared.find(' ');
@@ -79,7 +79,7 @@ public:
             parameters.back().type = *type;
             parameters.back().name = declared.substr(space + 1);
             parameters.back().values = values_of(declared, *type, values);
-            told_ += fmt::format("  {} {}\n", declared, stamp_of_values(values));
+            content_ += fmt::format("  {} {}\n", declared, stamp_of_values(values));
         }
         scene_.add(directive, std::move(texts), numbers, std::move(parameters));
     }
@@ -89,23 +89,23 @@ public:
         const nb::gil_scoped_release release;
         const SceneOptions options{name_, resolution, crop, max_depth, sampler};
         options.check();
-        return std::make_shared<ParsedScene>(options, scene_.finish(), told_);
+        return std::make_shared<ParsedScene>(options, scene_.finish(), content_);
     }
 
 private:
     std::string name_;
-    pbrt::ToldScene scene_;
-    std::string told_;
+    pbrt::DirectiveSequence scene_;
+    std::string content_;
 };
 
 }  // namespace
 
-void bind_told_scenes(nb::module_& module) {
-    nb::class_<PythonToldScene>(module, "ToldScene", "A scene that is told directive by directive.")
+void bind_directives(nb::module_& module) {
+    nb::class_<PythonDirectives>(module, "DirectiveSequence", "A scene, directive by directive.")
         .def(nb::init<const std::string&, const std::string&>(), nb::arg("name"), nb::arg("folder"))
-        .def("add", &PythonToldScene::add, nb::arg("directive"), nb::arg("texts"), nb::arg("numbers"),
+        .def("add", &PythonDirectives::add, nb::arg("directive"), nb::arg("texts"), nb::arg("numbers"),
              nb::arg("parameters"))
-        .def("finish", &PythonToldScene::finish, nb::arg("resolution"), nb::arg("crop"), nb::arg("max_depth").none(),
+        .def("finish", &PythonDirectives::finish, nb::arg("resolution"), nb::arg("crop"), nb::arg("max_depth").none(),
              nb::arg("sampler"));
 }
 

@@ -1,6 +1,6 @@
 #include <wend/core/error.h>
+#include <wend/io/pbrt/directive_sequence.h>
 #include <wend/io/pbrt/directives.h>
-#include <wend/io/pbrt/told_scene.h>
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ private:
     std::vector<Parameter> parameters_;
 };
 
-struct Teller {
+struct Adder {
     DescriptionBuilder& builder;
     const Location& place;
     Arguments& given;
@@ -125,12 +125,12 @@ struct Teller {
 
 }  // namespace
 
-ToldScene::ToldScene(std::string name, const std::filesystem::path& folder)
+DirectiveSequence::DirectiveSequence(std::string name, const std::filesystem::path& folder)
     : file_(std::make_shared<const SourceFile>(SourceFile{std::move(name), folder})), builder_(folder) {
 }
 
-void ToldScene::add(std::string_view directive, std::vector<std::string> texts, std::span<const double> numbers,
-                    std::vector<Parameter> parameters) {
+void DirectiveSequence::add(std::string_view directive, std::vector<std::string> texts, std::span<const double> numbers,
+                            std::vector<Parameter> parameters) {
     const Location place{file_, ++directives_, 0};
     const Directive* known = find_directive(directive);
     if (!known) {
@@ -138,10 +138,10 @@ void ToldScene::add(std::string_view directive, std::vector<std::string> texts, 
     }
     require_place(*known, builder_.in_world(), place);
     Arguments given(directive, place, std::move(texts), numbers, std::move(parameters));
-    std::visit(Teller{builder_, place, given}, known->syntax);
+    std::visit(Adder{builder_, place, given}, known->syntax);
 }
 
-Description ToldScene::finish() {
+Description DirectiveSequence::finish() {
     return builder_.finish({file_, directives_ + 1, 0});
 }
 

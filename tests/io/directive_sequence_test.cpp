@@ -1,8 +1,8 @@
-// Scenes that are told directive by directive: what a file may say, and what it may not.
+// Scenes that a program gives directive by directive: what a file may say, and what it may not.
 #include <wend/core/error.h>
+#include <wend/io/pbrt/directive_sequence.h>
 #include <wend/io/pbrt/directives.h>
 #include <wend/io/pbrt/parser.h>
-#include <wend/io/pbrt/told_scene.h>
 
 #include <gtest/gtest.h>
 
@@ -20,18 +20,18 @@ Parameter parameter(ParameterType type, std::string name, ParameterValues values
     return p;
 }
 
-TEST(ToldScene, IsTheDescriptionOfTheText) {
-    ToldScene told("told", "/tmp");
+TEST(DirectiveSequence, IsTheDescriptionOfTheText) {
+    DirectiveSequence sequence("scene", "/tmp");
     const std::vector<double> eye = {0, 0, -4, 0, 0, 0, 0, 1, 0}, offset = {1, 2, 3};
-    told.add("LookAt", {}, eye, {});
-    told.add("Camera", {"perspective"}, {}, {parameter(ParameterType::real, "fov", std::vector<float>{40})});
-    told.add("WorldBegin", {}, {}, {});
-    told.add("AttributeBegin", {}, {}, {});
-    told.add("Translate", {}, offset, {});
-    told.add("Material", {"diffuse"}, {}, {});
-    told.add("Shape", {"sphere"}, {}, {parameter(ParameterType::real, "radius", std::vector<float>{2})});
-    told.add("AttributeEnd", {}, {}, {});
-    const Description a = told.finish();
+    sequence.add("LookAt", {}, eye, {});
+    sequence.add("Camera", {"perspective"}, {}, {parameter(ParameterType::real, "fov", std::vector<float>{40})});
+    sequence.add("WorldBegin", {}, {}, {});
+    sequence.add("AttributeBegin", {}, {}, {});
+    sequence.add("Translate", {}, offset, {});
+    sequence.add("Material", {"diffuse"}, {}, {});
+    sequence.add("Shape", {"sphere"}, {}, {parameter(ParameterType::real, "radius", std::vector<float>{2})});
+    sequence.add("AttributeEnd", {}, {}, {});
+    const Description a = sequence.finish();
     const Description b = parse_string(
         "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 40 WorldBegin AttributeBegin Translate 1 2 3 "
         "Material \"diffuse\" Shape \"sphere\" \"float radius\" 2 AttributeEnd",
@@ -42,24 +42,24 @@ TEST(ToldScene, IsTheDescriptionOfTheText) {
     EXPECT_EQ(a.shapes[0].parameters.get_float("radius", 0), b.shapes[0].parameters.get_float("radius", 1));
     EXPECT_EQ(a.shapes[0].world_from_object.point({0, 0, 0}), b.shapes[0].world_from_object.point({0, 0, 0}));
     EXPECT_EQ(a.shapes[0].material, b.shapes[0].material);
-    EXPECT_EQ(to_string(Place(a.shapes[0].place)), "told:7");
+    EXPECT_EQ(to_string(Place(a.shapes[0].place)), "scene:7");
     EXPECT_TRUE(a.files.empty());
 }
 
-TEST(ToldScene, RefusesWhatAFileMayNotSay) {
+TEST(DirectiveSequence, RefusesWhatAFileMayNotSay) {
     const auto message = [](std::string_view directive, std::vector<std::string> texts, std::vector<double> numbers,
                             std::vector<Parameter> parameters) -> std::string {
         try {
-            ToldScene told("told", ".");
-            told.add("WorldBegin", {}, {}, {});
-            told.add(directive, std::move(texts), numbers, std::move(parameters));
-            told.finish();
+            DirectiveSequence sequence("scene", ".");
+            sequence.add("WorldBegin", {}, {}, {});
+            sequence.add(directive, std::move(texts), numbers, std::move(parameters));
+            sequence.finish();
         } catch (const InputError& error) {
             return error.what();
         }
         return "accepted";
     };
-    EXPECT_NE(message("Nothing", {}, {}, {}).find("told:2"), std::string::npos);
+    EXPECT_NE(message("Nothing", {}, {}, {}).find("scene:2"), std::string::npos);
     EXPECT_NE(message("Film", {"rgb"}, {}, {}).find("not allowed after WorldBegin"), std::string::npos);
     EXPECT_NE(message("Shape", {}, {}, {}), "accepted");
     EXPECT_NE(message("Shape", {"sphere", "sphere"}, {}, {}), "accepted");
