@@ -201,7 +201,7 @@ TechniqueMix learn(const InteriorGuide& guide) {
             walk.run();
             records.push_back(walk.record());
         }
-        mixes.learn(records, round + 1 < rounds ? wend::NextWalks::beside_classical : wend::NextWalks::rendering);
+        mixes.learn_from(records, round + 1 < rounds ? wend::NextWalks::beside_classical : wend::NextWalks::rendering);
     }
     return mixes.plan(cell);
 }

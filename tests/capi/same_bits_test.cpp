@@ -538,7 +538,7 @@ void expect_same_aim(wend_interior_walk& walk, InteriorWalk& same, const SameLam
 /// How often it was told where to connect at the boundary.
 int expect_same_connections(const wend_interior_walk& walk, const InteriorWalk& same, const Vec3& before,
                             Pcg32& random) {
-    const std::uint64_t key = random();
+    const std::uint64_t key = hash_of(static_cast<int>(1e9f * random.uniform()));
     Pcg32 keyed(key);
     const InteriorWalk::Directions directions(same, before, keyed);
     const Vec3 asked = any_direction(random);
@@ -735,7 +735,7 @@ TEST(CSameBits, TechniqueMixes) {
         }
         ASSERT_EQ(wend_technique_mixes_learn(made, records.data(), records.size(), round == 4 ? 1 : 0, nullptr),
                   WEND_OK);
-        same.learn(walks, round == 4 ? NextWalks::rendering : NextWalks::beside_classical);
+        same.learn_from(walks, round == 4 ? NextWalks::rendering : NextWalks::beside_classical);
     }
     EXPECT_LT(least, most) << "something was learned";
     wend_technique_mixes_destroy(made);

@@ -120,7 +120,7 @@ wend_status wend_technique_mixes_learn(wend_technique_mixes* mixes, const wend_t
         for (const wend_technique_record& record : std::span(records, count)) {
             walks.push_back(to_record(record));
         }
-        mixes->value.learn(walks, is_last == 1 ? NextWalks::rendering : NextWalks::beside_classical);
+        mixes->value.learn_from(walks, is_last == 1 ? NextWalks::rendering : NextWalks::beside_classical);
         return WEND_OK;
     });
 }

@@ -128,7 +128,7 @@ void TechniqueMixes::learn(const std::map<int, SecondMoments::Sums>& moments, Ne
     seen_ = next;
 }
 
-void TechniqueMixes::learn(std::span<const InteriorWalkRecord> interior_walks, NextWalks next) {
+void TechniqueMixes::learn_from(std::span<const InteriorWalkRecord> interior_walks, NextWalks next) {
     constexpr int here = 0;
     SecondMoments moments;
     for (const InteriorWalkRecord& walk : interior_walks) {

@@ -39,7 +39,7 @@ public:
     /// is clearly more.
     void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
     /// The same from the interior walks themselves, all of this medium, as they were recorded.
-    void learn(std::span<const InteriorWalkRecord> interior_walks, NextWalks next);
+    void learn_from(std::span<const InteriorWalkRecord> interior_walks, NextWalks next);
 
     /// What is learned; see ListsMembers.
     template <class Archive, class Self>
