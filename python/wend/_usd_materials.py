@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
-
-@dataclass
-class Look:
-    """What a shape is given."""
-
-    name: str
-    emission: tuple[float, ...] | None = None
-    medium: str | None = None  #: inside
-    shape_parameters: dict[str, Any] = field(default_factory=dict)
+from ._scene_reader import Look
 
 
 def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:

@@ -3,6 +3,7 @@
 #include <wend/render/sample_budget.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -43,39 +44,65 @@ private:
     std::vector<double> sums_;
 };
 
+/// Around each pixel, what the pixels of one half show as a mean.
+struct Surroundings {
+    std::vector<double> variance, work;
+};
+
+Surroundings surroundings(const std::vector<PixelNoise>& noise, int width, std::size_t half, double most) {
+    const int height = static_cast<int>(noise.size()) / width;
+    SummedArea variance(width, height), work(width, height), pixels(width, height);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+        const bool shows = chess_half(i, width) == half;
+        variance.set(x, y, shows ? std::min(noise[i].variance, most) : 0.0);
+        work.set(x, y, shows ? noise[i].work : 0.0);
+        pixels.set(x, y, shows ? 1 : 0);
+    }
+    Surroundings result;
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+        const double count = std::max(pixels.square(x, y, reach), 1.0);
+        result.variance.push_back(variance.square(x, y, reach) / count);
+        result.work.push_back(work.square(x, y, reach) / count);
+    }
+    return result;
+}
+
+/// How far two independent views of the same differences agree, 0 to 1: of what one shows, the part that is no chance.
+double reliability(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto n = static_cast<double>(a.size());
+    const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
+    const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+    double both = 0, square_a = 0, square_b = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        both += (a[i] - mean_a) * (b[i] - mean_b);
+        square_a += (a[i] - mean_a) * (a[i] - mean_a);
+        square_b += (b[i] - mean_b) * (b[i] - mean_b);
+    }
+    const double size = std::sqrt(square_a * square_b);
+    return size > 0 ? std::clamp(both / size, 0.0, 1.0) : 0.0;
+}
+
 /// How much a pixel is worth beside others: the root of its variance over its work, as its neighbours of the other half
 /// show them.
 std::vector<double> worth_of_pixels(const std::vector<PixelNoise>& noise, int width) {
-    const int height = static_cast<int>(noise.size()) / width;
-    double all_variance = 0, all_work = 0;
-    for (const PixelNoise& pixel : noise) {
-        all_variance += pixel.variance;
-        all_work += pixel.work;
-    }
-    const double mean_variance = all_variance / static_cast<double>(noise.size());
-    const double mean_work = all_work / static_cast<double>(noise.size());
+    const auto count = static_cast<double>(noise.size());
+    const double mean = std::accumulate(noise.begin(), noise.end(), 0.0,
+                                        [](double sum, const PixelNoise& pixel) { return sum + pixel.variance; }) /
+                        count;
     std::vector<double> worth(noise.size(), 1);
-    if (!(mean_variance > 0) || !(mean_work > 0)) {
+    if (!(mean > 0)) {
         return worth;
     }
-    for (std::size_t half = 0; half < 2; ++half) {
-        SummedArea variance(width, height), work(width, height), pixels(width, height);
-        for (std::size_t i = 0; i < noise.size(); ++i) {
-            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-            const bool shows = chess_half(i, width) != half;
-            variance.set(x, y, shows ? std::min(noise[i].variance, most_variance * mean_variance) : 0.0);
-            work.set(x, y, shows ? noise[i].work : 0.0);
-            pixels.set(x, y, shows ? 1 : 0);
-        }
-        for (std::size_t i = 0; i < noise.size(); ++i) {
-            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-            const double count = pixels.square(x, y, reach);
-            if (chess_half(i, width) == half && count > 0) {
-                const double seen = variance.square(x, y, reach) / count + least_variance * mean_variance;
-                // A ray, its shading and its place on the film are work as well.
-                worth[i] = std::sqrt(seen / (work.square(x, y, reach) / count + 1));
-            }
-        }
+    const std::array<Surroundings, 2> shown = {surroundings(noise, width, 0, most_variance * mean),
+                                               surroundings(noise, width, 1, most_variance * mean)};
+    const double certainty = reliability(shown[0].variance, shown[1].variance);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        const Surroundings& around = shown[1 - chess_half(i, width)];
+        const double variance = certainty * around.variance[i] + (1 - certainty + least_variance) * mean;
+        // A ray, its shading and its place on the film are work as well.
+        worth[i] = std::sqrt(variance / (around.work[i] + 1));
     }
     return worth;
 }
