@@ -16,8 +16,8 @@ Matrix = npt.NDArray[np.float64]
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
-def add(reader: SceneReader, name: str, lamp: Any, world: Matrix) -> None:
-    """A lamp, whose space has its points as rows."""
+def add(reader: SceneReader, name: str, lamp: Any, world: Matrix, is_seen: bool) -> None:
+    """A lamp, whose space has its points as rows. `is_seen`: by the camera, as far as it has a size."""
     place = f"light '{name}'"
     kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
     if lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
@@ -32,7 +32,7 @@ def add(reader: SceneReader, name: str, lamp: Any, world: Matrix) -> None:
     if power.max() <= 0:
         return
     with reader.builder.block():
-        kinds[lamp.type](reader, place, lamp, world, power)
+        kinds[lamp.type](reader, place, lamp, world, power, is_seen)
 
 
 def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArray[np.float64]:
@@ -44,23 +44,23 @@ def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArra
     return np.ones(3)
 
 
-def _shine(reader: SceneReader, radiance: Any, kind: str, parameters: dict[str, Any]) -> None:
-    # Lamps reflect nothing, and hide nothing.
+def _shine(reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any]) -> None:
+    # Lamps reflect nothing.
     reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance})
     reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
-    reader.builder.add("Shape", kind, parameters)
+    reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"float alpha": 0.0})
 
 
-def _point(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any) -> None:
+def _point(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
     radius = float(lamp.shadow_soft_size)
     reader.builder.add("Transform", _unscaled(world))
     if radius > 0:
-        _shine(reader, power / (4 * math.pi**2 * radius**2), "sphere", {"float radius": radius})
+        _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius})
     else:
         reader.builder.add("LightSource", "point", {"rgb I": power / (4 * math.pi)})
 
 
-def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any) -> None:
+def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
     if lamp.shadow_soft_size > 0:
         reader.tell(place, "a spot light is taken as a point: its shadows are hard")
     half = min(float(lamp.spot_size) / 2, math.radians(89.9))
@@ -81,14 +81,14 @@ def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any)
     )
 
 
-def _sun(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any) -> None:
+def _sun(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
     if lamp.angle > math.radians(1):
         reader.tell(place, "a sun is taken as a point in the sky: its shadows are hard")
     reader.builder.add("Transform", _TURNED @ _unscaled(world))
     reader.builder.add("LightSource", "distant", {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)})
 
 
-def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any) -> None:
+def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
     if getattr(lamp, "spread", math.pi) < math.radians(179):
         reader.tell(place, "the spread of an area light is left out")
     x = float(lamp.size) / 2
@@ -100,12 +100,12 @@ def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any)
     radiance = power / (math.pi * max(area, 1e-30))
     if is_round:
         reader.builder.add("Transform", np.diag([x, y, 1, 1]) @ _TURNED @ world)
-        _shine(reader, radiance, "disk", {"float radius": 1})
+        _shine(reader, radiance, is_seen, "disk", {"float radius": 1})
         return
     # Seen from -z, where it shines, the corners go around against the clock.
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
     reader.builder.add("Transform", world)
-    _shine(reader, radiance, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
+    _shine(reader, radiance, is_seen, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
 
 
 def _unscaled(world: Matrix) -> Matrix:

@@ -319,6 +319,13 @@ def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
 _Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
 
 
+def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Colour]:
+    first, second, third = np.zeros(3), np.zeros(3), np.zeros(3)
+    for weight, part in parts:
+        first, second, third = first + weight * part[0], second + weight * part[1], third + weight * part[2]
+    return first, second, third
+
+
 def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
     """Scattering, absorption, emission, and the phase function."""
     zero = np.zeros(3)
@@ -357,22 +364,19 @@ def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
         phases = [part[3] for _, part in there if part[3]]
         if len(phases) > 1 and phases[0] != phases[1]:
             return _two_phases(nodes, node, there)
-        sums = [sum((w * part[i] for w, part in there), zero) for i in range(3)]
-        return sums[0], sums[1], sums[2], phases[0] if phases else {}
+        return *_sums(there), phases[0] if phases else {}
     nodes.warn(node, f"{kind.removeprefix('ShaderNode')} as a volume is left out")
     return None
 
 
 def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[float, _Coefficients]]) -> _Coefficients:
-    zero = np.zeros(3)
-    sums = [sum((w * part[i] for w, part in parts), zero) for i in range(3)]
     weights = [w * float(part[0].mean()) for w, part in parts]
     if all(set(part[3]) <= {"float g"} for _, part in parts):
         cosines = [part[3].get("float g", 0.0) for _, part in parts]
-        phase = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}
-        return sums[0], sums[1], sums[2], phase
+        phase: dict[str, Any] = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}
+        return *_sums(parts), phase
     nodes.warn(node, "of two phase functions the one that scatters more is taken")
-    return sums[0], sums[1], sums[2], parts[int(np.argmax(weights))][1][3]
+    return *_sums(parts), parts[int(np.argmax(weights))][1][3]
 
 
 def _phase(nodes: Nodes, node: Any) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -139,13 +140,11 @@ class Nodes:
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
         inputs = [self._constant(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
-            from . import _wend
-
-            return np.array(_wend.blackbody_colour(float(inputs[0][0])), dtype=np.float64)
+            return _blackbody(float(inputs[0][0]))
         if kind == "ShaderNodeMath":
             return _math(node.operation, [None if x is None else float(x[0]) for x in inputs], node.use_clamp)
         if kind == "ShaderNodeGamma" and inputs[0] is not None and inputs[1] is not None:
-            return np.maximum(inputs[0], 0) ** inputs[1][0]
+            return np.asarray(np.maximum(inputs[0], 0) ** inputs[1][0], dtype=np.float64)
         if kind == "ShaderNodeInvert" and inputs[0] is not None and inputs[1] is not None:
             return inputs[1] * (1 - inputs[0]) + (1 - inputs[1]) * inputs[0]
         if kind == "ShaderNodeRGBToBW" and inputs[0] is not None:
@@ -253,15 +252,33 @@ class Nodes:
             if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
                 return path
         if image.source in ("FILE", "GENERATED") and image.size[0] > 0:
-            file = self.reader.map_file(f"{bpy.path.clean_name(image.name)}{len(self.reader.builder)}.{'exr' if image.is_float else 'png'}")
-            copy = image.copy()
-            copy.filepath_raw = file
-            copy.file_format = "OPEN_EXR" if image.is_float else "PNG"
-            copy.save()
-            bpy.data.images.remove(copy)
+            suffix = "exr" if image.is_float else "png"
+            file = self.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(self.reader.builder)}.{suffix}")
+            before = image.file_format
+            image.file_format = "OPEN_EXR" if image.is_float else "PNG"
+            image.save(filepath=file, save_copy=True)
+            image.file_format = before
             return file
         self.warn(node, f"a picture of the kind {image.source}, or without pixels, is left out")
         return None
+
+
+def _blackbody(kelvin: float) -> Colour:
+    """Of luminance 1, by Planck's law and fits of the colour matching functions (wyman2013)."""
+    nanometres = np.arange(380.0, 781.0, 5.0)
+
+    def bell(centre: float, below: float, above: float) -> Colour:
+        scaled = (nanometres - centre) * np.where(nanometres < centre, below, above)
+        return np.asarray(np.exp(-0.5 * scaled**2), dtype=np.float64)
+
+    x = 0.362 * bell(442.0, 0.0624, 0.0374) + 1.056 * bell(599.8, 0.0264, 0.0323) - 0.065 * bell(501.1, 0.0490, 0.0382)
+    y = 0.821 * bell(568.8, 0.0213, 0.0247) + 0.286 * bell(530.9, 0.0613, 0.0322)
+    z = 1.217 * bell(437.0, 0.0845, 0.0278) + 0.681 * bell(459.0, 0.0385, 0.0725)
+    metres = nanometres * 1e-9
+    light = metres**-5 / np.expm1(0.014387769 / (metres * min(max(kelvin, 800.0), 20000.0)))
+    xyz = np.array([(light * match).sum() for match in (x, y, z)]) / (light * y).sum()
+    from_xyz = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
+    return np.asarray(np.maximum(from_xyz @ xyz, 0), dtype=np.float64)
 
 
 def _blend(mode: str, factor: Colour, a: Colour, b: Colour) -> Colour | None:
@@ -274,7 +291,7 @@ def _blend(mode: str, factor: Colour, a: Colour, b: Colour) -> Colour | None:
 
 def _math(operation: str, values: list[float | None], clamp: bool) -> Colour | None:
     a, b = values[0], values[1] if len(values) > 1 else None
-    unary = {
+    unary: dict[str, Callable[[float], float]] = {
         "SQRT": lambda x: math.sqrt(max(x, 0)),
         "ABSOLUTE": abs,
         "EXPONENT": lambda x: math.exp(min(x, 700)),
@@ -286,7 +303,7 @@ def _math(operation: str, values: list[float | None], clamp: bool) -> Colour | N
         "RADIANS": math.radians,
         "DEGREES": math.degrees,
     }
-    binary = {
+    binary: dict[str, Callable[[float, float], float]] = {
         "ADD": lambda x, y: x + y,
         "SUBTRACT": lambda x, y: x - y,
         "MULTIPLY": lambda x, y: x * y,

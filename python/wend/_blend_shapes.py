@@ -12,7 +12,7 @@ Parameters = dict[str, Any]
 
 
 def _taken(collection: Any, attribute: str, width: int, kind: type) -> npt.NDArray[Any]:
-    values = np.empty(len(collection) * width, dtype=kind)
+    values: npt.NDArray[Any] = np.empty(len(collection) * width, dtype=kind)
     collection.foreach_get(attribute, values)
     return values.reshape(-1, width) if width > 1 else values
 

@@ -22,8 +22,7 @@ def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
     tree = world.node_tree if world and world.use_nodes else None
     output = output_node(tree) if tree else None
     if output is None:
-        colour = np.array(world.color, dtype=np.float64) if world else np.zeros(3)
-        return _add_even(reader, colour)
+        return _add_even(reader, np.array(world.color, dtype=np.float64) if world else np.zeros(3))
     nodes = Nodes(reader, f"world '{world.name}'", f" world {world.name}")
     node = nodes.shader(output.inputs["Surface"])
     if node is None:

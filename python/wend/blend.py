@@ -145,23 +145,24 @@ class _Reader(SceneReader):
         self.add_film(eye, resolution, spp)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
-        instances = [self.copied(instance) for instance in depsgraph.object_instances if self.is_seen(instance)]
-        times = Counter(self.key_of(object_) for object_, _, _ in instances)
-        for object_, place, name in instances:
-            self.add_object(object_, place, name, depsgraph, times[self.key_of(object_)] > 1)
+        # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
+        seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
+        times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
+        for instance, shown in zip(depsgraph.object_instances, seen):
+            if shown:
+                object_ = instance.object
+                place = _place(instance.matrix_world)
+                self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
         return self.builder
 
     @staticmethod
-    def copied(instance: Any) -> tuple[Any, Any, str]:
-        # What the depsgraph gives changes as it is walked through.
-        return instance.object, _place(instance.matrix_world), str(instance.object.name)
-
-    @staticmethod
     def key_of(object_: Any) -> str:
+        """Of what it looks like: instances of one thing share it."""
         data = object_.data
-        return f"{object_.type} {data.as_pointer() if data is not None else object_.name}"
+        materials = " ".join(slot.material.name if slot.material else "" for slot in object_.material_slots)
+        return f"{object_.type} {data.as_pointer() if data is not None else object_.name} {materials}"
 
     @staticmethod
     def is_seen(instance: Any) -> bool:
@@ -247,13 +248,13 @@ class _Reader(SceneReader):
 
     # ---- Objects ----
 
-    def add_object(self, object_: Any, place: Any, name: str, depsgraph: Any, is_copied: bool) -> None:
+    def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
         kind = object_.type
         if kind == "LIGHT":
-            lights.add(self, name, object_.data, place[0])
+            lights.add(self, name, object_.data, place[0], object_.visible_camera)
             self.has_light = True
         elif kind in _SOLID:
-            self.add_solid(object_, place, name, depsgraph, is_copied)
+            self.add_solid(object_, place, name, is_copied)
         elif kind == "CURVES":
             look = look_of(self, object_.material_slots[0].material if object_.material_slots else None)
             for segment in hair_segments(object_.data):
@@ -263,7 +264,7 @@ class _Reader(SceneReader):
         elif kind not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "GREASEPENCIL"):
             self.tell(f"object '{name}'", f"a {kind} is left out")
 
-    def add_solid(self, object_: Any, place: Any, name: str, depsgraph: Any, is_copied: bool) -> None:
+    def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
         for system in getattr(object_, "particle_systems", []):
             if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
                 slots = object_.material_slots
@@ -272,7 +273,7 @@ class _Reader(SceneReader):
                 for segment in strands(system, None, object_):
                     self.add_shape(_place(np.eye(4)), look, ("curve", segment), name)
         materials = [slot.material for slot in object_.material_slots]
-        key = self.key_of(object_) + " " + " ".join(m.name if m else "" for m in materials)
+        key = self.key_of(object_)
         if is_copied and key in self._objects:
             with self.builder.block():
                 self.put(place)
@@ -331,7 +332,7 @@ class _Reader(SceneReader):
         if not volume.grids.is_loaded:
             volume.grids.load()
         file = volume.grids.frame_filepath or bpy.path.abspath(volume.filepath)
-        if parameters is None or not file or not len(volume.grids):
+        if node is None or parameters is None or not file or not len(volume.grids):
             self.tell(where, "a volume without a file, or a material with a volume, is left out")
             return
         grid = "density"
@@ -339,6 +340,12 @@ class _Reader(SceneReader):
             grid = node.inputs["Density Attribute"].default_value or "density"
         elif not any(g.name == "density" for g in volume.grids):
             grid = volume.grids[0].name
+        if volume.render.space == "OBJECT":
+            # As opaque whatever its size: coefficients are of the object's own lengths.
+            sizes = np.linalg.norm(place[0][:3, :3], axis=1)
+            if np.ptp(sizes) > 1e-4 * sizes.max():
+                self.tell(where, "a volume of uneven scale is as opaque as its mean scale makes it")
+            parameters["float scale"] = 1 / max(float(sizes.mean()), 1e-30)
         medium = f" volume {name}"
         with self.builder.block():
             self.put(place)

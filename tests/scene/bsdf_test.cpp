@@ -271,13 +271,13 @@ TEST(Dielectric, RoughReflectanceTendsToFresnels) {
     }
 }
 
-TEST(Principled, AWhiteSurfaceLosesNothing) {
+TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
     for (const float metallic : {0.0f, 0.4f, 1.0f}) {
-        for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        for (const float alpha : {0.05f, 0.3f, 0.6f}) {
             PrincipledBsdf white = principled(metallic, alpha);
             white.base = Rgb(1.0f);
             for (const Vec3& wo : incidences()) {
-                EXPECT_TRUE(test::is_within_one_percent(energy(white, wo, 100000)[0], 1, 4e-3))
+                EXPECT_TRUE(test::is_within_one_percent(energy(white, wo, 400000)[0], 1, 2e-3))
                     << metallic << ' ' << alpha << ' ' << wo;
             }
         }
@@ -287,15 +287,15 @@ TEST(Principled, AWhiteSurfaceLosesNothing) {
     EXPECT_LT(lost.mean(), 0.75);
 }
 
-TEST(Principled, ReflectsItsAlbedo) {
+TEST(SlowPrincipled, ReflectsItsAlbedo) {
     for (const float metallic : {0.0f, 0.5f, 1.0f}) {
         for (const float coat : {0.0f, 0.7f}) {
             const PrincipledBsdf b = principled(metallic, 0.4f, coat);
             for (const Vec3& wo : incidences()) {
-                const auto shares = energy(b, wo, 100000);
+                const auto shares = energy(b, wo, 400000);
                 for (std::size_t c = 0; c < 3; ++c) {
                     EXPECT_TRUE(test::is_within_one_percent(
-                        shares[c], static_cast<double>(b.albedo(wo)[static_cast<int>(c)]), 4e-3))
+                        shares[c], static_cast<double>(b.albedo(wo)[static_cast<int>(c)]), 2e-3))
                         << metallic << ' ' << coat << ' ' << wo << ' ' << shares[c].mean();
                 }
             }

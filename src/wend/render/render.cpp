@@ -357,7 +357,9 @@ private:
         plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
                                        std::max(choice_.recorded_share(samples), fewest_recorded / walks));
         double sample_variance = std::pow(noise_, 2) * samples;
-        if (preset.adaptive && samples >= warm_up_samples) {
+        // By fewer samples the noise is not known well enough to divide what follows by it.
+        constexpr int known_noise = 15;
+        if (preset.adaptive && samples >= known_noise) {
             const std::vector<PixelNoise> noise = film_.noise();
             sample_variance = 0;
             for (const PixelNoise& pixel : noise) {
