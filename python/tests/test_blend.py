@@ -5,6 +5,8 @@ import os
 import pathlib
 import subprocess
 import sys
+import tomllib
+import zipfile
 
 import numpy as np
 import pytest
@@ -404,3 +406,58 @@ def test_errors(tmp_path, capsys, scene):
     scene.camera = None
     with pytest.raises(wend.InputError, match="no camera"):
         blend.of_scene(scene)
+
+
+@pytest.fixture
+def addon():
+    from wend import blender_addon
+
+    blender_addon.register()
+    yield blender_addon
+    blender_addon.unregister()
+
+
+def test_the_add_on_renders_frames(scene, tmp_path, addon):
+    floor(scene)
+    ball = mesh(scene, "uv_sphere", material("BsdfDiffuse", color=(0.8, 0.2, 0.1)), place=(0, 0, 0.5), radius=0.7)
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.5, 0.3, 0), angle=0)
+    for frame, x in ((1, -1.0), (2, 1.0)):
+        ball.location.x = x
+        ball.keyframe_insert("location", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 2
+    pictures = {}
+    for engine in ("CYCLES", "WEND"):
+        scene.render.engine = engine
+        scene.cycles.samples, scene.wend.samples, scene.wend.guiding = 256, 256, "classical"
+        scene.render.filepath = str(tmp_path / f"{engine}.####")
+        bpy.ops.render.render(animation=True)
+        pictures[engine] = [wend.read(tmp_path / f"{engine}.{i:04}.exr").image for i in (1, 2)]
+    for ours, theirs in zip(pictures["WEND"], pictures["CYCLES"]):
+        assert np.abs(blocks(ours) / blocks(theirs) - 1).max() < 0.01
+    assert np.abs(pictures["WEND"][0] - pictures["WEND"][1]).mean() > 0.01
+
+
+def test_the_add_on_says_what_is_wrong(scene, tmp_path, addon):
+    (tmp_path / "broken.png").write_bytes(b"no picture")
+    image = bpy.data.images.new("broken", 4, 4)
+    image.source, image.filepath = "FILE", str(tmp_path / "broken.png")
+    made = material("BsdfDiffuse")
+    texture = made.node_tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    link(made.node_tree, texture, next(n for n in made.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse").inputs["Color"])
+    mesh(scene, "cube", made)
+    scene.render.engine = "WEND"
+    with pytest.raises(RuntimeError, match="broken.png"):
+        bpy.ops.render.render()
+
+
+def test_the_zip_of_the_add_on(tmp_path, addon, capsys):
+    wheel = tmp_path / "wend-0.1.0-cp311-cp311-manylinux_2_28_x86_64.whl"
+    assert addon.main([str(wheel), "-o", str(tmp_path / "wend.zip")]) == 2
+    assert "wheel of Wend" in capsys.readouterr().err
+    wheel.write_bytes(b"a wheel")
+    assert addon.main([str(wheel), "-o", str(tmp_path / "wend.zip")]) == 0
+    with zipfile.ZipFile(tmp_path / "wend.zip") as archive:
+        manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
+        assert manifest["wheels"] == [f"./wheels/{wheel.name}"] and manifest["id"] == "wend" and manifest["version"] == "0.1.0"
+        assert f"wheels/{wheel.name}" in archive.namelist() and "__init__.py" in archive.namelist()
