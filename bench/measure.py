@@ -254,9 +254,10 @@ def measure_example(arguments):
         return
     text = subprocess.run([arguments.wend], check=True, capture_output=True, text=True).stdout
     number = r"([0-9.]+)"
-    line = re.compile(rf"(\w+) +{number} \+- {number} +{number} \+- {number} +1 / {number}")
+    line = re.compile(rf"(\w+) +{number} \+- {number}" + 2 * rf" +{number} \+- {number} +1 / {number}")
     for channel, *numbers in line.findall(text):
-        keys = ("classical", "classical_error", "guided", "guided_error", "gain")
+        keys = ("classical", "classical_error", "guided", "guided_error", "gain", "learned", "learned_error",
+                "learned_gain")
         results.append({"channel": channel, **dict(zip(keys, map(float, numbers)))})
     print(results.path)
 

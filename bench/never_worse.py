@@ -7,6 +7,8 @@ as it takes for that time, by what the budget before it cost; what is left of th
 is relMSE times processor time, of classical sampling over that of the default. Processor time of reading the scene is
 not counted. References that are not stored are rendered first and kept (out/references).
 
+With --baseline another way of sampling takes the place of the classical one, with its own name for the results.
+
 Half of the scenes, every other one in the order of their names, are there to choose constants by ("tuned on"), the
 other half to report ("held out").
 """
@@ -137,11 +139,11 @@ class Judge:
             if results.has(**key):
                 continue
             with tempfile.TemporaryDirectory() as folder:
-                classical = self.render(case, CLASSICAL, budget, seed, folder)
+                classical = self.render(case, baseline(self.arguments), budget, seed, folder)
                 default = self.render(case, DEFAULT, max(1, round(budget / price)), seed, folder)
             price = (default["seconds"] / default["samples"]) / (classical["seconds"] / classical["samples"])
             with self.lock:
-                for sampling, row in (("classical", classical), ("default", default)):
+                for sampling, row in ((self.arguments.baseline, classical), ("default", default)):
                     results.append({**key, "sampling": sampling, **row})
                 print(f"{case.name:20}seed {seed} at {budget:4}: {ratio(classical, default, 'relmse'):6.3f} "
                       f"({ratio(classical, default, 'relmse_trimmed'):6.3f})  p99.99 "
@@ -176,6 +178,10 @@ class Judge:
             sys.exit(failed[0])
 
 
+def baseline(arguments):
+    return CLASSICAL if arguments.baseline == "classical" else (arguments.baseline, "auto")
+
+
 def ratio(classical, default, what):
     return classical[what] * classical["seconds"] / (default[what] * default["seconds"])
 
@@ -190,7 +196,8 @@ def pairs(rows):
     found = {}
     for (scene, budget, _), both in sorted(by_key.items()):
         if len(both) == 2:
-            found.setdefault((scene, budget), []).append((both["classical"], both["default"]))
+            default = both.pop("default")
+            found.setdefault((scene, budget), []).append((*both.values(), default))
     return found
 
 
@@ -210,16 +217,16 @@ def geometric_mean(values):
     return math.exp(statistics.fmean(math.log(v) for v in values))
 
 
-def page(results):
+def page(results, baseline):
     found = {key: summary(of_seeds) for key, of_seeds in pairs(results["rows"]).items()}
     names = sorted(set(OWN) | set(OTHERS))
     tuned_on = set(names[::2])
     media = {name: name not in OTHERS or OTHERS[name][2] for name in names}
     budgets = sorted({budget for _, budget in found})
-    lines = ["# Never worse", "",
-             "Classical sampling over the default: relMSE × processor time, medians of seeds (without the worst 0.1 % "
-             "of pixels in brackets). Above 1 the default is ahead. A budget is the time of so many classical samples. "
-             f"{results['machine']['cpu']}, one thread for each picture, commit {results['commit']}. "
+    lines = ["# Never worse" if baseline == "classical" else f"# The default and {baseline}", "",
+             f"Sampling `{baseline}` over the default: relMSE × processor time, medians of seeds (without the worst "
+             "0.1 % of pixels in brackets). Above 1 the default is ahead. A budget is the time of so many samples of "
+             f"`{baseline}`. {results['machine']['cpu']}, one thread for each picture, commit {results['commit']}. "
              "`bench/never_worse.py` measures and writes this page.", "",
              "## Geometric means", "", "| scenes | " + " | ".join(str(b) for b in budgets) + " |",
              "|---|" + "---|" * len(budgets)]
@@ -235,8 +242,8 @@ def page(results):
                          f"({geometric_mean([s['trimmed'] for s in chosen]):.2f})" if chosen else "")
         lines.append(f"| {title} | " + " | ".join(cells) + " |")
     lines += ["", "## Every scene and budget, worst first", "",
-              "Outliers: the error that one pixel in ten thousand exceeds, of the default over that of classical "
-              "sampling. Price: of a sample, in classical ones.", "",
+              "Outliers: the error that one pixel in ten thousand exceeds, of the default over that of "
+              f"`{baseline}`. Price: of a sample, in those of `{baseline}`.", "",
               "| scene | budget | ratio | outliers | price | training |", "|---|---|---|---|---|---|"]
     for (name, budget), s in sorted(found.items(), key=lambda item: item[1]["trimmed"]):
         lines.append(f"| {name} | {budget} | {s['plain']:.2f} ({s['trimmed']:.2f}) | {s['outliers']:.2f} | "
@@ -246,7 +253,8 @@ def page(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--budgets", type=int, nargs="+", default=BUDGETS, help="in classical samples, rising")
+    parser.add_argument("--budgets", type=int, nargs="+", default=BUDGETS, help="in samples of the baseline, rising")
+    parser.add_argument("--baseline", default="classical", help="what the default is compared with, as --sampling has it")
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--scenes", nargs="+", help="these alone")
@@ -269,9 +277,9 @@ def main():
         sys.exit("stopped; the same command goes on from here")
     where = arguments.page or (ROOT / "docs/never_worse.md" if arguments.name == "never_worse" else None)
     if where:
-        where.write_text(page(results.content))
+        where.write_text(page(results.content, arguments.baseline))
     else:
-        print(page(results.content))
+        print(page(results.content, arguments.baseline))
 
 
 if __name__ == "__main__":

@@ -241,8 +241,10 @@ def example(results):
     """Means and standard errors of the channels of examples/subsurface."""
     albedo = {"red": "0.975", "green": "0.95", "blue": "0.9"}
     rows = [[f"{r['channel']} ({albedo[r['channel']]})", f"{r['classical']:.4f} ± {r['classical_error']:.4f}",
-             f"{r['guided']:.4f} ± {r['guided_error']:.4f}", f"{r['gain']:.1f} ×"] for r in results["rows"]]
-    return table(["channel (albedo)", "classical", "guided", "less variance"], rows) + note(results)
+             f"{r['guided']:.4f} ± {r['guided_error']:.4f}", f"{r['gain']:.1f} ×",
+             f"{r['learned']:.4f} ± {r['learned_error']:.4f}", f"{r['learned_gain']:.1f} ×"] for r in results["rows"]]
+    head = ["channel (albedo)", "classical", "guided", "less variance", "with the mix learned", "less variance"]
+    return table(head, rows) + note(results)
 
 
 # Name: what makes it, of which files of bench/results.

@@ -8,11 +8,12 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 namespace {
 
 using wend::dot, wend::normalize;
-using wend::InteriorFlight, wend::InteriorGuide, wend::InteriorWalk;
+using wend::InteriorFlight, wend::InteriorGuide, wend::InteriorWalk, wend::InteriorWalkRecord, wend::TechniqueMix;
 using wend::Ray, wend::Rgb, wend::Vec2, wend::Vec3;
 
 // ---- The scene: a ball of radius 1 around the origin, which does not refract, and light from everywhere ----
@@ -51,11 +52,15 @@ bool is_in_sun(const Vec3& w) {
 /// Light that arrives along a ray that hits the ball, by a random walk through it.
 class Walk {
 public:
-    Walk(const InteriorGuide& guide, const Ray& ray, wend::Pcg32& random) : ray_(ray), random_(random) {
-        // 2. At the boundary, going in: enter, aim, head.
+    Walk(const InteriorGuide& guide, const TechniqueMix& mix, const Ray& ray, wend::Pcg32& random)
+        : ray_(ray), random_(random) {
+        // 2. At the boundary, going in: enter, aim, head. The mix says how walks that begin here are drawn.
         ray_.origin = ray.at(intersect(ray)->x);
         const Vec3 normal = normalize(ray_.origin);
-        interior_.enter(guide, Rgb(1.0f / 3));
+        record_.entry = ray_.origin;
+        record_.guided = !(random_.uniform() < mix.unguided_probability);
+        next_event_ = record_.guided ? mix.guided : mix.unguided;
+        interior_.enter(guide, Rgb(1.0f / 3), record_.guided ? mix.defensive_fraction : 1);
         interior_.aim(normal);
         interior_.head(ray_.direction);
     }
@@ -66,11 +71,16 @@ public:
         return radiance_;
     }
 
+    /// 7. What the walk found, to learn the mix from.
+    const InteriorWalkRecord& record() const { return record_; }
+
 private:
     bool step() {
         // 3. Fly to the next collision or to the boundary.
         const InteriorFlight step = interior_.fly(distance_to_exit(ray_), interior_.draw_distance(random_.uniform()));
         throughput_ *= step.flight.weight;
+        ++record_.flights;
+        record_.relative = interior_.relative_densities();
         if (!step.flight.scatters) {
             leave(step.pass_probability);
             return false;
@@ -78,7 +88,10 @@ private:
         // 4. Scatter: draw a direction, and tell the walk.
         const Vec3 position = ray_.at(step.flight.distance);
         const InteriorWalk::Directions directions(interior_, ray_.direction, random_);
-        radiance_ += throughput_ * connect(directions, position);
+        if (random_.uniform() < next_event_.probability) {
+            connect(directions, position);
+        }
+        at_collision_ = interior_.relative_densities();
         const float u = random_.uniform();
         const auto s = directions.sample(u, random_.uniform2());
         throughput_ *= s->weight();
@@ -96,29 +109,45 @@ private:
 
     /// Out of the ball, straight on: the sky, and the sun where connections have left it.
     void leave(float pass_probability) {
-        radiance_ += throughput_ * sky_radiance;
+        gather(throughput_ * sky_radiance, {record_.relative, 0});
         if (is_in_sun(ray_.direction)) {
-            const bool connected = interior_.has_turned();  // not if the ray went through without a collision
-            const float own = density_ * pass_probability;
-            radiance_ += throughput_ * sun_radiance * (connected ? own / (own + sun_density) : 1.0f);
+            // Not connected if the ray went through without a collision.
+            const float connections = interior_.has_turned() ? next_event_.probability * sun_density : 0.0f;
+            const float own = interior_.has_turned() ? next_event_.preference * density_ * pass_probability : 1.0f;
+            const float by_connections = connections / (own + connections);
+            gather(throughput_ * sun_radiance * (1 - by_connections),
+                   wend::gradient_of_hit(at_collision_, record_.relative, by_connections));
         }
     }
 
     /// 6. Next-event estimation: what a straight line from a collision to the sun brings, with the balance heuristic
     /// against the walk that might have gone the same way.
-    Rgb connect(const InteriorWalk::Directions& directions, const Vec3& position) {
+    void connect(const InteriorWalk::Directions& directions, const Vec3& position) {
         const Vec3 w = sun.to_world(wend::to_cone(random_.uniform2(), sun_width));
         const float length = distance_to_exit({position, w});
         InteriorWalk there = interior_;
         there.turn(directions, w);
-        const float own = directions.density(w) * there.pass(length);
+        const float own = next_event_.preference * directions.density(w) * there.pass(length);
+        const float connections = next_event_.probability * sun_density;
         const Rgb transmittance = wend::exp(wax.extinction() * -length);
-        return wax.phase.evaluate(dot(ray_.direction, w)) * transmittance * sun_radiance * (1 / (own + sun_density));
+        const Rgb arriving = transmittance * sun_radiance * (1 / (own + connections));
+        record_.connected = true;
+        gather(throughput_ * wax.phase.evaluate(dot(ray_.direction, w)) * arriving,
+               wend::gradient_of_connection(interior_.relative_densities(), there.relative_densities(),
+                                            connections / (own + connections)));
+    }
+
+    void gather(const Rgb& light, const wend::MixGradient& gradient) {
+        radiance_ += light;
+        record_.bring(wend::mean_value(light), gradient);
     }
 
     Ray ray_;
     wend::Pcg32& random_;
     InteriorWalk interior_;
+    wend::NextEventSettings next_event_;
+    InteriorWalkRecord record_;
+    InteriorGuide::PerTechnique at_collision_{};
     Rgb throughput_{1}, radiance_;
     float density_ = 0;  ///< of the direction drawn last
 };
@@ -144,13 +173,14 @@ private:
 
 using Measured = std::array<Moments, 3>;
 
+constexpr Ray ray{{0.3f, 0.2f, -3}, {0, 0, 1}};
+
 /// Radiance along one ray, by channel.
-Measured measure(const InteriorGuide& guide, int walks) {
-    const Ray ray{{0.3f, 0.2f, -3}, {0, 0, 1}};
+Measured measure(const InteriorGuide& guide, const TechniqueMix& mix, int walks) {
     Measured radiance;
     wend::Pcg32 random(1);
     for (int i = 0; i < walks; ++i) {
-        const Rgb sample = Walk(guide, ray, random).run();
+        const Rgb sample = Walk(guide, mix, ray, random).run();
         for (int c = 0; c < 3; ++c) {
             radiance[static_cast<std::size_t>(c)].add(sample[c]);
         }
@@ -158,24 +188,52 @@ Measured measure(const InteriorGuide& guide, int walks) {
     return radiance;
 }
 
+/// The mix that walks along that ray teach, in a few rounds.
+TechniqueMix learn(const InteriorGuide& guide) {
+    constexpr int rounds = 8, walks = 4000;
+    wend::TechniqueMixes mixes({Vec3(-1), Vec3(1)}, guide.defensive_fraction);
+    const int cell = mixes.cell_at(ray.at(intersect(ray)->x));
+    wend::Pcg32 random(2);
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<InteriorWalkRecord> records;
+        for (int i = 0; i < walks; ++i) {
+            Walk walk(guide, mixes.plan(cell), ray, random);
+            walk.run();
+            records.push_back(walk.record());
+        }
+        mixes.learn_from(records, round + 1 < rounds ? wend::NextWalks::beside_classical : wend::NextWalks::rendering);
+    }
+    return mixes.plan(cell);
+}
+
 }  // namespace
 
 int main() {
-    // 1. Once a medium: solve for its modes, and say how often walks are classical all the same.
+    // 1. Once a medium: solve for its modes.
     constexpr int walks = 100000;
-    const auto modes = wend::half_space_modes(wax);
-    const Measured classical = measure(wend::interior_guide(wax, modes, 1), walks);
-    const Measured guided = measure(wend::interior_guide(wax, modes, 0.25f), walks);
+    const InteriorGuide guide = wend::interior_guide(wax, wend::half_space_modes(wax));
+    const Measured classical = measure(guide, {.defensive_fraction = 1}, walks);
+    const Measured guided = measure(guide, {.defensive_fraction = guide.defensive_fraction}, walks);
+    const TechniqueMix mix = learn(guide);
+    const Measured learned = measure(guide, mix, walks);
 
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
     bool agrees = true;
-    std::printf("         classical            guided               variance\n");
+    std::printf("         classical            guided               variance  learned              variance\n");
     for (std::size_t c = 0; c < 3; ++c) {
-        const Moments &a = classical[c], &b = guided[c];
-        const double error = std::hypot(a.standard_error(), b.standard_error());
-        std::printf("%-6s  %.5f +- %.5f  %.5f +- %.5f   1 / %.1f\n", std::array{"red", "green", "blue"}[c], a.mean(),
-                    a.standard_error(), b.mean(), b.standard_error(), a.variance() / b.variance());
-        agrees = agrees && std::abs(a.mean() - b.mean()) < 4 * error;
+        const auto column = [&](const Moments& m) {
+            const double error = std::hypot(classical[c].standard_error(), m.standard_error());
+            agrees = agrees && std::abs(classical[c].mean() - m.mean()) < 4 * error;
+            std::printf("  %.5f +- %.5f", m.mean(), m.standard_error());
+        };
+        std::printf("%-6s", std::array{"red", "green", "blue"}[c]);
+        column(classical[c]);
+        column(guided[c]);
+        std::printf("   1 / %.1f", classical[c].variance() / guided[c].variance());
+        column(learned[c]);
+        std::printf("   1 / %.1f\n", classical[c].variance() / learned[c].variance());
     }
+    std::printf("learned: %.0f %% of the walks classical, connections with probability %.2f\n",
+                100 * static_cast<double>(mix.defensive_fraction), static_cast<double>(mix.guided.probability));
     return agrees ? 0 : 1;
 }

@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
-
-@dataclass
-class Look:
-    """What a shape is given."""
-
-    name: str
-    emission: tuple[float, ...] | None = None
-    medium: str | None = None  #: inside
-    shape_parameters: dict[str, Any] = field(default_factory=dict)
+from ._scene_reader import Look
 
 
 def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:
@@ -109,13 +100,23 @@ class _Inputs:
 
 #: What shaders of surfaces call the same things; the names that a shader has not are left out.
 _WORDS: dict[str, dict[str, str]] = {
-    "UsdPreviewSurface": {"colour": "diffuseColor", "metal": "metallic", "roughness": "roughness", "ior": "ior"},
+    "UsdPreviewSurface": {
+        "colour": "diffuseColor",
+        "metal": "metallic",
+        "roughness": "roughness",
+        "ior": "ior",
+        "coat": "clearcoat",
+        "coat_roughness": "clearcoatRoughness",
+    },
     "ND_standard_surface_surfaceshader": {
         "colour": "base_color",
         "weight": "base",
         "metal": "metalness",
         "roughness": "specular_roughness",
         "ior": "specular_IOR",
+        "coat": "coat",
+        "coat_roughness": "coat_roughness",
+        "coat_ior": "coat_IOR",
         "clear": "transmission",
         "clear_colour": "transmission_color",
         "clear_depth": "transmission_depth",
@@ -135,6 +136,9 @@ _WORDS: dict[str, dict[str, str]] = {
         "metal": "base_metalness",
         "roughness": "specular_roughness",
         "ior": "specular_ior",
+        "coat": "coat_weight",
+        "coat_roughness": "coat_roughness",
+        "coat_ior": "coat_ior",
         "clear": "transmission_weight",
         "clear_colour": "transmission_color",
         "clear_depth": "transmission_depth",
@@ -172,33 +176,39 @@ def _surface(reader: Any, material: Any, key: str) -> Look:
         is_clear = opacity <= 0.01
         if not is_clear and opacity < 1:
             look.shape_parameters["float alpha"] = opacity
-        _tell_of_others(reader, inputs, {"clearcoat": 0, "displacement": 0, "useSpecularWorkflow": 0})
+        _tell_of_others(reader, inputs, {"displacement": 0, "useSpecularWorkflow": 0})
     else:
         emission = float(constant("shine", 0)) * np.array(constant("shine_colour", (1, 1, 1)), dtype=np.float64)
         is_clear = float(constant("clear", 0)) > 0.5
-        _tell_of_others(reader, inputs, {"coat": 0, "coat_weight": 0, "sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0})
+        _tell_of_others(reader, inputs, {"sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0})
     if emission.max() > 0:
         look.emission = tuple(float(x) for x in emission)
-    roughness = float(constant("roughness", 0.5 if name == "UsdPreviewSurface" else 0.2))
-    # All of them square it: that is the facets' alpha.
-    parameters: dict[str, Any] = {"float roughness": roughness**2, "bool remaproughness": False}
+    roughness = 0.5 if name == "UsdPreviewSurface" else 0.2
+
+    def facets() -> dict[str, Any]:
+        # All of them square the roughness: that is the facets' alpha.
+        return {"float roughness": float(constant("roughness", roughness)) ** 2, "bool remaproughness": False}
+
     ior = float(constant("ior", 1.5))
     grey = (0.18, 0.18, 0.18) if name == "UsdPreviewSurface" else (0.8, 0.8, 0.8)
-    if float(constant("metal", 0)) > 0.5:
-        parameters["string type"] = "conductor"
-        inputs.add_to(parameters, words["colour"], "reflectance", "rgb", grey)
-    elif is_clear:
-        parameters |= {"string type": "dielectric", "float eta": ior}
+    parameters: dict[str, Any]
+    if is_clear:
+        parameters = facets() | {"string type": "dielectric", "float eta": ior}
         look.medium = _inside_of_glass(reader, key, constant)
     elif float(constant("inside", 0)) > 0.5:
-        parameters |= {"string type": "subsurface", "float eta": ior, "float g": float(constant("inside_g", 0))}
+        parameters = facets() | {"string type": "subsurface", "float eta": ior, "float g": float(constant("inside_g", 0))}
         inputs.add_to(parameters, words["inside_colour"], "reflectance", "rgb", grey)
         radius = np.array(constant("inside_radius", (1, 1, 1)), dtype=np.float64) * float(constant("inside_scale", 1))
         radii = radius * np.array(constant("inside_radii", (1, 1, 1)), dtype=np.float64)
         parameters["rgb mfp"] = np.maximum(np.broadcast_to(radii, 3), 1e-6)
     else:
-        parameters |= {"string type": "coateddiffuse", "float eta": ior}
+        parameters = {"string type": "principled", "float eta": ior}
         inputs.add_to(parameters, words["colour"], "reflectance", "rgb", grey)
+        inputs.add_to(parameters, words["roughness"], "roughness", "float", roughness)
+        inputs.add_to(parameters, words["metal"], "metallic", "float", 0.0)
+        inputs.add_to(parameters, words["coat"], "coat", "float", 0.0)
+        inputs.add_to(parameters, words["coat_roughness"], "coatroughness", "float", 0.01 if name == "UsdPreviewSurface" else 0.1)
+        parameters["float coateta"] = float(constant("coat_ior", ior if name == "UsdPreviewSurface" else 1.5))
         if "rgb reflectance" in parameters:
             parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(constant("weight", 1))
     reader.builder.add("MakeNamedMaterial", key, parameters)

@@ -7,22 +7,19 @@ kind, as a `SceneWarning` with the prim's path.
 from __future__ import annotations
 
 import argparse
-import atexit
 import math
 import os
-import shutil
 import sys
-import tempfile
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ._builder import SceneBuilder
 from ._errors import InputError, SceneWarning
+from ._scene_reader import Places, SceneReader
 
 try:
     from pxr import Gf, Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
@@ -32,10 +29,6 @@ except ImportError as error:
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
-
-#: (2, 4, 4): where a prim is when the shutter opens and when it closes. Rows as USD has them: points are multiplied from
-#: the left.
-Places = npt.NDArray[np.float64]
 
 
 def read(
@@ -75,31 +68,17 @@ def read(
     )
 
 
-class _Reader:
+class _Reader(SceneReader):
     def __init__(self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None) -> None:
+        super().__init__(file, maps)
         self.stage = stage
         self.time = time
-        self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
         self.transforms = [UsdGeom.XformCache(time)] * 2
-        self.told: set[str] = set()
-        self.materials: dict[str, materials.Look] = {}
         self.objects: set[str] = set()
         self.has_light = False
-        self._maps = None if maps is None else Path(maps)
 
-    # What there is to say, once.
     def warn(self, prim: Any, text: str) -> None:
-        if text not in self.told:
-            self.told.add(text)
-            warnings.warn(f"{prim.GetPath()}: warning: {text}", SceneWarning, stacklevel=2)
-
-    def map_file(self, name: str) -> str:
-        """A file for a picture that is made for the scene."""
-        if self._maps is None:
-            self._maps = Path(tempfile.mkdtemp(prefix="wend-usd-"))
-            atexit.register(shutil.rmtree, self._maps, ignore_errors=True)
-        self._maps.mkdir(parents=True, exist_ok=True)
-        return str(self._maps / name)
+        self.tell(str(prim.GetPath()), text)
 
     def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
         add = self.builder.add
@@ -117,17 +96,6 @@ class _Reader:
 
     def world(self, prim: Any) -> Places:
         return np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
-
-    def put(self, places: Places) -> None:
-        """What follows is there, and moves between them."""
-        add = self.builder.add
-        if np.allclose(places[0], places[1], rtol=1e-12, atol=0):
-            add("Transform", places[0])
-            return
-        for when, place in zip(("StartTime", "EndTime"), places):
-            add("ActiveTransform", when)
-            add("Transform", place)
-        add("ActiveTransform", "All")
 
     def prims(self, root: Any) -> Iterator[Any]:
         """Those that are to be seen; what an instancer copies is left to it."""

@@ -7,3 +7,4 @@
 #include <wend/sampling/warp.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
+#include <wend/subsurface/technique_mixes.h>

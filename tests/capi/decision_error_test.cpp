@@ -1,6 +1,8 @@
 // Bad input to the decisions of the interface for C.
 #include <tests/capi/support.h>
 
+#include <array>
+#include <memory>
 #include <utility>
 
 namespace wend::capi {
@@ -297,6 +299,85 @@ TEST(CDecisionErrors, GuidesNeedMediaThatScatter) {
             wend_interior_guide_destroy(guide);
         }
     }
+}
+
+TEST(CDecisionErrors, LampsAreNumbersOfLamps) {
+    const wend_interior_lamp lamp{up, 100, 0.5f, 1};
+    wend_interior_lamps* lamps = nullptr;
+    const auto make = [&](auto change, wend_error* e) {
+        const wend_interior_lamp wrong = changed(lamp, change);
+        return wend_interior_lamps_create(&wrong, 1, &lamps, e);
+    };
+    using L = wend_interior_lamp;
+    const std::array<L, 5> many{lamp, lamp, lamp, lamp, lamp};
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "at most 4", wend_interior_lamps_create(many.data(), 5, &lamps, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_lamps_create(nullptr, 1, &lamps, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_lamps_create(&lamp, 1, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "direction", make([](L& l) { l.direction = {}; }, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "concentration", make([](L& l) { l.concentration = 2e5f; }, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "cosine", make([](L& l) { l.cosine = 0; }, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "fluence", make([](L& l) { l.fluence = nan; }, e));
+    EXPECT_EQ(lamps, nullptr);
+    wend_interior_lamps_destroy(nullptr);
+
+    const wend_medium wax{{1, 1, 1}, {9, 9, 9}, {{1, 0.5f}}, 1};
+    wend_interior_guide* guide = nullptr;
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "connects", wend_interior_guide_create_for_lamps(&wax, 0.25f, 2, &guide, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_guide_create_for_lamps(&wax, 0.25f, 1, nullptr, e));
+    ASSERT_EQ(wend_interior_guide_create_for_lamps(&wax, 0.25f, 1, &guide, nullptr), WEND_OK);
+    const GuidePointer owner(guide);
+    ASSERT_EQ(wend_interior_lamps_create(&lamp, 1, &lamps, nullptr), WEND_OK);
+    const std::unique_ptr<wend_interior_lamps, Destroy<wend_interior_lamps_destroy>> lamps_owner(lamps);
+    const float channels[] = {0.5f, 0.25f, 0.25f}, diffuse[] = {1, 1, 1}, negative[] = {1, -1, 1};
+    wend_interior_walk walk;
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "share", wend_interior_enter_with(guide, channels, 0, &walk, e));
+    ASSERT_EQ(wend_interior_enter_with(guide, channels, 0.5f, &walk, nullptr), WEND_OK);
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "aim", wend_interior_aim_lamps(&walk, lamps, 1, diffuse, e));
+    ASSERT_EQ(wend_interior_aim(&walk, up, 1, nullptr), WEND_OK);
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_aim_lamps(&walk, nullptr, 1, diffuse, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_aim_lamps(&walk, lamps, 1, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "diffuse", wend_interior_aim_lamps(&walk, lamps, 1, negative, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "length", wend_interior_aim_lamps(&walk, lamps, -1, diffuse, e));
+    wend_vec3 direction;
+    int found;
+    float x, relative[2];
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "head", wend_interior_sample_lamps(&walk, up, 1, &direction, &found, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "head", wend_interior_relative_densities(&walk, relative, e));
+    ASSERT_EQ(wend_interior_head(&walk, up, nullptr), WEND_OK);
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_sample_lamps(&walk, up, 1, nullptr, &found, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_sample_lamps(&walk, up, 1, &direction, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_lamps_density(&walk, up, up, nullptr, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "direction", wend_interior_lamps_density(&walk, up, {}, &x, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_interior_relative_densities(&walk, nullptr, e));
+}
+
+TEST(CDecisionErrors, MixesLearnFromRecordsOfNumbers) {
+    wend_technique_mixes* mixes = nullptr;
+    const wend_bounds unit{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "share", wend_technique_mixes_create(unit, 0, &mixes, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_mixes_create(unit, 0.25f, nullptr, e));
+    ASSERT_EQ(wend_technique_mixes_create(unit, 0.25f, &mixes, nullptr), WEND_OK);
+    const std::unique_ptr<wend_technique_mixes, Destroy<wend_technique_mixes_destroy>> owner(mixes);
+    wend_technique_mixes_destroy(nullptr);
+    wend_technique_mix mix;
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "entry", wend_technique_mixes_at(mixes, {nan, 0, 0}, &mix, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_mixes_at(mixes, {0, 0, 0}, nullptr, e));
+    wend_technique_record record;
+    const float one[] = {1, 1}, wrong[] = {1, nan};
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "guided", wend_technique_record_begin({0, 0, 0}, 2, &record, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "entry", wend_technique_record_begin({inf, 0, 0}, 1, &record, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_record_begin({0, 0, 0}, 1, nullptr, e));
+    ASSERT_EQ(wend_technique_record_begin({0, 0, 0}, 1, &record, nullptr), WEND_OK);
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "light", wend_technique_record_hit(&record, inf, one, one, 0, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "connections", wend_technique_record_hit(&record, 1, one, one, 2, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "density", wend_technique_record_hit(&record, 1, one, wrong, 0, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_record_connection(&record, 1, one, nullptr, 0, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_record_connection(nullptr, 1, one, one, 0, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "null", wend_technique_mixes_learn(mixes, nullptr, 1, 0, e));
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "is_last", wend_technique_mixes_learn(mixes, &record, 1, 2, e));
+    record.flights = -1;
+    EXPECT_REFUSED(WEND_BAD_ARGUMENT, "flights", wend_technique_mixes_learn(mixes, &record, 1, 0, e));
+    EXPECT_EQ(wend_technique_mixes_learn(mixes, nullptr, 0, 0, nullptr), WEND_OK);
 }
 
 TEST(CDecisionErrors, InteriorWalksGoStepByStep) {

@@ -14,12 +14,14 @@
 #include <wend/sampling/warp.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
+#include <wend/subsurface/technique_mixes.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace wend::capi {
 namespace {
@@ -502,7 +504,61 @@ TEST(CSameBits, RecordsOfScatteredLight) {
 // ---- Walks inside dense media ----
 
 /// One walk out of a half-space below z = 0, by both, which must not differ in any number.
-void expect_same_walk(const wend_interior_guide* c_guide, const InteriorGuide& guide, Pcg32& random) {
+/// Lamps of C, and the same for C++.
+struct SameLamps {
+    std::array<BoundaryEmitter, 2> lamps;
+    wend_interior_lamps* made = nullptr;
+
+    SameLamps() {
+        const wend_interior_lamp seen[] = {{from(normalize(Vec3(1, 0, 2))), 200, 0.9f, 3},
+                                           {from(normalize(Vec3(-1, 1, 1))), 20, 0.5f, 0.5f}};
+        for (std::size_t i = 0; i < lamps.size(); ++i) {
+            const wend_interior_lamp& lamp = seen[i];
+            lamps[i] = {{Vec3(lamp.direction.x, lamp.direction.y, lamp.direction.z), lamp.concentration},
+                        lamp.cosine,
+                        lamp.fluence,
+                        vmf_peak(lamp.concentration)};
+        }
+        EXPECT_EQ(wend_interior_lamps_create(seen, 2, &made, nullptr), WEND_OK);
+    }
+    ~SameLamps() { wend_interior_lamps_destroy(made); }
+    SameLamps(const SameLamps&) = delete;
+    SameLamps& operator=(const SameLamps&) = delete;
+};
+
+void expect_same_aim(wend_interior_walk& walk, InteriorWalk& same, const SameLamps& lamps, Pcg32& random) {
+    const float depth = random.uniform();
+    const Rgb diffuse = any_colour(random);
+    float c_diffuse[3];
+    copy(diffuse, c_diffuse);
+    ASSERT_EQ(wend_interior_aim_lamps(&walk, lamps.made, depth, c_diffuse, nullptr), WEND_OK);
+    same.aim(EmitterView{lamps.lamps, depth, diffuse});
+}
+
+/// How often it was told where to connect at the boundary.
+int expect_same_connections(const wend_interior_walk& walk, const InteriorWalk& same, const Vec3& before,
+                            Pcg32& random) {
+    const std::uint64_t key = hash_of(static_cast<int>(1e9f * random.uniform()));
+    Pcg32 keyed(key);
+    const InteriorWalk::Directions directions(same, before, keyed);
+    const Vec3 asked = any_direction(random);
+    float density, relative[2];
+    EXPECT_EQ(wend_interior_lamps_density(&walk, from(before), from(asked), &density, nullptr), WEND_OK);
+    EXPECT_EQ(density, directions.emitter_density(asked));
+    wend_vec3 direction;
+    int found;
+    EXPECT_EQ(wend_interior_sample_lamps(&walk, from(before), key, &direction, &found, nullptr), WEND_OK);
+    const std::optional<Vec3> w = directions.sample_emitters();
+    EXPECT_EQ(found, w ? 1 : 0);
+    EXPECT_TRUE(!w || (w->x == direction.x && w->y == direction.y && w->z == direction.z));
+    EXPECT_EQ(wend_interior_relative_densities(&walk, relative, nullptr), WEND_OK);
+    EXPECT_EQ(relative[0], same.relative_densities()[0]);
+    EXPECT_EQ(relative[1], same.relative_densities()[1]);
+    return found;
+}
+
+void walk_both(const wend_interior_guide* c_guide, const InteriorGuide& guide, const SameLamps& lamps, Pcg32& random,
+               int& connected) {
     const Rgb channels = guide.medium.scattering / (3 * mean_value(guide.medium.scattering));
     float c_channels[3];
     copy(channels, c_channels);
@@ -513,6 +569,7 @@ void expect_same_walk(const wend_interior_guide* c_guide, const InteriorGuide& g
     Vec3 before(0, 0, -1), position(0, 0, 0);
     ASSERT_EQ(wend_interior_aim(&walk, up, 1, nullptr), WEND_OK);
     same.aim(Vec3(0, 0, 1));
+    expect_same_aim(walk, same, lamps, random);
     ASSERT_EQ(wend_interior_head(&walk, from(before), nullptr), WEND_OK);
     same.head(before);
     Rgb throughput(1);
@@ -541,7 +598,9 @@ void expect_same_walk(const wend_interior_guide* c_guide, const InteriorGuide& g
             const float steepness = random.uniform();
             ASSERT_EQ(wend_interior_aim(&walk, from(normal), steepness, nullptr), WEND_OK);
             same.aim(normal, steepness);
+            expect_same_aim(walk, same, lamps, random);
         }
+        connected += expect_same_connections(walk, same, before, random);
         const std::uint64_t key = hash_of(i);
         Pcg32 keyed(key);
         const InteriorWalk::Directions directions(same, before, keyed);
@@ -581,6 +640,14 @@ void expect_same_walk(const wend_interior_guide* c_guide, const InteriorGuide& g
     }
 }
 
+/// Returns how often it was told where to connect at the boundary.
+int expect_same_walk(const wend_interior_guide* c_guide, const InteriorGuide& guide, const SameLamps& lamps,
+                     Pcg32& random) {
+    int connected = 0;
+    walk_both(c_guide, guide, lamps, random, connected);
+    return connected;
+}
+
 TEST(CSameBits, InteriorWalks) {
     const wend_medium media[] = {
         {{2.5f, 5, 10}, {97.5f, 95, 90}, {{1, 0.5f}}, 1},
@@ -588,6 +655,8 @@ TEST(CSameBits, InteriorWalks) {
         {{0, 1, 3}, {9, 9, 0}, {{1, 0.9f}, {2, -0.3f}}, 2},
     };
     Pcg32 random(14);
+    const SameLamps lamps;
+    int connected = 0;
     for (const wend_medium& medium : media) {
         for (const float share : {0.25f, 1.0f}) {
             wend_interior_guide* made = nullptr;
@@ -595,11 +664,81 @@ TEST(CSameBits, InteriorWalks) {
             const GuidePointer owner(made);
             const HomogeneousMedium same = medium_of(medium);
             const InteriorGuide guide = interior_guide(same, half_space_modes(same), share);
+            wend_interior_guide* lit = nullptr;
+            ASSERT_EQ(wend_interior_guide_create_for_lamps(&medium, share, 1, &lit, nullptr), WEND_OK);
+            const GuidePointer lit_owner(lit);
+            InteriorGuide lit_guide = guide;
+            lit_guide.heads_for_emitters = lit_guide.connects_at_boundary = true;
             for (int i = 0; i < 300; ++i) {
-                expect_same_walk(made, guide, random);
+                EXPECT_EQ(expect_same_walk(made, guide, lamps, random), 0);
+                connected += expect_same_walk(lit, lit_guide, lamps, random);
             }
         }
     }
+    EXPECT_GT(connected, 100);
+}
+
+/// A walk that found light by a connection and by itself, as C tells it and as C++ does.
+struct Found {
+    wend_technique_record record;
+    InteriorWalkRecord same;
+};
+Found any_found(Pcg32& random, const wend_technique_mix& mix) {
+    Found found;
+    const Vec3 entry = any_position(random);
+    found.same.entry = entry;
+    found.same.guided = !(random.uniform() < mix.unguided_probability);
+    EXPECT_EQ(wend_technique_record_begin(from(entry), found.same.guided ? 1 : 0, &found.record, nullptr), WEND_OK);
+    found.record.flights = found.same.flights = 1 + static_cast<int>(9 * random.uniform());
+    found.record.connected = 1;
+    found.same.connected = true;
+    // The guide is good where x is small: what it finds varies less.
+    const float share = mix.classical_share, light = 1 + (entry.x < 0.5f ? 0.1f : 2.0f) * random.uniform();
+    const float classical = 2 * random.uniform(), guided = (1 - share * classical) / std::max(1 - share, 0.01f);
+    const float before[] = {classical, std::max(guided, 0.0f)}, now[] = {random.uniform(), before[1]};
+    const float part = random.uniform();
+    EXPECT_EQ(wend_technique_record_connection(&found.record, light, before, now, part, nullptr), WEND_OK);
+    found.same.bring(light, gradient_of_connection({before[0], before[1]}, {now[0], now[1]}, part));
+    EXPECT_EQ(wend_technique_record_hit(&found.record, 2 * light, before, now, part, nullptr), WEND_OK);
+    found.same.bring(2 * light, gradient_of_hit({before[0], before[1]}, {now[0], now[1]}, part));
+    for (std::size_t i = 0; i < 2; ++i) {
+        found.record.relative[i] = found.same.relative[i] = now[i];
+    }
+    return found;
+}
+
+TEST(CSameBits, TechniqueMixes) {
+    wend_technique_mixes* made = nullptr;
+    ASSERT_EQ(wend_technique_mixes_create({{0, 0, 0}, {1, 1, 1}}, 0.25f, &made, nullptr), WEND_OK);
+    TechniqueMixes same(Box3(Vec3(0.0f), Vec3(1.0f)), 0.25f);
+    Pcg32 random(15);
+    float least = 1, most = 0;
+    for (int round = 0; round < 5; ++round) {
+        std::vector<wend_technique_record> records;
+        std::vector<InteriorWalkRecord> walks;
+        for (int i = 0; i < 4000; ++i) {
+            const Vec3 place = any_position(random);
+            wend_technique_mix mix;
+            ASSERT_EQ(wend_technique_mixes_at(made, from(place), &mix, nullptr), WEND_OK);
+            const TechniqueMix& plan = same.plan(same.cell_at(place));
+            ASSERT_EQ(mix.classical_share, plan.defensive_fraction);
+            ASSERT_EQ(mix.unguided_probability, plan.unguided_probability);
+            ASSERT_EQ(mix.guided.preference, plan.guided.preference);
+            ASSERT_EQ(mix.guided.probability, plan.guided.probability);
+            ASSERT_EQ(mix.unguided.preference, plan.unguided.preference);
+            ASSERT_EQ(mix.unguided.probability, plan.unguided.probability);
+            least = std::min(least, mix.classical_share);
+            most = std::max(most, mix.classical_share);
+            const Found found = any_found(random, mix);
+            records.push_back(found.record);
+            walks.push_back(found.same);
+        }
+        ASSERT_EQ(wend_technique_mixes_learn(made, records.data(), records.size(), round == 4 ? 1 : 0, nullptr),
+                  WEND_OK);
+        same.learn_from(walks, round == 4 ? NextWalks::rendering : NextWalks::beside_classical);
+    }
+    EXPECT_LT(least, most) << "something was learned";
+    wend_technique_mixes_destroy(made);
 }
 
 }  // namespace

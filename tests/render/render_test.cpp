@@ -76,7 +76,7 @@ TEST_P(Reproducible, TheSamePictureForAnyNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Presets, Reproducible,
                          testing::Values("classical", "scatter", "distance", "direction", "full", "roulette",
-                                         "splitting"));
+                                         "splitting", "adaptive"));
 
 class Repeated : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
@@ -261,6 +261,11 @@ TEST(Preset, NamesAreParsedAndUnknownOnesListed) {
     const Preset everywhere = parse_preset("distance+direction+roulette+splitting");
     EXPECT_FALSE(everywhere.where_it_pays);
     EXPECT_EQ(to_string(everywhere), "distance+direction+roulette+splitting");
+    // Which samples a pixel gets does not make its paths guided.
+    EXPECT_TRUE(parse_preset("adaptive").is_classical());
+    EXPECT_TRUE(parse_preset("full").adaptive);
+    EXPECT_FALSE(parse_preset("full+uniform").adaptive);
+    EXPECT_EQ(to_string(parse_preset("full+uniform")), "full+uniform");
     try {
         parse_preset("directions");
         FAIL();
@@ -276,13 +281,14 @@ TEST(Preset, TheAblationHasEachDecisionAloneAndEachLeftOut) {
         roles.push_back(ablation_role(preset));
         EXPECT_EQ(parse_preset(names.back()), preset);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"classical", "scatter", "distance", "direction", "roulette", "splitting",
-                                               "full", "direction+roulette+splitting",
-                                               "scatter+direction+roulette+splitting", "distance+roulette+splitting",
-                                               "distance+direction+splitting", "distance+direction+roulette"}));
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "classical", "scatter", "distance", "direction", "roulette", "splitting", "adaptive", "full",
+                         "direction+roulette+splitting+adaptive", "scatter+direction+roulette+splitting+adaptive",
+                         "distance+roulette+splitting+adaptive", "distance+direction+splitting+adaptive",
+                         "distance+direction+roulette+adaptive", "distance+direction+roulette+splitting"}));
     EXPECT_EQ(roles, (std::vector<std::string>{"", "only scatter", "only distance", "only direction", "only roulette",
-                                               "only splitting", "", "no scatter", "no distance", "no direction",
-                                               "no roulette", "no splitting"}));
+                                               "only splitting", "only adaptive", "", "no scatter", "no distance",
+                                               "no direction", "no roulette", "no splitting", "no adaptive"}));
     EXPECT_EQ(ablation_role(parse_preset("distance+direction")), "");
 }
 

@@ -32,6 +32,7 @@ struct RenderOptions {
     int samples = 0;
     double seconds = 0;
     double noise = 0;
+    std::string adaptive;  ///< "on", "off", or as `sampling` says
     std::string sampling = "full";
     std::string subsurface = "auto";
     std::optional<std::string> passes;
@@ -72,7 +73,9 @@ std::vector<int> parse_passes(const std::string& text) {
 /// Throws InputError for what is wrong whatever the scene.
 RenderPlan plan_of(const RenderOptions& options) {
     options.scene.check();
-    return {parse_preset(options.sampling), parse_subsurface(options.subsurface),
+    Preset preset = parse_preset(options.sampling);
+    preset.adaptive = options.adaptive.empty() ? preset.adaptive : options.adaptive == "on";
+    return {preset, parse_subsurface(options.subsurface),
             options.passes ? parse_passes(*options.passes) : std::vector<int>()};
 }
 
@@ -347,8 +350,13 @@ Action add_render_command(CLI::App& program) {
     seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options->sampling,
-        "classical; full: whatever pays, where it pays; or the decisions to guide everywhere, joined by '+': " +
+        "classical; full: whatever pays, where it pays; or decisions, guided everywhere, joined by '+': " +
             guidable_decisions_text() + " (default: full)");
+    command
+        .add_option("--adaptive", options->adaptive,
+                    "on: pixels get samples by their noise; off: all get as many (default: as --sampling says, on with "
+                    "full)")
+        ->check(CLI::IsMember({"on", "off"}));
     command
         .add_option("--subsurface", options->subsurface,
                     "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")

@@ -17,7 +17,7 @@ struct WayOfSampling {
     Preset preset;
     SubsurfacePreset subsurface;
 
-    bool is_classical() const { return preset.is_classical() && subsurface.is_classical(); }
+    bool is_classical() const { return preset == Preset() && subsurface.is_classical(); }
 };
 
 /// "full", or "full/dwivedi" where the subsurface sampling is not the default.

@@ -9,7 +9,8 @@
  *   - flight.h: how far walks fly, and what rays are told of the light on their way;
  *   - survival.h: roulette and splitting, and what pixels will be;
  *   - lights.h: which light a vertex is connected to;
- *   - interior.h: walks inside dense media.
+ *   - interior.h: walks inside dense media;
+ *   - technique_mix.h: how these are best drawn, learned by place.
  *
  * A renderer uses it like this:
  *
@@ -26,7 +27,9 @@
  *   - flights: wend_flight_guided(); learn from wend_scatter_records_of_path() by wend_field_fit_scattered();
  *   - lights: wend_lights_sample(); learn by wend_lights_record(), wend_lights_add() and wend_lights_learn();
  *   - survival: wend_survival_before_direction(), wend_survival_after_direction(), and wend_pixel_estimates() between
- *     passes.
+ *     passes;
+ *   - walks inside dense media: wend_interior_enter_with() as wend_technique_mixes_at() says; learn by
+ *     wend_technique_mixes_learn().
  *
  * Rules that hold for all functions:
  *
@@ -34,7 +37,8 @@
  *     Unless it is said otherwise, results are written only when the status is WEND_OK.
  *   - They remember nothing but what is in their arguments: any number of threads may call them at once. A field and
  *     the guide of a medium never change once they are made. What is not const changes: one thread at a time.
- *   - Pointers are referred to during the call alone, but for that of a walk to its wend_interior_guide.
+ *   - Pointers are referred to during the call alone, but for those of a walk to its wend_interior_guide and to its
+ *     wend_interior_lamps.
  *   - Random numbers are arguments: uniform, each used once. The same arguments give the same bits as the decisions of
  *     the library for C++.
  *   - Directions have unit length (to 1e-3). Distances are in the units of the scene, densities in 1/sr.
@@ -51,5 +55,6 @@
 #include <wend/capi/lights.h>
 #include <wend/capi/path.h>
 #include <wend/capi/survival.h>
+#include <wend/capi/technique_mix.h>
 
 #endif

@@ -22,11 +22,38 @@ typedef struct wend_interior_guide wend_interior_guide;
 WEND_API wend_status wend_interior_guide_create(const wend_medium* medium, float classical_share,
                                                 wend_interior_guide** guide, wend_error* error) WEND_NOEXCEPT;
 
+/** The same for walks that head for lamps outside as well: each is to be told of them by wend_interior_aim_lamps()
+ * before it heads. `connects`, 0 or 1: wend_interior_sample_lamps() tells where to connect at the boundary, if it is
+ * rough. */
+WEND_API wend_status wend_interior_guide_create_for_lamps(const wend_medium* medium, float classical_share,
+                                                          int connects, wend_interior_guide** guide,
+                                                          wend_error* error) WEND_NOEXCEPT;
+
 /** Ends a guide. Null is allowed. */
 WEND_API void wend_interior_guide_destroy(wend_interior_guide* guide) WEND_NOEXCEPT;
 
+/** A lamp outside, as it is seen just inside of the boundary. */
+typedef struct wend_interior_lamp {
+    wend_vec3 direction; /**< the mean of those in which a walk flies out to it, of unit length */
+    float concentration; /**< of these about their mean (von Mises-Fisher), 0 to 1e5: 2 / (1 - cosine) for a disk of
+                              that angular radius */
+    float cosine;        /**< of the direction to the outward normal, in (0,1] */
+    float fluence;       /**< its radiance over all directions, just inside; not negative */
+} wend_interior_lamp;
+
+/** Lamps that walks may head for. They never change; any number of threads may use them. */
+typedef struct wend_interior_lamps wend_interior_lamps;
+
+/** The lamps seen at one place of a boundary: `count`, 0 to 4, the strongest first. They belong to the caller and must
+ * outlive the walks that are aimed at them: wend_interior_lamps_destroy(). */
+WEND_API wend_status wend_interior_lamps_create(const wend_interior_lamp* lamps, size_t count,
+                                                wend_interior_lamps** made, wend_error* error) WEND_NOEXCEPT;
+
+/** Ends lamps. Null is allowed. */
+WEND_API void wend_interior_lamps_destroy(wend_interior_lamps* lamps) WEND_NOEXCEPT;
+
 /** A walk inside a dense medium, in the caller's memory, aligned as this type is. It may be copied, where a path
- * splits, and forgotten; it refers to its guide alone. One thread at a time may change it.
+ * splits, and forgotten; it refers to its guide and to lamps. One thread at a time may change it.
  *
  * At the boundary, going in: enter, aim, head. Then fly, and at a collision aim again (if the normal is to change),
  * draw a direction and turn. Where the boundary reflects: head, then fly again. A call that comes too early is a bad
@@ -41,11 +68,22 @@ typedef union wend_interior_walk {
 WEND_API wend_status wend_interior_enter(const wend_interior_guide* guide, const float channels[3],
                                          wend_interior_walk* walk, wend_error* error) WEND_NOEXCEPT;
 
+/** The same with a share of classical sampling of its own, in (0,1]: that of a wend_technique_mix. With 1 the walk is
+ * not guided. */
+WEND_API wend_status wend_interior_enter_with(const wend_interior_guide* guide, const float channels[3],
+                                              float classical_share, wend_interior_walk* walk,
+                                              wend_error* error) WEND_NOEXCEPT;
+
 /** From now on light comes from a boundary of this outward unit normal. `steepness` in [0,1] is how steeply it grows
  * that way: 1 as under a wide plane boundary, less where it comes from several sides. The choice is yours, and may
  * depend on all that has happened to the walk. */
 WEND_API wend_status wend_interior_aim(wend_interior_walk* walk, wend_vec3 normal, float steepness,
                                        wend_error* error) WEND_NOEXCEPT;
+
+/** What the walk sees of lamps from now on: those of the closest boundary, `depth` below it (0 to 1e30), and the
+ * radiance that it may expect that turns away from it, by channel, not negative. Aim first. */
+WEND_API wend_status wend_interior_aim_lamps(wend_interior_walk* walk, const wend_interior_lamps* lamps, float depth,
+                                             const float diffuse[3], wend_error* error) WEND_NOEXCEPT;
 
 /** Goes on in a unit direction that the walk has not drawn: at the entry, or where the boundary reflects. */
 WEND_API wend_status wend_interior_head(wend_interior_walk* walk, wend_vec3 direction, wend_error* error) WEND_NOEXCEPT;
@@ -91,6 +129,15 @@ WEND_API wend_status wend_interior_sample(const wend_interior_walk* walk, wend_v
 WEND_API wend_status wend_interior_density(const wend_interior_walk* walk, wend_vec3 before, wend_vec3 direction,
                                            float* density, wend_error* error) WEND_NOEXCEPT;
 
+/** Now and then a direction out to a lamp, for a connection to it at the boundary, at that collision: `found` says
+ * whether. `key` as for wend_interior_sample(), drawn anew. */
+WEND_API wend_status wend_interior_sample_lamps(const wend_interior_walk* walk, wend_vec3 before, uint64_t key,
+                                                wend_vec3* direction, int* found, wend_error* error) WEND_NOEXCEPT;
+
+/** The density of such a direction, times the probability that there is one. */
+WEND_API wend_status wend_interior_lamps_density(const wend_interior_walk* walk, wend_vec3 before, wend_vec3 direction,
+                                                 float* density, wend_error* error) WEND_NOEXCEPT;
+
 /** Goes on in a direction from a collision, of a walk that arrived along `before`. */
 WEND_API wend_status wend_interior_turn(wend_interior_walk* walk, wend_vec3 before, wend_vec3 direction,
                                         wend_error* error) WEND_NOEXCEPT;
@@ -105,6 +152,11 @@ WEND_API wend_status wend_interior_has_turned(const wend_interior_walk* walk, in
  * the weight. Put no limit on the number of collisions; this ends every walk. */
 WEND_API wend_status wend_interior_survival(wend_interior_walk* walk, float throughput, float* probability,
                                             wend_error* error) WEND_NOEXCEPT;
+
+/** Of classical and of guided sampling: its probability of all decisions of the walk so far over that of the mixture; 0
+ * without a share. What a wend_technique_record asks for. */
+WEND_API wend_status wend_interior_relative_densities(const wend_interior_walk* walk, float relative[2],
+                                                      wend_error* error) WEND_NOEXCEPT;
 
 /** @} */
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace wend {
@@ -82,12 +83,19 @@ std::size_t Film::half_of(std::size_t index) const {
     return chess_half(index, crop_.width());
 }
 
+int Film::mean_samples() const {
+    const auto add = [](std::uint64_t sum, const Pixel& p) { return sum + p.samples(); };
+    return static_cast<int>(std::accumulate(pixels_.begin(), pixels_.end(), std::uint64_t{0}, add) / pixels_.size());
+}
+
+std::vector<float> Film::estimates_of_half(const Halves& weights, std::size_t half) const {
+    return pixel_estimates(filled_from_half(beauty({weights[half], weights[half]}), half), mean_samples());
+}
+
 std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) const {
     std::array<Comparison, 2> result;
     for (std::size_t half = 0; half < 2; ++half) {
-        const std::vector<float> estimates =
-            pixel_estimates(filled_from_half(beauty({weights[half], weights[half]}), half),
-                            static_cast<int>(pixels_.front().samples()));
+        const std::vector<float> estimates = estimates_of_half(weights, half);
         double variance = 0, now = 0, before = 0, count = 0, samples = 0, earlier_samples = 0;
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Pixel& p = pixels_[i];
@@ -209,6 +217,28 @@ std::vector<Layer> Film::walk_layers() const {
         branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));
     }
     return {std::move(scatter), std::move(segments), std::move(branches), std::move(guided)};
+}
+
+std::vector<PixelNoise> Film::noise() const {
+    const Halves weights = stage_weights();
+    std::vector<PixelNoise> result(pixels_.size());
+    for (std::size_t half = 0; half < 2; ++half) {
+        const std::vector<float> estimates = estimates_of_half(weights, half);
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            if (half_of(i) != half) {
+                continue;
+            }
+            const Pixel& p = pixels_[i];
+            const double weight = weights[half], scale = static_cast<double>(estimates[i]);
+            PixelNoise& noise = result[i];
+            noise.count = p.samples();
+            noise.samples = p.weight(weight) / weight;
+            noise.work = p.samples() > 0 ? static_cast<double>(p.segments) / p.samples() : 0.0;
+            const double spread = p.spread(0, weight) + p.spread(1, weight) + p.spread(2, weight);
+            noise.variance = scale > 0 ? spread * noise.samples / (3 * scale * scale) : 0.0;
+        }
+    }
+    return result;
 }
 
 double Film::relative_noise() const {

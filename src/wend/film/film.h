@@ -32,6 +32,14 @@ struct PixelRect {
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
+/// What is known of the noise of a pixel.
+struct PixelNoise {
+    double variance = 0;  ///< of one sample of the stage at hand, relative to what its half of the pixels shows there
+    double samples = 0;   ///< of that stage, that would tell the pixel as well as all that it has had
+    double work = 0;      ///< segments of a sample
+    std::uint32_t count = 0;  ///< samples that it has had
+};
+
 /// Sums of samples, pixel by pixel. Two threads must not add to the same pixel.
 ///
 /// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, and no less than
@@ -67,6 +75,8 @@ public:
     /// Root mean square of the relative standard error of pixels, their luminance measured against at least a tenth of
     /// the mean.
     double relative_noise() const;
+    /// Of each pixel, row by row.
+    std::vector<PixelNoise> noise() const;
 
     /// All that it holds, for a film of the same size; see ListsMembers.
     template <class Archive, class Self>
@@ -121,6 +131,10 @@ private:
     using Halves = std::array<double, 2>;
 
     std::size_t half_of(std::size_t index) const;
+    /// What the pixels of one half are, as they alone tell it.
+    std::vector<float> estimates_of_half(const Halves& weights, std::size_t half) const;
+    /// Samples of a pixel, as a mean.
+    int mean_samples() const;
     Image beauty(const Halves& weights) const;
     /// What one half of the pixels tells of this stage and those before, relative to the picture.
     struct Comparison {

@@ -69,7 +69,7 @@ GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, boo
                              double pixels) {
     const bool dense = guidable.dense_media;
     Preset everywhere = preset;
-    everywhere.where_it_pays = false;
+    everywhere.where_it_pays = everywhere.adaptive = false;
     if (!preset.where_it_pays || pixels < fewest_pixels) {
         kinds_ = {{everywhere, dense}};
     } else {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstdint>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -26,8 +27,10 @@ inline bool has_fog(const Scene& scene) {
 
 /// What one pass does.
 struct PassPlan {
-    int first = 0;  ///< sample of each pixel
-    int count = 0;
+    int first = 0;  ///< sample of each pixel, as a mean
+    int count = 0;  ///< of samples, as a mean
+    /// Of each pixel of the crop: the first of its samples, and how many follow; empty where all have as many.
+    std::vector<std::uint32_t> firsts, counts;
     bool learns = false;        ///< whether walks are there to learn from
     bool guides = false;        ///< whether any walk may be guided
     bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
@@ -40,8 +43,8 @@ struct PassPlan {
     /// See ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
-        bytes(plan.first, plan.count, plan.learns, plan.guides, plan.steers, plan.recorded_share, plan.estimates,
-              plan.mean_estimate, plan.sample_variance);
+        bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.guides, plan.steers,
+              plan.recorded_share, plan.estimates, plan.mean_estimate, plan.sample_variance);
     }
 
     /// Samples of each pixel once the pass has ended.

@@ -114,7 +114,7 @@ public:
             if (tile.samples_done == 0) {
                 tile.of_pixel = PixelWalks(error_scale(expected, mean));
             }
-            for (; tile.samples_done < plan_.count; ++tile.samples_done) {
+            for (const int count = count_of(pixel); tile.samples_done < count; ++tile.samples_done) {
                 if (tile.counts.segments - looked > few) {
                     rest_.look();
                     looked = tile.counts.segments;
@@ -131,10 +131,10 @@ public:
 private:
     /// The next sample of a pixel, if it is one of this kind; false if it was dropped.
     bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records) const {
-        const int index = plan_.first + tile.samples_done;
+        const int index = first_of(pixel) + tile.samples_done;
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
-        if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, tile.samples_done, plan_.count) != kind_) {
+        if (GuidingChoice::kind_of(tile.shares, settings_.seed, number, tile.samples_done, count_of(pixel)) != kind_) {
             return true;
         }
         Sampler sampler(settings_.sampler, settings_.seed, number, static_cast<std::uint32_t>(index));
@@ -192,12 +192,20 @@ private:
         return Pcg32(hash_of(settings_.seed, pixel, index, purpose)).uniform_double() < plan_.recorded_share;
     }
 
-    float estimate(const Vec2i& pixel) const {
+    /// In lists of what is known of each pixel of the crop.
+    std::size_t place_of(const Vec2i& pixel) const {
         const PixelRect& crop = film_.crop();
-        return plan_.estimates.empty() ? 0.0f
-                                       : plan_.estimates[static_cast<std::size_t>(pixel.y - crop.min.y) *
-                                                             static_cast<std::size_t>(crop.width()) +
-                                                         static_cast<std::size_t>(pixel.x - crop.min.x)];
+        return static_cast<std::size_t>(pixel.y - crop.min.y) * static_cast<std::size_t>(crop.width()) +
+               static_cast<std::size_t>(pixel.x - crop.min.x);
+    }
+    float estimate(const Vec2i& pixel) const {
+        return plan_.estimates.empty() ? 0.0f : plan_.estimates[place_of(pixel)];
+    }
+    int first_of(const Vec2i& pixel) const {
+        return plan_.firsts.empty() ? plan_.first : static_cast<int>(plan_.firsts[place_of(pixel)]);
+    }
+    int count_of(const Vec2i& pixel) const {
+        return plan_.counts.empty() ? plan_.count : static_cast<int>(plan_.counts[place_of(pixel)]);
     }
 
     double mean_estimate(const PixelRect& pixels) const {

@@ -10,14 +10,16 @@ namespace wend {
 namespace {
 
 using Entry = std::pair<std::string_view, bool Preset::*>;
-constexpr std::array entries = {Entry{"scatter", &Preset::scatter}, Entry{"distance", &Preset::distance},
+constexpr std::array entries = {Entry{"scatter", &Preset::scatter},     Entry{"distance", &Preset::distance},
                                 Entry{"direction", &Preset::direction}, Entry{"roulette", &Preset::roulette},
-                                Entry{"splitting", &Preset::splitting}};
+                                Entry{"splitting", &Preset::splitting}, Entry{"adaptive", &Preset::adaptive}};
 constexpr Preset everywhere = {
-    .scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true};
+    .scatter = true, .distance = true, .direction = true, .roulette = true, .splitting = true, .adaptive = true};
+constexpr std::string_view full_name = "full", uniform_name = "full+uniform";
 
-Preset full() {
+Preset full(bool adaptive) {
     Preset preset = everywhere;
+    preset.adaptive = adaptive;
     preset.where_it_pays = true;
     return preset;
 }
@@ -52,8 +54,8 @@ Preset parse_preset(std::string_view text) {
     if (text == "classical") {
         return preset;
     }
-    if (text == "full") {
-        return full();
+    if (text == full_name || text == uniform_name) {
+        return full(text == full_name);
     }
     std::string_view rest = text;
     for (;;) {
@@ -79,8 +81,8 @@ Preset parse_preset(std::string_view text) {
 }
 
 std::string to_string(const Preset& preset) {
-    if (preset == full()) {
-        return "full";
+    if (preset.where_it_pays) {
+        return std::string(preset.adaptive ? full_name : uniform_name);
     }
     std::string text;
     for (const auto& [name, member] : entries) {
@@ -94,7 +96,7 @@ std::string to_string(const Preset& preset) {
 std::vector<Preset> ablation_presets() {
     std::vector<Preset> presets = {Preset()};
     std::transform(entries.begin(), entries.end(), std::back_inserter(presets), only);
-    presets.push_back(full());
+    presets.push_back(full(true));
     std::transform(entries.begin(), entries.end(), std::back_inserter(presets), all_but);
     return presets;
 }

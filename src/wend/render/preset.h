@@ -1,4 +1,4 @@
-// Names of what may be guided: "classical", decisions joined by '+', or "full" for all of them where each pays.
+// Names of ways to sample: "classical", decisions joined by '+', or "full" for all of them, guided where each pays.
 #pragma once
 
 #include <string>
@@ -7,17 +7,25 @@
 
 namespace wend {
 
-/// Which decisions follow the learned field.
+/// Which decisions follow what was learned.
 struct Preset {
     bool scatter = false;   ///< whether to scatter in a medium or reach its end
     bool distance = false;  ///< where to scatter as well
     bool direction = false;
     bool roulette = false;
     bool splitting = false;
-    /// Whether these are guided only in those parts of the picture where that is found to pay (GuidingChoice).
+    /// Whether pixels get samples by their noise, and not all as many (render/sample_budget.h).
+    bool adaptive = false;
+    /// Whether these decisions are guided only in those parts of the picture where that is found to pay
+    /// (GuidingChoice).
     bool where_it_pays = false;
 
-    bool is_classical() const { return *this == Preset(); }
+    /// Whether nothing is guided.
+    bool is_classical() const {
+        Preset paths = *this;
+        paths.adaptive = false;
+        return paths == Preset();
+    }
     bool guides_distance() const { return scatter || distance; }
     /// Whether walks end or split by expected contribution.
     bool guides_survival() const { return roulette || splitting; }
@@ -38,7 +46,7 @@ std::vector<Preset> ablation_presets();
 /// others.
 std::string ablation_role(const Preset& preset);
 
-/// Names of the decisions that can be guided.
+/// Names of the decisions that can be joined.
 std::vector<std::string> guidable_decisions();
 
 }  // namespace wend

@@ -5,6 +5,7 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/pass.h>
 #include <wend/render/render.h>
+#include <wend/render/sample_budget.h>
 #include <wend/render/schedule.h>
 #include <wend/render/team.h>
 #include <wend/transport/path_tracer.h>
@@ -212,10 +213,13 @@ private:
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
             archive_work(bytes, work, i);
         }
-        const std::size_t estimates = work.plan_.estimates.size();
+        const auto is_of_pixels = [&](const auto& list) {
+            return list.empty() || list.size() == static_cast<std::size_t>(work.context_.pixels);
+        };
+        bytes.require(is_of_pixels(work.plan_.estimates) && is_of_pixels(work.plan_.firsts) &&
+                      is_of_pixels(work.plan_.counts));
         bytes.require(work.kind_ < work.choice_.kinds().size() && work.plan_.count >= 0 && work.plan_.first >= 0 &&
-                      work.statistics_.samples >= 0 &&
-                      (estimates == 0 || estimates == static_cast<std::size_t>(work.context_.pixels)));
+                      work.statistics_.samples >= 0);
     }
 
     /// What was done in a tile, but for the film.
@@ -352,13 +356,28 @@ private:
         const double walks = context_.walks(plan);
         plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
                                        std::max(choice_.recorded_share(samples), fewest_recorded / walks));
+        double sample_variance = std::pow(noise_, 2) * samples;
+        // By fewer samples the noise is not known well enough to divide what follows by it.
+        constexpr int known_noise = 15;
+        if (preset.adaptive && samples >= known_noise) {
+            const std::vector<PixelNoise> noise = film_.noise();
+            sample_variance = 0;
+            for (const PixelNoise& pixel : noise) {
+                plan.firsts.push_back(pixel.count);
+                sample_variance += pixel.variance / context_.pixels;
+            }
+            // In a trial all kinds of walks are to be compared everywhere.
+            if (!choice_.is_trial()) {
+                plan.counts = sample_counts(noise, film_.crop().width(), count, settings_.seed);
+            }
+        }
         if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
             plan.estimates = pixel_estimates(as_in_scene(film_.beauty(), settings_.balance), samples);
             for (float& estimate : plan.estimates) {
                 estimate /= settings_.exposure;
                 plan.mean_estimate += static_cast<double>(estimate) / context_.pixels;
             }
-            plan.sample_variance = std::pow(noise_, 2) * samples;
+            plan.sample_variance = sample_variance;
         }
         return plan;
     }

@@ -114,6 +114,25 @@ Bsdf bsdf_of(const HairMaterial& m, const Textures& textures, const TexturePoint
                     value(m.roughness_along), across, value(m.tilt) * (pi / 180));
 }
 
+Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const auto share = [&](TextureId id) { return std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f); };
+    const auto alpha = [&](TextureId roughness) {
+        return std::max(sqr(share(roughness)), PrincipledBsdf::least_alpha);
+    };
+    PrincipledBsdf b;
+    b.base = clamp01(textures.evaluate(m.base, p));
+    b.metallic = share(m.metallic);
+    b.alpha = alpha(m.roughness);
+    b.ior = m.ior;
+    b.specular = std::max(textures.evaluate_grey(m.specular, p), 0.0f);
+    b.coat = share(m.coat);
+    b.coat_alpha = alpha(m.coat_roughness);
+    b.coat_ior = m.coat_ior;
+    b.below = m.below.get();
+    b.above = m.above.get();
+    return b;
+}
+
 Bsdf bsdf_of(const MixMaterial&, const Textures&, const TexturePoint&) {
     WEND_EXPECT(false);
     return LambertBsdf{};

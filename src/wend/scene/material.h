@@ -2,8 +2,10 @@
 #pragma once
 
 #include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/bsdf/facet_albedo.h>
 #include <wend/scene/texture.h>
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -74,6 +76,18 @@ struct HairMaterial {
     TextureId tilt = 0;  ///< degrees
 };
 
+/// PrincipledBsdf by textures.
+struct PrincipledMaterial {
+    TextureId base = 0;
+    TextureId metallic = 0;
+    TextureId roughness = 0;  ///< alpha is its square
+    TextureId specular = 0;
+    TextureId coat = 0;
+    TextureId coat_roughness = 0;
+    float ior = 1.5f, coat_ior = 1.5f;
+    std::shared_ptr<const FacetAlbedo> below, above;  ///< of both
+};
+
 /// At each point one of two others, by chance.
 struct MixMaterial {
     int first = 0;
@@ -85,7 +99,8 @@ struct MixMaterial {
 struct InterfaceMaterial {};
 
 using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
-                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, MixMaterial, InterfaceMaterial>;
+                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial, MixMaterial,
+                              InterfaceMaterial>;
 
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);

@@ -128,6 +128,17 @@ void TechniqueMixes::learn(const std::map<int, SecondMoments::Sums>& moments, Ne
     seen_ = next;
 }
 
+void TechniqueMixes::learn_from(std::span<const InteriorWalkRecord> interior_walks, NextWalks next) {
+    constexpr int here = 0;
+    SecondMoments moments;
+    for (const InteriorWalkRecord& walk : interior_walks) {
+        InteriorWalkRecord counted = relative(walk);
+        counted.medium = here;
+        moments.add(cell_at(walk.entry), counted);
+    }
+    learn(moments.of(here), next);
+}
+
 auto TechniqueMixes::all_brought() const -> Brought {
     return std::accumulate(brought_.begin(), brought_.end(), Brought{}, [](const Brought& a, const Brought& b) {
         return Brought{a.interior_walks + b.interior_walks, a.light + b.light};

@@ -2,6 +2,7 @@
 // walks brought.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 #include <wend/subsurface/interior_walk_record.h>
 #include <wend/subsurface/second_moments.h>
@@ -9,16 +10,19 @@
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace wend {
 
-/// Plans in a grid of cells.
-class TechniqueMixes {
+/// Plans in a grid of cells, for the interior walks in one medium. Any number of threads may ask; none while it learns.
+class WEND_API TechniqueMixes {
 public:
-    /// `defensive_fraction` is that to begin with.
+    /// Of a medium in this box. `defensive_fraction`, in (0, 1], is the share of classical sampling to begin with.
     TechniqueMixes(const Box3& box, float defensive_fraction);
 
+    /// The cell of an interior walk that begins at a point, finite; points outside of the box belong to the closest
+    /// one.
     int cell_at(const Vec3& entry) const;
     int cells() const { return static_cast<int>(plans_.size()); }
     const TechniqueMix& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
@@ -34,6 +38,8 @@ public:
     /// clearly less for those that follow the learned field all are from then on, and if `next` is rendering unless it
     /// is clearly more.
     void learn(const std::map<int, SecondMoments::Sums>& moments, NextWalks next);
+    /// The same from the interior walks themselves, all of this medium, as they were recorded.
+    void learn_from(std::span<const InteriorWalkRecord> interior_walks, NextWalks next);
 
     /// What is learned; see ListsMembers.
     template <class Archive, class Self>

@@ -27,18 +27,19 @@ void InteriorRecorder::update(const PathTechnique& technique) {
 MixGradient InteriorRecorder::gradient_of(const walk_events::LightFound& found, const PathTechnique& technique) const {
     const InteriorWalk* const here = interior_of(technique);
     if (found.towards && here) {
-        return {mix(here->relative_densities(), found.towards->relative_densities(), found.by_connections),
-                found.by_connections - 1};
+        return gradient_of_connection(here->relative_densities(), found.towards->relative_densities(),
+                                      found.by_connections);
     }
     if (found.from_collision > 0 && here) {
         return {mix(now_.at_collision, here->relative_densities(), found.from_collision), 0};
     }
     if (found.hit && now_.from_collision > 0) {
-        // Light that was weighted against connections from a collision changes less than the walk's density.
         const float by_connections = found.hit->by_connections / mean_value(found.hit->radiance);
-        const bool in_volume = found.last->receiver.normal == Vec3(0, 0, 0);
-        return {mix(now_.at_collision, now_.relative, by_connections * now_.from_collision),
-                in_volume ? by_connections : 0.0f};
+        if (found.last->receiver.normal == Vec3(0, 0, 0)) {
+            return gradient_of_hit(now_.at_collision, now_.relative, by_connections * now_.from_collision);
+        }
+        // What connects at the boundary has no preference.
+        return {mix(now_.at_collision, now_.relative, by_connections * now_.from_collision), 0};
     }
     return {now_.relative, 0};
 }

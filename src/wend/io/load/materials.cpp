@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
 #include <utility>
 
 namespace wend {
@@ -38,6 +40,7 @@ public:
             {"subsurface", &MaterialLoader::load_subsurface},
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
+            {"principled", &MaterialLoader::load_principled},
             {"measured", &MaterialLoader::replace_measured},
         };
         for (const auto& [type, loader] : known) {
@@ -51,7 +54,7 @@ public:
         }
         refuse_type("Material", entity,
                     {"coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
-                     "hair", "interface", "measured", "mix", "subsurface", "thindielectric"});
+                     "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
     }
 
 private:
@@ -146,6 +149,28 @@ private:
         hair.roughness_across = textures_.real(p, "beta_n", 0.3f);
         hair.tilt = textures_.real(p, "alpha", 2);
         return {hair};
+    }
+
+    /// Not one of pbrt's: what Blender, USD and MaterialX have.
+    LoadedMaterial load_principled(const pbrt::MaterialEntity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        PrincipledMaterial material;
+        material.base = textures_.colour(p, "reflectance", Rgb(0.5f));
+        material.metallic = textures_.real(p, "metallic", 0);
+        material.roughness = textures_.real(p, "roughness", 0.5f);
+        material.specular = textures_.real(p, "specular", 1);
+        material.coat = textures_.real(p, "coat", 0);
+        material.coat_roughness = textures_.real(p, "coatroughness", 0.03f);
+        material.ior = load_ior(p, "eta", 1.5f);
+        material.coat_ior = load_ior(p, "coateta", 1.5f);
+        material.below = facets_of(material.ior);
+        material.above = facets_of(material.coat_ior);
+        return {material};
+    }
+
+    std::shared_ptr<const FacetAlbedo> facets_of(float ior) {
+        std::shared_ptr<const FacetAlbedo>& facets = facets_[ior];
+        return facets ? facets : facets = std::make_shared<const FacetAlbedo>(ior);
     }
 
     LoadedMaterial load_mix(const pbrt::MaterialEntity& entity) {
@@ -313,6 +338,7 @@ private:
     LoadContext& context_;
     TextureLoader& textures_;
     const std::vector<pbrt::MaterialEntity>& all_;
+    std::map<float, std::shared_ptr<const FacetAlbedo>> facets_;  // by index
 };
 
 /// What a mixture becomes of which a part is an interface: the other part. Shadow rays could not tell which it is.

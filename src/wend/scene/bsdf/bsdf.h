@@ -176,9 +176,46 @@ private:
     std::array<float, 3> sin_tilt_{}, cos_tilt_{};  ///< of 1, 2 and 4 tilts
 };
 
+class FacetAlbedo;
+
+/// What surface shaders of artists' programs have in common (burley2012): a diffuse base below dielectric facets, a
+/// metal, or some of both, and a coat over all. What is below gets what a layer leaves, by the layer's directional
+/// albedo from wo; so no energy is lost, and the albedo is right from everywhere, but for dielectrics the two
+/// directions cannot be exchanged. Light that facets reflect several times is counted in (kulla2017b).
+struct PrincipledBsdf {
+    Rgb base;            ///< colour of the diffuse base, and of metal from the front; in [0, 1]
+    float metallic = 0;  ///< share of metal
+    float alpha = 0.25f;
+    float ior = 1.5f;
+    float specular = 1;  ///< what multiplies the reflectance of the dielectric
+    float coat = 0;      ///< share of the surface that it covers
+    float coat_alpha = 0.01f;
+    float coat_ior = 1.5f;
+    const FacetAlbedo* below = nullptr;  ///< of `ior`; referred to
+    const FacetAlbedo* above = nullptr;  ///< of `coat_ior`, where there is a coat
+
+    /// Facets are no smoother.
+    static constexpr float least_alpha = 2e-3f;
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+    /// What is reflected of light from wo.
+    Rgb albedo(const Vec3& wo) const;
+
+private:
+    struct Parts;
+    /// How a direction is drawn.
+    struct Shares {
+        float coat, facets, base;
+    };
+    Shares shares(const Parts& parts) const;
+};
+
 /// The closed set of BSDFs.
 using Bsdf = std::variant<LambertBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                          CoatedBsdf, HairBsdf>;
+                          CoatedBsdf, HairBsdf, PrincipledBsdf>;
 
 /// Refractive index beyond over before for light going from wo to wi; 1 unless refracted.
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);

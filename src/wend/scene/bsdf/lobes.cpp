@@ -26,18 +26,22 @@ AxialLobes two_sided_lobes(const DiffuseTransmissionBsdf& b, const Vec3& wo) {
 /// an angle of cosine c, x is about (1 - c) / (2 alpha² cosine), and
 ///     (1 + x)^(-2) ≈ Σ amplitude_j exp(-rate_j x)
 /// within 1.042 either way up to x = 100 (least largest |log ratio|); each term is a lobe.
-AxialLobes mirror_lobes(const ConductorBsdf& b, const Vec3& wo) {
+AxialLobes mirror_lobes(float alpha_x, float alpha_y, const Vec3& wo) {
     constexpr int count = 4;
     constexpr std::array<float, count> amplitude = {0.74361f, 0.20443f, 0.01907f, 0.00121f};
     constexpr std::array<float, count> rate = {1.94473f, 0.49366f, 0.12333f, 0.02554f};
     constexpr float least_cosine = 0.1f;
-    const float unit = 1 / (2 * b.alpha_x * b.alpha_y * std::max(std::abs(wo.z), least_cosine));
+    const float unit = 1 / (2 * alpha_x * alpha_y * std::max(std::abs(wo.z), least_cosine));
     std::array<AxialLobe, count> lobes;
     for (int j = 0; j < count; ++j) {
         const float kappa = std::min(rate[j] * unit, Vmf::max_kappa);
         lobes[j] = {amplitude[j] / vmf_peak(kappa), kappa};
     }
     return AxialLobes(lobes).around({-wo.x, -wo.y, wo.z});
+}
+
+AxialLobes mirror_lobes(const ConductorBsdf& b, const Vec3& wo) {
+    return mirror_lobes(b.alpha_x, b.alpha_y, wo);
 }
 
 struct LobesOf {
@@ -55,6 +59,11 @@ struct LobesOf {
     AxialLobes operator()(const DielectricBsdf&) const { return {}; }
     AxialLobes operator()(const ThinDielectricBsdf&) const { return {}; }
     AxialLobes operator()(const HairBsdf&) const { return {}; }
+    // The facets of a dielectric are left to the BSDF's own sampling.
+    AxialLobes operator()(const PrincipledBsdf& b) const {
+        constexpr float half = 0.5f;
+        return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha, b.alpha, wo);
+    }
 };
 
 }  // namespace
@@ -72,6 +81,7 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const ThinDielectricBsdf&) const { return false; }
         bool operator()(const CoatedBsdf& b) const { return !b.is_specular(); }
         bool operator()(const HairBsdf&) const { return false; }
+        bool operator()(const PrincipledBsdf&) const { return true; }
     };
     return std::visit(Pictured{}, bsdf);
 }

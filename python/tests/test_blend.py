@@ -1,0 +1,463 @@
+"""Scenes of Blender: what the renderer makes of them, against Cycles."""
+
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tomllib
+import zipfile
+
+import numpy as np
+import pytest
+
+import wend
+
+bpy = pytest.importorskip("bpy", reason="bpy is not installed")
+from wend import blend  # noqa: E402
+
+#: In each direction; a block has 64 pixels.
+BLOCKS = 4
+SIZE = 32
+
+
+@pytest.fixture
+def scene():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.world = bpy.data.worlds.new("world")
+    sky(scene, (0, 0, 0))
+    render = scene.render
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y, render.resolution_percentage = SIZE, SIZE, 100
+    render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
+    scene.view_settings.view_transform = "Standard"
+    cycles = scene.cycles
+    cycles.pixel_filter_type = "BOX"
+    cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_light_tree = False
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+    for kind in ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max"):
+        setattr(cycles, f"{kind}_bounces", 128)
+    camera(scene, (0, -6, 3), (0, 0, 0.5))
+    return scene
+
+
+def sky(scene, colour, strength=1.0):
+    background = scene.world.node_tree.nodes["Background"]
+    background.inputs[0].default_value = (*colour, 1)
+    background.inputs[1].default_value = strength
+
+
+def add(scene, name, data, place=(0, 0, 0), turn=(0, 0, 0), size=(1, 1, 1)):
+    made = bpy.data.objects.new(name, data)
+    scene.collection.objects.link(made)
+    made.location, made.rotation_euler, made.scale = place, turn, size
+    return made
+
+
+def camera(scene, eye, target, **settings):
+    if scene.camera is None:
+        scene.camera = add(scene, "camera", bpy.data.cameras.new("camera"))
+    from mathutils import Vector
+
+    scene.camera.location = eye
+    scene.camera.rotation_euler = (Vector(target) - Vector(eye)).to_track_quat("-Z", "Y").to_euler()
+    for name, value in settings.items():
+        setattr(scene.camera.data, name, value)
+
+
+def mesh(scene, primitive, material=None, smooth=False, place=(0, 0, 0), turn=(0, 0, 0), stretch=(1, 1, 1), **arguments):
+    getattr(bpy.ops.mesh, f"primitive_{primitive}_add")(location=place, rotation=turn, **arguments)
+    made = bpy.context.object
+    made.scale = stretch
+    if smooth:
+        made.data.shade_smooth()
+    if material is not None:
+        made.data.materials.append(material)
+    return made
+
+
+def lamp(scene, kind, power, place, turn=(0, 0, 0), stretch=(1, 1, 1), **settings):
+    data = bpy.data.lights.new(kind, kind)
+    data.energy = power
+    for name, value in settings.items():
+        setattr(data, name, value)
+    return add(scene, kind, data, place, turn, stretch)
+
+
+def material(kind=None, output="Surface", **inputs):
+    """Of one shader node, with these values of its inputs."""
+    made = bpy.data.materials.new(kind or "material")
+    tree = made.node_tree
+    tree.nodes.clear()
+    end = tree.nodes.new("ShaderNodeOutputMaterial")
+    if kind is not None:
+        link(tree, node(tree, kind, **inputs), end.inputs[output])
+    return made
+
+
+def node(tree, kind, **inputs):
+    made = tree.nodes.new(f"ShaderNode{kind}")
+    for name, value in inputs.items():
+        set_input(made, name, value)
+    return made
+
+
+def set_input(node_, name, value):
+    label = name.replace("_", " ")
+    found = next((i for i in node_.inputs if i.name.lower() == label.lower()), None)
+    if found is None:
+        setattr(node_, name, value)
+    elif found.type == "RGBA":
+        found.default_value = (*value, 1)
+    else:
+        found.default_value = value
+
+
+def link(tree, made, socket, output=0):
+    tree.links.new(made.outputs[output], socket)
+
+
+def floor(scene, reflectance=(0.6, 0.4, 0.2)):
+    return mesh(scene, "plane", material("BsdfDiffuse", color=reflectance), size=20)
+
+
+def by_cycles(scene, tmp_path, spp):
+    scene.cycles.samples = spp
+    scene.render.filepath = str(tmp_path / "cycles.exr")
+    bpy.ops.render.render(write_still=True)
+    return wend.read(scene.render.filepath).image
+
+
+def blocks(picture):
+    side = picture.shape[0] // BLOCKS
+    return picture.reshape(BLOCKS, side, BLOCKS, side, 3).mean(axis=(1, 3))
+
+
+def check(scene, tmp_path, spp=256, tolerance=0.01, sampling="classical", cycles_spp=None):
+    """Both pictures, after every block was found to agree."""
+    theirs = by_cycles(scene, tmp_path, cycles_spp or spp)
+    ours = wend.render(blend.of_scene(scene, spp=spp).scene(), sampling=sampling).image
+    a, b = blocks(ours), blocks(theirs)
+    error = np.abs(a - b) / np.maximum(b, 0.05 * b.mean())
+    assert error.max() <= tolerance, f"\n{np.round(a / np.maximum(b, 1e-6), 3)}"
+    return ours, theirs
+
+
+pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
+
+
+def test_point_lamp(scene, tmp_path):
+    floor(scene)
+    mesh(scene, "cube", material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), place=(0, 0, 0.5), stretch=(0.5, 0.5, 0.5))
+    lamp(scene, "POINT", 200, (1, -1, 3), shadow_soft_size=0.2)
+    check(scene, tmp_path, 400)
+
+
+def test_spot_lamp(scene, tmp_path):
+    floor(scene)
+    lamp(scene, "SPOT", 300, (1, -1, 4), (0.2, 0.1, 0), shadow_soft_size=0, spot_size=0.9, spot_blend=0.4)
+    check(scene, tmp_path, 400)
+
+
+def test_sun(scene, tmp_path):
+    floor(scene)
+    mesh(scene, "cube", material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), place=(0, 0, 0.5), turn=(0, 0, 0.5), stretch=(0.5, 0.7, 0.5))
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.6, 0.3, 0.2), angle=0)
+    check(scene, tmp_path, 256)
+
+
+@pytest.mark.parametrize("shape", ["RECTANGLE", "ELLIPSE"])
+def test_area_lamp(scene, tmp_path, shape):
+    floor(scene)
+    lamp(scene, "AREA", 100, (1, -1, 4), (0.4, 0.2, 0.3), (2, 1, 1), shape=shape, size=1.0, size_y=0.4)
+    check(scene, tmp_path, 400)
+
+
+@pytest.mark.parametrize(
+    "inputs",
+    [
+        {"base_color": (0.8, 0.4, 0.1), "roughness": 0.5},
+        {"base_color": (0.3, 0.4, 0.6), "roughness": 0.15, "ior": 1.8},
+        {"base_color": (0.9, 0.6, 0.3), "metallic": 1.0, "roughness": 0.4},
+        {"base_color": (0.5, 0.2, 0.1), "metallic": 0.5, "roughness": 0.6, "coat_weight": 0.7, "coat_roughness": 0.3},
+    ],
+    ids=["plastic", "shiny", "metal", "coated"],
+)
+def test_principled(scene, tmp_path, inputs):
+    sky(scene, (0.5, 0.7, 1.0))
+    mesh(scene, "uv_sphere", material("BsdfPrincipled", **inputs), smooth=True, place=(0, 0, 0.5), radius=1.5, segments=64, ring_count=32)
+    lamp(scene, "AREA", 400, (2, -3, 4), (0.8, 0.2, 0.3), size=1.5).visible_camera = False
+    # Cycles approximates the albedo of a layer by tables of its own.
+    check(scene, tmp_path, 600, tolerance=0.03)
+
+
+def test_glass(scene, tmp_path):
+    sky(scene, (0.5, 0.7, 1.0))
+    floor(scene)
+    mesh(scene, "cube", material("BsdfGlass", color=(1, 1, 1), roughness=0.3, ior=1.45, distribution="GGX"), place=(0, 0, 1), turn=(0.2, 0.3, 0.4), stretch=(0.7, 0.7, 0.7))
+    check(scene, tmp_path, 2000, tolerance=0.015)
+
+
+def test_emission_and_transparency(scene, tmp_path):
+    floor(scene)
+    mesh(scene, "plane", material("Emission", color=(1, 0.8, 0.5), strength=5), place=(0, 2, 1.5), turn=(1.2, 0, 0), stretch=(1, 1, 1))
+    half = bpy.data.materials.new("half")
+    tree = half.node_tree
+    tree.nodes.clear()
+    mix = node(tree, "MixShader", factor=0.3)
+    link(tree, node(tree, "BsdfTransparent"), mix.inputs[1])
+    link(tree, node(tree, "BsdfDiffuse", color=(0.1, 0.6, 0.3)), mix.inputs[2])
+    link(tree, mix, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    mesh(scene, "cube", half, place=(0, -0.5, 0.6), stretch=(0.5, 0.5, 0.5))
+    check(scene, tmp_path, 1000)
+
+
+@pytest.mark.parametrize("kind", ["HENYEY_GREENSTEIN", "RAYLEIGH", "DRAINE"])
+def test_volume_scatter(scene, tmp_path, kind):
+    fog = material("VolumeScatter", "Volume", color=(0.8, 0.6, 0.4), density=1.0, phase=kind, anisotropy=0.2, alpha=0.5)
+    mesh(scene, "cube", fog, place=(0, 0, 0.5), stretch=(3, 2, 3))
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.7, 0.1, 0), angle=0)
+    check(scene, tmp_path, 3000)
+
+
+def test_principled_volume(scene, tmp_path):
+    sky(scene, (0.3, 0.3, 0.3))
+    smoke = material(
+        "VolumePrincipled", "Volume", color=(0.5, 0.7, 0.9), density=0.8, anisotropy=0.3,
+        absorption_color=(0.2, 0.1, 0.0), emission_strength=0.3, emission_color=(1, 0.4, 0.1),
+    )  # fmt: skip
+    mesh(scene, "cube", smoke, place=(0, 0, 0.8))
+    check(scene, tmp_path, 800)
+
+
+def test_volume_of_a_file(scene, tmp_path):
+    file = pathlib.Path(__file__).parents[3] / "shared/scenes/smoke/smoke.vdb"
+    if not file.exists():
+        pytest.skip("the collection of shared files is not there")
+    volume = bpy.data.volumes.new("smoke")
+    volume.filepath = str(file)
+    made = add(scene, "smoke", volume)
+    made.data.materials.append(material("VolumePrincipled", "Volume", color=(0.8, 0.6, 0.4), density=1.5))
+    sky(scene, (1, 1, 1))
+    bpy.context.view_layer.update()
+    corners = np.array(made.evaluated_get(bpy.context.evaluated_depsgraph_get()).bound_box)
+    middle, size = corners.mean(axis=0), float(np.ptp(corners, axis=0).max())
+    made.scale = (2 / size,) * 3
+    made.location = -middle * 2 / size
+    camera(scene, (1, -4, 1), (0, 0, 0))
+    check(scene, tmp_path, 1500)
+
+
+def test_subsurface_of_one_colour_all_over(scene, tmp_path):
+    """In even light what does not absorb is as bright as the light, whoever renders it."""
+    sky(scene, (1, 1, 1))
+    wax = material("BsdfPrincipled", base_color=(1, 1, 1), subsurface_weight=1.0, subsurface_radius=(0.1, 0.05, 0.02), subsurface_scale=1.0, roughness=0.0)
+    mesh(scene, "uv_sphere", wax, smooth=True, place=(0, 0, 0.5), radius=1.0)
+    ours = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
+    assert ours.mean() == pytest.approx(1, abs=0.02)
+
+
+def test_instances_of_a_collection(scene, tmp_path):
+    sky(scene, (0.8, 0.8, 0.8))
+    floor(scene)
+    collection = bpy.data.collections.new("trees")
+    tree = mesh(scene, "cone", material("BsdfDiffuse", color=(0.1, 0.5, 0.1)), place=(0, 0, 0.5), radius1=0.3, depth=1)
+    scene.collection.objects.unlink(tree)
+    collection.objects.link(tree)
+    for i in range(6):
+        empty = add(scene, f"copy {i}", None, (math.cos(i), math.sin(i), 0), (0, 0, i), (1, 1, 1 + 0.1 * i))
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    builder = blend.of_scene(scene)
+    assert builder.text().count("ObjectInstance") == 6
+    assert builder.text().count('Shape "trianglemesh"') == 2
+    check(scene, tmp_path, 400)
+
+
+def test_picture_on_a_floor(scene, tmp_path):
+    sky(scene, (1, 1, 1))
+    image = bpy.data.images.new("checks", 64, 64)
+    pixels = np.ones((64, 64, 4), dtype=np.float32)
+    pixels[:32, :32, 0] = 51 / 255
+    pixels[32:, 32:, 1] = 153 / 255
+    pixels[:32, 32:, 2] = 102 / 255
+    image.pixels.foreach_set(pixels.ravel())
+    made = material("BsdfDiffuse")
+    tree = made.node_tree
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    mapping = node(tree, "Mapping", scale=(2, 3, 1), location=(0.1, 0.3, 0))
+    link(tree, node(tree, "UVMap"), mapping.inputs[0])
+    link(tree, mapping, texture.inputs["Vector"])
+    link(tree, texture, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse").inputs["Color"])
+    mesh(scene, "plane", made, size=6)
+    check(scene, tmp_path, 256)
+
+
+def test_a_sky_with_directions(scene, tmp_path):
+    tree = scene.world.node_tree
+    coordinates, ramp = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeVectorMath")
+    ramp.operation = "MULTIPLY_ADD"
+    ramp.inputs[1].default_value, ramp.inputs[2].default_value = (0.4, 0.4, 0.4), (0.5, 0.5, 0.5)
+    tree.links.new(coordinates.outputs["Generated"], ramp.inputs[0])
+    tree.links.new(ramp.outputs[0], tree.nodes["Background"].inputs["Color"])
+    floor(scene, (0.5, 0.5, 0.5))
+    camera(scene, (3, -6, 1), (0, 0, 1.5))
+    check(scene, tmp_path, 256)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"type": "ORTHO", "ortho_scale": 5},
+        {"lens": 35, "shift_x": 0.2, "shift_y": -0.1},
+        {"sensor_fit": "VERTICAL", "sensor_height": 30, "lens": 40},
+    ],
+    ids=["orthographic", "shifted", "vertical"],
+)
+def test_cameras(scene, tmp_path, settings):
+    scene.render.resolution_x = 2 * SIZE
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    mesh(scene, "cube", material("Emission", color=(1, 0, 0)), place=(1, 0.5, 0.5), stretch=(0.5, 0.3, 0.6))
+    camera(scene, (0, -6, 3), (0, 0, 0.5), **settings)
+    theirs = by_cycles(scene, tmp_path, 64)
+    ours = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
+    # Where the cube is, within a pixel's edge.
+    assert np.abs(ours[..., 0] - theirs[..., 0]).mean() < 0.02
+
+
+def test_depth_of_field(scene, tmp_path):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    mesh(scene, "cube", material("Emission", color=(1, 0.5, 0.2)), place=(0.5, 1, 0.5), stretch=(0.4, 0.4, 0.4))
+    camera(scene, (0, -6, 3), (0, 0, 0.5))
+    scene.camera.data.dof.use_dof = True
+    scene.camera.data.dof.focus_distance = 3
+    scene.camera.data.dof.aperture_fstop = 0.1
+    check(scene, tmp_path, 1000)
+
+
+def test_a_blackbody_has_the_colour_that_cycles_gives_it(scene, tmp_path):
+    made = material("Emission", strength=2.0)
+    tree = made.node_tree
+    emission = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeEmission")
+    link(tree, node(tree, "Blackbody", temperature=3200.0), emission.inputs["Color"])
+    mesh(scene, "plane", made, size=20)
+    camera(scene, (0, 0, 5), (0, 0.01, 0))
+    # Both are fits.
+    check(scene, tmp_path, 4, tolerance=0.03)
+
+
+def test_frames(scene, tmp_path):
+    ball = mesh(scene, "uv_sphere", material("Emission", strength=2))
+    for frame, x in ((1, -1.5), (3, 1.5)):
+        ball.location.x = x
+        ball.keyframe_insert("location", frame=frame)
+    file = tmp_path / "moving.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    assert blend.main([str(file), "--render", str(tmp_path / "out.####.exr"), "--frames", "1-3", "--spp", "16"]) == 0
+    places = []
+    for frame in (1, 2, 3):
+        image = wend.read(tmp_path / f"out.{frame:04}.exr").image[..., 0]
+        places.append(float((image.sum(axis=0) * np.arange(SIZE)).sum() / image.sum()))
+    assert places[0] < SIZE / 2 - 4 and abs(places[1] - SIZE / 2) < 1 and places[2] > SIZE / 2 + 4
+
+
+def test_a_file_becomes_a_pbrt_scene(scene, tmp_path):
+    floor(scene)
+    lamp(scene, "POINT", 100, (0, 0, 3))
+    file = tmp_path / "scene.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    environment = os.environ | {"PYTHONPATH": os.path.dirname(os.path.dirname(wend.__file__))}
+    output = tmp_path / "scene.pbrt"
+    subprocess.run([sys.executable, "-m", "wend.blend", str(file), "-o", str(output), "--resolution", "48x32"], check=True, env=environment)
+    loaded = wend.load(output)
+    assert loaded.resolution == (48, 32)
+
+
+def test_what_is_missing_is_named_once(scene):
+    made = material("BsdfPrincipled")
+    tree = made.node_tree
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    principled = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled")
+    tree.links.new(noise.outputs["Color"], principled.inputs["Base Color"])
+    mesh(scene, "cube", made)
+    mesh(scene, "cube", made)
+    lamp(scene, "POINT", 1, (0, 0, 3))
+    with pytest.warns(wend.SceneWarning) as told:
+        blend.of_scene(scene)
+    texts = [str(w.message) for w in told]
+    assert sum("TexNoise as Base Color" in text and made.name in text for text in texts) == 1
+
+
+def test_errors(tmp_path, capsys, scene):
+    broken = tmp_path / "broken.blend"
+    broken.write_bytes(b"BLENDER-v300" + bytes(100))
+    for arguments, text in (
+        ([str(tmp_path / "no.blend"), "--render", "x.exr"], "no such file"),
+        ([str(broken), "--render", "x.exr"], "broken.blend: error"),
+        ([str(broken), "--render", "x.exr", "--resolution", "3"], "WIDTHxHEIGHT"),
+        ([str(broken), "--render", "x.exr", "--frames", "1-4"], "####"),
+        ([str(broken), "--render", "x.exr", "--frames", "b"], "expected A-B"),
+    ):
+        assert blend.main(arguments) == 2
+        assert text in capsys.readouterr().err
+    scene.camera = None
+    with pytest.raises(wend.InputError, match="no camera"):
+        blend.of_scene(scene)
+
+
+@pytest.fixture
+def addon():
+    from wend import blender_addon
+
+    blender_addon.register()
+    yield blender_addon
+    blender_addon.unregister()
+
+
+def test_the_add_on_renders_frames(scene, tmp_path, addon):
+    floor(scene)
+    ball = mesh(scene, "uv_sphere", material("BsdfDiffuse", color=(0.8, 0.2, 0.1)), place=(0, 0, 0.5), radius=0.7)
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.5, 0.3, 0), angle=0)
+    for frame, x in ((1, -1.0), (2, 1.0)):
+        ball.location.x = x
+        ball.keyframe_insert("location", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 2
+    pictures = {}
+    for engine in ("CYCLES", "WEND"):
+        scene.render.engine = engine
+        scene.cycles.samples, scene.wend.samples, scene.wend.guiding = 256, 256, "classical"
+        scene.render.filepath = str(tmp_path / f"{engine}.####")
+        bpy.ops.render.render(animation=True)
+        pictures[engine] = [wend.read(tmp_path / f"{engine}.{i:04}.exr").image for i in (1, 2)]
+    for ours, theirs in zip(pictures["WEND"], pictures["CYCLES"]):
+        assert np.abs(blocks(ours) / blocks(theirs) - 1).max() < 0.01
+    assert np.abs(pictures["WEND"][0] - pictures["WEND"][1]).mean() > 0.01
+
+
+def test_the_add_on_says_what_is_wrong(scene, tmp_path, addon):
+    (tmp_path / "broken.png").write_bytes(b"no picture")
+    image = bpy.data.images.new("broken", 4, 4)
+    image.source, image.filepath = "FILE", str(tmp_path / "broken.png")
+    made = material("BsdfDiffuse")
+    texture = made.node_tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    link(made.node_tree, texture, next(n for n in made.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfDiffuse").inputs["Color"])
+    mesh(scene, "cube", made)
+    scene.render.engine = "WEND"
+    with pytest.raises(RuntimeError, match="broken.png"):
+        bpy.ops.render.render()
+
+
+def test_the_zip_of_the_add_on(tmp_path, addon, capsys):
+    wheel = tmp_path / "wend-0.1.0-cp311-cp311-manylinux_2_28_x86_64.whl"
+    assert addon.main([str(wheel), "-o", str(tmp_path / "wend.zip")]) == 2
+    assert "wheel of Wend" in capsys.readouterr().err
+    wheel.write_bytes(b"a wheel")
+    assert addon.main([str(wheel), "-o", str(tmp_path / "wend.zip")]) == 0
+    with zipfile.ZipFile(tmp_path / "wend.zip") as archive:
+        manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
+        assert manifest["wheels"] == [f"./wheels/{wheel.name}"] and manifest["id"] == "wend" and manifest["version"] == "0.1.0"
+        assert f"wheels/{wheel.name}" in archive.namelist() and "__init__.py" in archive.namelist()

@@ -1,0 +1,115 @@
+"""Blender's lamps, in its units: watts of point, spot and area lights, watts per square metre of a sun."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._scene_reader import SceneReader
+
+Matrix = npt.NDArray[np.float64]
+
+#: Half a turn around x: Blender's lamps shine along -z, pbrt's along z.
+_TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
+
+
+def add(reader: SceneReader, name: str, lamp: Any, world: Matrix, is_seen: bool) -> None:
+    """A lamp, whose space has its points as rows. `is_seen`: by the camera, as far as it has a size."""
+    place = f"light '{name}'"
+    kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
+    if lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
+        strength = _strength_of_nodes(reader, place, lamp)
+    else:
+        strength = np.ones(3)
+    power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength
+    if getattr(lamp, "use_temperature", False):
+        power = power * np.array(lamp.temperature_color, dtype=np.float64)
+    if not getattr(lamp, "normalize", True) and lamp.type in ("POINT", "SPOT", "AREA"):
+        reader.tell(place, "a light's strength that is not normalised is taken as a power")
+    if power.max() <= 0:
+        return
+    with reader.builder.block():
+        kinds[lamp.type](reader, place, lamp, world, power, is_seen)
+
+
+def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArray[np.float64]:
+    """Colour and strength of the emission that a lamp's nodes are, where they are no more than that."""
+    for node in lamp.node_tree.nodes:
+        if node.bl_idname == "ShaderNodeEmission" and not any(socket.is_linked for socket in node.inputs):
+            return np.array(node.inputs["Color"].default_value[:3]) * float(node.inputs["Strength"].default_value)
+    reader.tell(place, "the nodes of a light are left out, but for an emission that is constant")
+    return np.ones(3)
+
+
+def _shine(reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any]) -> None:
+    # Lamps reflect nothing.
+    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance})
+    reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
+    reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"float alpha": 0.0})
+
+
+def _point(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
+    radius = float(lamp.shadow_soft_size)
+    reader.builder.add("Transform", _unscaled(world))
+    if radius > 0:
+        _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius})
+    else:
+        reader.builder.add("LightSource", "point", {"rgb I": power / (4 * math.pi)})
+
+
+def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
+    if lamp.shadow_soft_size > 0:
+        reader.tell(place, "a spot light is taken as a point: its shadows are hard")
+    half = min(float(lamp.spot_size) / 2, math.radians(89.9))
+    edge = math.cos(half)
+    # Cycles blends by the cosine, over this part of it.
+    inner = math.acos(min(edge + float(lamp.spot_blend) * (1 - edge), 1.0))
+    reader.builder.add("Transform", _TURNED @ _unscaled(world))
+    reader.builder.add(
+        "LightSource",
+        "spot",
+        {
+            "rgb I": power / (4 * math.pi),
+            "point3 from": (0, 0, 0),
+            "point3 to": (0, 0, 1),
+            "float coneangle": math.degrees(half),
+            "float conedeltaangle": math.degrees(half - inner),
+        },
+    )
+
+
+def _sun(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
+    if lamp.angle > math.radians(1):
+        reader.tell(place, "a sun is taken as a point in the sky: its shadows are hard")
+    reader.builder.add("Transform", _TURNED @ _unscaled(world))
+    reader.builder.add("LightSource", "distant", {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)})
+
+
+def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
+    if getattr(lamp, "spread", math.pi) < math.radians(179):
+        reader.tell(place, "the spread of an area light is left out")
+    x = float(lamp.size) / 2
+    y = x if lamp.shape in ("SQUARE", "DISK") else float(lamp.size_y) / 2
+    across, up = world[0, :3], world[1, :3]
+    stretched = float(np.linalg.norm(np.cross(across, up)))
+    is_round = lamp.shape in ("DISK", "ELLIPSE")
+    area = (math.pi if is_round else 4.0) * x * y * stretched
+    radiance = power / (math.pi * max(area, 1e-30))
+    if is_round:
+        reader.builder.add("Transform", np.diag([x, y, 1, 1]) @ _TURNED @ world)
+        _shine(reader, radiance, is_seen, "disk", {"float radius": 1})
+        return
+    # Seen from -z, where it shines, the corners go around against the clock.
+    corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
+    reader.builder.add("Transform", world)
+    _shine(reader, radiance, is_seen, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
+
+
+def _unscaled(world: Matrix) -> Matrix:
+    """Point lights, spots and suns have no size that an object's scale could change."""
+    result = world.copy()
+    result[:3, :3] /= np.maximum(np.linalg.norm(result[:3, :3], axis=1, keepdims=True), 1e-30)
+    return result

@@ -1,0 +1,400 @@
+"""Blender's materials: their shader nodes as materials and media of the renderer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ._blend_nodes import Colour, Nodes, output_node
+from ._scene_reader import Look, SceneReader
+
+
+@dataclass
+class _Surface:
+    """What a shader node stands for."""
+
+    material: dict[str, Any] | None = None  #: parameters of a MakeNamedMaterial; None: nothing is reflected
+    mixed: tuple[_Surface, _Surface, dict[str, Any]] | None = None  #: two of them, and how much of the second
+    emission: Colour = field(default_factory=lambda: np.zeros(3))
+    alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
+    inside: dict[str, Any] | None = None  #: parameters of a MakeNamedMedium
+    is_clear: bool = False  #: light goes straight through
+
+
+def look_of(reader: SceneReader, material: Any) -> Look:
+    """Makes the material, and the medium inside, if they are not there yet. A shape without one is grey."""
+    key = material.name if material else " no material"
+    if key not in reader.materials:
+        reader.materials[key] = _made(reader, material, key)
+    return reader.materials[key]
+
+
+def _made(reader: SceneReader, material: Any, key: str) -> Look:
+    tree = material.node_tree if material else None
+    output = output_node(tree) if tree else None
+    if output is None:
+        surface = _Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)})
+        return _look(reader, key, surface, None)
+    nodes = Nodes(reader, f"material '{key}'", key)
+    if output.inputs["Displacement"].is_linked:
+        nodes.warn(output, "displacement is left out")
+    node = nodes.shader(output.inputs["Surface"])
+    surface = _surface(nodes, node) if node else _Surface(is_clear=True)
+    volume = nodes.shader(output.inputs["Volume"])
+    medium = volume_parameters(nodes, volume) if volume else None
+    return _look(reader, key, surface, medium)
+
+
+def _look(reader: SceneReader, key: str, surface: _Surface, medium: dict[str, Any] | None) -> Look:
+    medium = medium or surface.inside
+    if medium is not None:
+        reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
+    emission = tuple(float(x) for x in surface.emission) if surface.emission.max() > 0 else None
+    named = _name(reader, key, surface)
+    if named is None and emission is None and medium is None:
+        # Nothing is seen of it.
+        return Look(None, shape_parameters={"float alpha": 0.0})
+    if named is None and emission is not None:
+        reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
+        named = key
+    return Look(named, emission, key if medium is not None else None, surface.alpha)
+
+
+def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
+    """Of the material that is made for it; None for an interface."""
+    if surface.mixed is not None:
+        first, second, amount = surface.mixed
+        names = [_name(reader, f"{key}/{i}", part) for i, part in enumerate((first, second))]
+        if None in names:
+            return next((name for name in names if name), None)
+        reader.builder.add("MakeNamedMaterial", key, {"string type": "mix", "string materials": names} | amount)
+        return key
+    if surface.material is None:
+        return None
+    reader.builder.add("MakeNamedMaterial", key, surface.material)
+    return key
+
+
+def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
+    kinds = {
+        "ShaderNodeBsdfPrincipled": _principled,
+        "ShaderNodeBsdfDiffuse": _diffuse,
+        "ShaderNodeBsdfAnisotropic": _glossy,
+        "ShaderNodeBsdfGlossy": _glossy,
+        "ShaderNodeBsdfMetallic": _metallic,
+        "ShaderNodeBsdfGlass": _glass,
+        "ShaderNodeBsdfRefraction": _glass,
+        "ShaderNodeBsdfTransparent": _transparent,
+        "ShaderNodeBsdfTranslucent": _translucent,
+        "ShaderNodeSubsurfaceScattering": _subsurface,
+        "ShaderNodeEmission": _emission,
+        "ShaderNodeBackground": _emission,
+    }
+    if node is None:
+        return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
+    if depth > 32:
+        nodes.warn(node, "shaders that are mixed more than 32 times are black")
+        return _Surface()
+    if node.bl_idname == "ShaderNodeMixShader":
+        return _mixed(nodes, node, depth)
+    if node.bl_idname == "ShaderNodeAddShader":
+        return _added(nodes, node, depth)
+    if node.bl_idname in kinds:
+        return kinds[node.bl_idname](nodes, node)
+    nodes.warn(node, f"{node.bl_idname.removeprefix('ShaderNode')} is taken as grey")
+    return _Surface({"string type": "diffuse", "rgb reflectance": (0.5, 0.5, 0.5)})
+
+
+def _detail(nodes: Nodes, node: Any, parameters: dict[str, Any]) -> None:
+    """Normal maps; bumps have no counterpart of their own."""
+    socket = node.inputs.get("Normal")
+    found = nodes.source(socket) if socket is not None else None
+    if found is None or not found.is_output:
+        return
+    source = found.node
+    if source.bl_idname == "ShaderNodeNormalMap" and source.space == "TANGENT":
+        picture = nodes.source(source.inputs["Color"])
+        if picture is not None and picture.is_output and picture.node.bl_idname == "ShaderNodeTexImage" and picture.node.image:
+            file = nodes._file_of(picture.node, picture.node.image)
+            if file is not None:
+                parameters["string normalmap"] = file
+                if nodes.number(source.inputs["Strength"]) != 1:
+                    nodes.warn(source, "the strength of a normal map is taken as 1")
+                return
+    nodes.warn(source, f"{source.bl_idname.removeprefix('ShaderNode')} as Normal is left out")
+
+
+def _principled(nodes: Nodes, node: Any) -> _Surface:
+    inputs = node.inputs
+    for name, plain in (("Sheen Weight", 0), ("Thin Film Thickness", 0), ("Anisotropic", 0), ("Diffuse Roughness", 0)):
+        if name in inputs and (inputs[name].is_linked or inputs[name].default_value != plain):
+            nodes.warn(node, f"{name} is left out")
+    if np.abs(nodes.colour(inputs["Specular Tint"]) - 1).max() > 1e-6:
+        nodes.warn(node, "Specular Tint is left out")
+    ior = max(nodes.number(inputs["IOR"]), 1e-3)
+    strength = nodes.number(inputs["Emission Strength"])
+    emission = nodes.colour(inputs["Emission Color"]) * strength if strength > 0 else np.zeros(3)
+    material: dict[str, Any] = {"string type": "principled", "float eta": ior}
+    nodes.add_to(material, inputs["Base Color"], "reflectance", "rgb")
+    nodes.add_to(material, inputs["Metallic"], "metallic", "float")
+    nodes.add_to(material, inputs["Roughness"], "roughness", "float")
+    material["float specular"] = 2 * nodes.number(inputs["Specular IOR Level"])
+    coat = nodes.number(inputs["Coat Weight"])
+    if coat > 0:
+        nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
+        nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
+        material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
+        if np.abs(nodes.colour(inputs["Coat Tint"]) - 1).max() > 1e-6:
+            nodes.warn(node, "Coat Tint is left out")
+    _detail(nodes, node, material)
+    result = _Surface(material, emission=emission)
+    transmission, subsurface = nodes.number(inputs["Transmission Weight"]), nodes.number(inputs["Subsurface Weight"])
+    if transmission > 0:
+        colour = nodes.colour(inputs["Base Color"])
+        glass = _clear(nodes, node, colour, nodes.number(inputs["Roughness"]), ior)
+        result = _blended(result, glass, transmission, emission)
+    elif subsurface > 0:
+        radius = nodes.colour(inputs["Subsurface Radius"]) * nodes.number(inputs["Subsurface Scale"])
+        wax: dict[str, Any] = {
+            "string type": "subsurface",
+            "float eta": ior,
+            "float roughness": nodes.number(inputs["Roughness"]) ** 2,
+            "bool remaproughness": False,
+            "float g": nodes.number(inputs["Subsurface Anisotropy"]),
+            "rgb mfp": np.maximum(radius, 1e-6),
+        }
+        nodes.add_to(wax, inputs["Base Color"], "reflectance", "rgb")
+        _detail(nodes, node, wax)
+        result = _blended(result, _Surface(wax), subsurface, emission)
+    if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
+        nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
+    return result
+
+
+def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour) -> _Surface:
+    if amount >= 1:
+        second.emission = emission
+        return second
+    return _Surface(mixed=(first, second, {"float amount": amount}), emission=emission)
+
+
+def _diffuse(nodes: Nodes, node: Any) -> _Surface:
+    material: dict[str, Any] = {"string type": "diffuse"}
+    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    if node.inputs["Roughness"].is_linked or node.inputs["Roughness"].default_value > 0:
+        nodes.warn(node, "the roughness of a diffuse surface is left out")
+    _detail(nodes, node, material)
+    return _Surface(material)
+
+
+def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
+    material: dict[str, Any] = {"string type": "principled", "float metallic": 1.0}
+    nodes.add_to(material, node.inputs[colour], "reflectance", "rgb")
+    nodes.add_to(material, node.inputs["Roughness"], "roughness", "float")
+    if nodes.number(node.inputs["Anisotropy"]) != 0:
+        nodes.warn(node, "Anisotropy is left out")
+    _detail(nodes, node, material)
+    return _Surface(material)
+
+
+def _glossy(nodes: Nodes, node: Any) -> _Surface:
+    # It reflects its colour from everywhere, a metal more at grazing angles.
+    nodes.warn(node, "a glossy surface is taken as a metal of its colour")
+    return _metal(nodes, node, "Color")
+
+
+def _metallic(nodes: Nodes, node: Any) -> _Surface:
+    if node.fresnel_type != "F82":
+        nodes.warn(node, "a metal by index and extinction is taken by its base colour")
+    return _metal(nodes, node, "Base Color")
+
+
+def _glass(nodes: Nodes, node: Any) -> _Surface:
+    colour, roughness = nodes.colour(node.inputs["Color"]), nodes.number(node.inputs["Roughness"])
+    return _clear(nodes, node, colour, roughness, max(nodes.number(node.inputs["IOR"]), 1e-3))
+
+
+def _clear(nodes: Nodes, node: Any, colour: Colour, roughness: float, ior: float) -> _Surface:
+    if np.abs(colour - 1).max() > 1e-3:
+        nodes.warn(node, "the colour of glass is left out: give it a volume that absorbs")
+    material = {
+        "string type": "dielectric",
+        "float eta": ior,
+        "float roughness": roughness**2,
+        "bool remaproughness": False,
+    }
+    return _Surface(material)
+
+
+def _transparent(nodes: Nodes, node: Any) -> _Surface:
+    if np.abs(nodes.colour(node.inputs["Color"]) - 1).max() > 1e-3:
+        nodes.warn(node, "the colour of what is transparent is left out")
+    return _Surface(is_clear=True)
+
+
+def _translucent(nodes: Nodes, node: Any) -> _Surface:
+    material: dict[str, Any] = {"string type": "diffusetransmission", "rgb reflectance": (0, 0, 0)}
+    nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
+    return _Surface(material)
+
+
+def _subsurface(nodes: Nodes, node: Any) -> _Surface:
+    inputs = node.inputs
+    radius = nodes.colour(inputs["Radius"]) * nodes.number(inputs["Scale"])
+    material: dict[str, Any] = {
+        "string type": "subsurface",
+        "float eta": max(nodes.number(inputs["IOR"]), 1.0),
+        "float g": nodes.number(inputs["Anisotropy"]),
+        "rgb mfp": np.maximum(radius, 1e-6),
+    }
+    nodes.add_to(material, inputs["Color"], "reflectance", "rgb")
+    return _Surface(material)
+
+
+def _emission(nodes: Nodes, node: Any) -> _Surface:
+    return _Surface(emission=nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]))
+
+
+def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
+    first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[1:3])
+    factor = nodes._constant(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
+    share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
+    if factor is not None and share in (0.0, 1.0):
+        return second if share == 1 else first
+    emission = (1 - share) * first.emission + share * second.emission
+    amount: dict[str, Any] = {}
+    nodes.add_to(amount, node.inputs["Fac" if "Fac" in node.inputs else "Factor"], "amount", "float")
+    if first.is_clear or second.is_clear:
+        seen = second if first.is_clear else first
+        if seen.is_clear:
+            return seen
+        texture = amount.get("texture amount")
+        if texture is not None and second.is_clear:
+            inverse = nodes._name()
+            nodes.reader.builder.add("Texture", inverse, "float", "mix", {"float tex1": 1.0, "float tex2": 0.0, "texture amount": texture})
+            texture = inverse
+        alpha = {"texture alpha": texture} if texture is not None else {"float alpha": share if first.is_clear else 1 - share}
+        if seen.alpha:
+            nodes.warn(node, "of transparencies within each other the outermost counts")
+        return _Surface(seen.material, seen.mixed, seen.emission, alpha, seen.inside)
+    if first.material is None and first.mixed is None:
+        return _Surface(second.material, second.mixed, emission, second.alpha)
+    if second.material is None and second.mixed is None:
+        return _Surface(first.material, first.mixed, emission, first.alpha)
+    return _Surface(mixed=(first, second, amount), emission=emission)
+
+
+def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
+    first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[:2])
+    emission = first.emission + second.emission
+    for one, other in ((first, second), (second, first)):
+        if one.material is None and one.mixed is None:
+            return _Surface(other.material, other.mixed, emission, other.alpha, other.inside, other.is_clear and not emission.max() > 0)
+    nodes.warn(node, "a sum of two surfaces is taken as their mean")
+    return _Surface(mixed=(first, second, {"float amount": 0.5}), emission=emission)
+
+
+# ---- Volumes ----
+
+
+def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
+    """Of a shader node of a volume, the parameters of a medium of density 1 everywhere; None for one that is none."""
+    found = _volume(nodes, node)
+    if found is None:
+        return None
+    scattering, absorption, emission, phase = found
+    parameters: dict[str, Any] = {"rgb sigma_s": scattering, "rgb sigma_a": absorption} | phase
+    if emission.max() > 0:
+        # Here what shines is multiplied by what absorbs.
+        if absorption.min() <= 0:
+            nodes.warn(node, "a volume that shines and does not absorb shines by a small absorption")
+            absorption = np.maximum(absorption, 1e-4)
+            parameters["rgb sigma_a"] = absorption
+        parameters["rgb Le"] = emission / absorption
+    return parameters
+
+
+_Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
+
+
+def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Colour]:
+    first, second, third = np.zeros(3), np.zeros(3), np.zeros(3)
+    for weight, part in parts:
+        first, second, third = first + weight * part[0], second + weight * part[1], third + weight * part[2]
+    return first, second, third
+
+
+def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
+    """Scattering, absorption, emission, and the phase function."""
+    zero = np.zeros(3)
+    kind = node.bl_idname if node is not None else ""
+    if depth > 32 or node is None:
+        return None
+    if kind == "ShaderNodeVolumePrincipled":
+        density = nodes.number(node.inputs["Density"])
+        colour = np.maximum(nodes.colour(node.inputs["Color"]), 0)
+        dark = np.sqrt(np.maximum(nodes.colour(node.inputs["Absorption Color"]), 0))
+        absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
+        strength = nodes.number(node.inputs["Emission Strength"])
+        shine = nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else zero
+        if nodes.number(node.inputs["Blackbody Intensity"]) > 0:
+            nodes.warn(node, "the blackbody of a volume is left out")
+        return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
+    if kind == "ShaderNodeVolumeScatter":
+        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        return density * np.maximum(colour, 0), zero, zero, _phase(nodes, node)
+    if kind == "ShaderNodeVolumeAbsorption":
+        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        return zero, density * np.clip(1 - colour, 0, None), zero, {}
+    if kind == "ShaderNodeVolumeCoefficients":
+        values = [nodes.colour(node.inputs[f"{name} Coefficients"]) for name in ("Scatter", "Absorption", "Emission")]
+        return values[0], values[1], values[2], _phase(nodes, node)
+    if kind == "ShaderNodeEmission":
+        return zero, zero, nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), {}
+    if kind in ("ShaderNodeAddShader", "ShaderNodeMixShader"):
+        sockets = node.inputs[:2] if kind == "ShaderNodeAddShader" else node.inputs[1:3]
+        parts = [_volume(nodes, nodes.shader(socket), depth + 1) for socket in sockets]
+        share = nodes.number(node.inputs[0]) if kind == "ShaderNodeMixShader" else 0.0
+        weights = (1 - share, share) if kind == "ShaderNodeMixShader" else (1.0, 1.0)
+        there = [(weight, part) for weight, part in zip(weights, parts) if part is not None]
+        if not there:
+            return None
+        phases = [part[3] for _, part in there if part[3]]
+        if len(phases) > 1 and phases[0] != phases[1]:
+            return _two_phases(nodes, node, there)
+        return *_sums(there), phases[0] if phases else {}
+    nodes.warn(node, f"{kind.removeprefix('ShaderNode')} as a volume is left out")
+    return None
+
+
+def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[float, _Coefficients]]) -> _Coefficients:
+    weights = [w * float(part[0].mean()) for w, part in parts]
+    if all(set(part[3]) <= {"float g"} for _, part in parts):
+        cosines = [part[3].get("float g", 0.0) for _, part in parts]
+        phase: dict[str, Any] = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}
+        return *_sums(parts), phase
+    nodes.warn(node, "of two phase functions the one that scatters more is taken")
+    return *_sums(parts), parts[int(np.argmax(weights))][1][3]
+
+
+def _phase(nodes: Nodes, node: Any) -> dict[str, Any]:
+    kind = node.phase
+    if kind == "HENYEY_GREENSTEIN":
+        return {"float g": nodes.number(node.inputs["Anisotropy"])}
+    if kind == "RAYLEIGH":
+        return {"string phase": "rayleigh"}
+    if kind == "DRAINE":
+        anisotropy, alpha = nodes.number(node.inputs["Anisotropy"]), nodes.number(node.inputs["Alpha"])
+        return {"string phase": "draine", "float g": anisotropy, "float alpha": alpha}
+    if kind == "MIE":
+        diameter = nodes.number(node.inputs["Diameter"])
+        if not 5 <= diameter <= 50:
+            nodes.warn(node, "droplets are taken as 5 to 50 micrometres wide")
+        return {"string phase": "fog", "float diameter": min(max(diameter, 5.0), 50.0)}
+    if kind == "FOURNIER_FORAND":
+        nodes.warn(node, "of Fournier and Forand's function the index counts; the slope of the sizes is 3.5835")
+        return {"string phase": "fournierforand", "float index": max(nodes.number(node.inputs["IOR"]), 1.001)}
+    nodes.warn(node, f"the phase function {kind} is taken as even")
+    return {}

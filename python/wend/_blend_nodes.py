@@ -1,0 +1,325 @@
+"""Values of Blender's shader nodes: constants, and textures of the renderer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._scene_reader import SceneReader
+
+Colour = npt.NDArray[np.float64]
+
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+
+
+def output_node(tree: Any) -> Any:
+    """The material's or the world's output that Cycles takes; None where there is none."""
+    kinds = ("ShaderNodeOutputMaterial", "ShaderNodeOutputWorld")
+    found = [n for n in tree.nodes if n.bl_idname in kinds and n.target in ("ALL", "CYCLES")]
+    return next((n for n in found if n.is_active_output), found[0] if found else None)
+
+
+class Nodes:
+    """The nodes of a material: what their inputs are."""
+
+    def __init__(self, reader: SceneReader, place: str, key: str) -> None:
+        self.reader, self.place, self.key = reader, place, key
+        #: Of each group that is entered: its node, from which inputs come.
+        self._groups: list[Any] = []
+        self._textures = 0
+
+    def warn(self, node: Any, text: str) -> None:
+        self.reader.tell(f"{self.place}, node '{node.name}'", text)
+
+    # ---- Links ----
+
+    def source(self, socket: Any) -> Any:
+        """The socket of another node that the input follows, through reroutes, muted nodes and groups; None: its own
+        value."""
+        for _ in range(256):  # links may go in a circle
+            if not socket.is_linked:
+                return None
+            link = next((link for link in socket.links if link.is_valid and not link.is_muted), None)
+            if link is None:
+                return None
+            found, node = link.from_socket, link.from_node
+            if node.bl_idname == "NodeReroute":
+                socket = node.inputs[0]
+            elif node.mute:
+                socket = next((l.from_socket for l in node.internal_links if l.to_socket == found), None)
+                if socket is None:
+                    return None
+            elif node.bl_idname == "NodeGroupInput" and self._groups:
+                group = self._groups[-1]
+                socket = group.inputs[found.name]
+                if not socket.is_linked:
+                    return socket
+                self._groups.pop()
+                result = self.source(socket)
+                self._groups.append(group)
+                return result
+            elif node.bl_idname == "ShaderNodeGroup" and node.node_tree:
+                inner = next((n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output), None)
+                if inner is None or len(self._groups) > 32:
+                    return None
+                self._groups.append(node)
+                socket = inner.inputs[found.name]
+                if not socket.is_linked:
+                    return socket
+            else:
+                return found
+        return None
+
+    def shader(self, socket: Any) -> Any:
+        """The node whose shader an input takes; None for none."""
+        found = self.source(socket)
+        return found.node if found is not None and found.is_output else None
+
+    # ---- Values ----
+
+    def number(self, socket: Any, depth: int = 0) -> float:
+        """A constant; what is not is named, and taken as the input's own value."""
+        value = self._constant(socket, depth)
+        if value is None:
+            self._left_out(socket)
+            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
+        return float(value @ _LUMINANCE) if len(value) == 3 else float(value[0])
+
+    def colour(self, socket: Any) -> Colour:
+        value = self._constant(socket)
+        if value is None:
+            self._left_out(socket)
+            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
+        return np.broadcast_to(value, 3).astype(np.float64)
+
+    def add_to(self, parameters: dict[str, Any], socket: Any, name: str, kind: str, power: float = 1) -> None:
+        """Adds the parameter, of the kind "rgb" or "float", as a constant or a texture."""
+        if self._constant(socket) is None:
+            texture = self.texture(socket, kind)
+            if texture is not None:
+                if power != 1:
+                    self._left_out(socket)
+                parameters[f"texture {name}"] = texture
+                return
+        value = self.colour(socket) if kind == "rgb" else self.number(socket)
+        parameters[f"{kind} {name}"] = np.clip(value, 0, 1) if kind == "rgb" else float(value) ** power
+
+    def texture(self, socket: Any, kind: str) -> str | None:
+        """The name of a texture that the input follows; None where there is no counterpart."""
+        found = self.source(socket)
+        if found is None or not found.is_output:
+            return None
+        node = found.node
+        if node.bl_idname == "ShaderNodeTexImage" and node.image:
+            return self._picture(node, kind, found.name == "Alpha")
+        if node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
+            return self._mixed(node, kind)
+        return None
+
+    def _left_out(self, socket: Any) -> None:
+        found = self.source(socket)
+        if found is not None:
+            label = found.node.bl_idname.removeprefix("ShaderNode")
+            self.warn(socket.node, f"{label} as {socket.name} is left out")
+
+    def _constant(self, socket: Any, depth: int = 0) -> Colour | None:
+        """None where it is not the same everywhere."""
+        found = self.source(socket)
+        if found is None or not found.is_output:
+            given = (socket if found is None else found).default_value
+            return np.atleast_1d(np.array(given, dtype=np.float64))[:3]
+        if depth > 64:
+            return None
+        node = found.node
+        kind = node.bl_idname
+        if kind in ("ShaderNodeValue", "ShaderNodeRGB"):
+            return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
+        inputs = [self._constant(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
+        if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
+            return _blackbody(float(inputs[0][0]))
+        if kind == "ShaderNodeMath":
+            return _math(node.operation, [None if x is None else float(x[0]) for x in inputs], node.use_clamp)
+        if kind == "ShaderNodeGamma" and inputs[0] is not None and inputs[1] is not None:
+            return np.asarray(np.maximum(inputs[0], 0) ** inputs[1][0], dtype=np.float64)
+        if kind == "ShaderNodeInvert" and inputs[0] is not None and inputs[1] is not None:
+            return inputs[1] * (1 - inputs[0]) + (1 - inputs[1]) * inputs[0]
+        if kind == "ShaderNodeRGBToBW" and inputs[0] is not None:
+            return np.array([float(inputs[0] @ _LUMINANCE)])
+        if kind == "ShaderNodeValToRGB" and inputs[0] is not None:
+            at = float(inputs[0] @ _LUMINANCE) if len(inputs[0]) == 3 else float(inputs[0][0])
+            colour = node.color_ramp.evaluate(at)
+            return np.array([colour[3]]) if found.name == "Alpha" else np.array(colour[:3])
+        if kind == "ShaderNodeCombineColor" and node.mode == "RGB" and all(x is not None for x in inputs[:3]):
+            return np.array([float(x[0]) for x in inputs[:3] if x is not None])
+        if kind in ("ShaderNodeMix", "ShaderNodeMixRGB"):
+            factor, a, b = self._mix_inputs(node)
+            values = [self._constant(s, depth + 1) for s in (factor, a, b)]
+            if any(v is None for v in values):
+                return None
+            return _blend(node.blend_type if hasattr(node, "blend_type") else "MIX", *values)  # type: ignore[arg-type]
+        return None
+
+    @staticmethod
+    def _mix_inputs(node: Any) -> tuple[Any, Any, Any]:
+        if node.bl_idname == "ShaderNodeMixRGB":
+            return node.inputs[0], node.inputs[1], node.inputs[2]
+        first = {"FLOAT": 2, "VECTOR": 4, "RGBA": 6}.get(node.data_type, 6)
+        return node.inputs[0], node.inputs[first], node.inputs[first + 1]
+
+    # ---- Textures ----
+
+    def _name(self) -> str:
+        self._textures += 1
+        return f"{self.key} {self._textures}"
+
+    def _mixed(self, node: Any, kind: str) -> str | None:
+        factor, a, b = self._mix_inputs(node)
+        mode = getattr(node, "blend_type", "MIX")
+        parameters: dict[str, Any] = {}
+        if mode == "MIX":
+            self.add_to(parameters, factor, "amount", "float")
+            self.add_to(parameters, a, "tex1", kind)
+            self.add_to(parameters, b, "tex2", kind)
+            plugin = "mix"
+        elif mode == "MULTIPLY" and self._constant(factor) is not None and self.number(factor) == 1:
+            self.add_to(parameters, a, "tex", kind)
+            self.add_to(parameters, b, "scale", kind)
+            plugin = "scale"
+        else:
+            return None
+        name = self._name()
+        self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", plugin, parameters)
+        return name
+
+    def _picture(self, node: Any, kind: str, is_alpha: bool) -> str | None:
+        image = node.image
+        file = self._file_of(node, image)
+        if file is None:
+            return None
+        space = image.colorspace_settings.name
+        if space not in ("sRGB", "Non-Color", "Linear Rec.709", "Raw", "Linear"):
+            self.warn(node, f"the colour space {space} of a picture is taken as sRGB")
+        linear = space not in ("sRGB",) and space in ("Non-Color", "Linear Rec.709", "Raw", "Linear")
+        wraps = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black"}
+        if node.extension not in wraps:
+            self.warn(node, f"the extension {node.extension} of a picture is taken as repetition")
+        parameters: dict[str, Any] = {
+            "string filename": file,
+            "string encoding": "linear" if linear else "sRGB",
+            "string wrap": wraps.get(node.extension, "repeat"),
+        }
+        if node.projection != "FLAT":
+            self.warn(node, f"the projection {node.projection} of a picture is left out")
+        self._map(node, parameters)
+        if kind == "float" and not is_alpha and image.channels == 4 and image.depth not in (24, 8):
+            self.warn(node, "of a picture with an opacity, taken as a number, the opacity counts")
+        name = self._name()
+        self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", "imagemap", parameters)
+        return name
+
+    def _map(self, node: Any, parameters: dict[str, Any]) -> None:
+        """Of texture coordinates, scale and place."""
+        found = self.source(node.inputs["Vector"])
+        if found is None or not found.is_output:
+            return
+        mapping = found.node
+        if mapping.bl_idname == "ShaderNodeMapping":
+            scale, place = self.colour(mapping.inputs["Scale"]), self.colour(mapping.inputs["Location"])
+            if np.abs(self.colour(mapping.inputs["Rotation"])).max() > 1e-6 or mapping.vector_type != "POINT":
+                self.warn(mapping, "of a mapping, only scale and location of points are taken")
+            parameters |= {
+                "float uscale": float(scale[0]),
+                "float vscale": float(scale[1]),
+                "float udelta": float(place[0]),
+                "float vdelta": float(place[1]),
+            }
+            found = self.source(mapping.inputs["Vector"])
+        if found is not None and found.is_output and not (
+            found.node.bl_idname == "ShaderNodeUVMap" or (found.node.bl_idname == "ShaderNodeTexCoord" and found.name == "UV")
+        ):
+            label = found.node.bl_idname.removeprefix("ShaderNode")
+            self.warn(node, f"texture coordinates of {label} are taken as UV")
+
+    def _file_of(self, node: Any, image: Any) -> str | None:
+        import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+        if image.source == "FILE" and not image.packed_file and image.filepath:
+            path = str(bpy.path.abspath(image.filepath, library=image.library))
+            if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
+                return path
+        if image.source in ("FILE", "GENERATED") and image.size[0] > 0:
+            suffix = "exr" if image.is_float else "png"
+            file = self.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(self.reader.builder)}.{suffix}")
+            before = image.file_format
+            image.file_format = "OPEN_EXR" if image.is_float else "PNG"
+            image.save(filepath=file, save_copy=True)
+            image.file_format = before
+            return file
+        self.warn(node, f"a picture of the kind {image.source}, or without pixels, is left out")
+        return None
+
+
+def _blackbody(kelvin: float) -> Colour:
+    """Of luminance 1, by Planck's law and fits of the colour matching functions (wyman2013)."""
+    nanometres = np.arange(380.0, 781.0, 5.0)
+
+    def bell(centre: float, below: float, above: float) -> Colour:
+        scaled = (nanometres - centre) * np.where(nanometres < centre, below, above)
+        return np.asarray(np.exp(-0.5 * scaled**2), dtype=np.float64)
+
+    x = 0.362 * bell(442.0, 0.0624, 0.0374) + 1.056 * bell(599.8, 0.0264, 0.0323) - 0.065 * bell(501.1, 0.0490, 0.0382)
+    y = 0.821 * bell(568.8, 0.0213, 0.0247) + 0.286 * bell(530.9, 0.0613, 0.0322)
+    z = 1.217 * bell(437.0, 0.0845, 0.0278) + 0.681 * bell(459.0, 0.0385, 0.0725)
+    metres = nanometres * 1e-9
+    light = metres**-5 / np.expm1(0.014387769 / (metres * min(max(kelvin, 800.0), 20000.0)))
+    xyz = np.array([(light * match).sum() for match in (x, y, z)]) / (light * y).sum()
+    from_xyz = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
+    return np.asarray(np.maximum(from_xyz @ xyz, 0), dtype=np.float64)
+
+
+def _blend(mode: str, factor: Colour, a: Colour, b: Colour) -> Colour | None:
+    t = np.clip(factor, 0, 1)
+    mixed = {"MIX": b, "MULTIPLY": a * b, "ADD": a + b, "SUBTRACT": a - b, "SCREEN": 1 - (1 - a) * (1 - b)}.get(mode)
+    if mixed is None:
+        return None
+    return np.asarray((1 - t) * a + t * mixed, dtype=np.float64)
+
+
+def _math(operation: str, values: list[float | None], clamp: bool) -> Colour | None:
+    a, b = values[0], values[1] if len(values) > 1 else None
+    unary: dict[str, Callable[[float], float]] = {
+        "SQRT": lambda x: math.sqrt(max(x, 0)),
+        "ABSOLUTE": abs,
+        "EXPONENT": lambda x: math.exp(min(x, 700)),
+        "SINE": math.sin,
+        "COSINE": math.cos,
+        "FLOOR": math.floor,
+        "CEIL": math.ceil,
+        "ROUND": round,
+        "RADIANS": math.radians,
+        "DEGREES": math.degrees,
+    }
+    binary: dict[str, Callable[[float, float], float]] = {
+        "ADD": lambda x, y: x + y,
+        "SUBTRACT": lambda x, y: x - y,
+        "MULTIPLY": lambda x, y: x * y,
+        "DIVIDE": lambda x, y: x / y if y else 0.0,
+        "POWER": lambda x, y: x**y if x >= 0 or float(y).is_integer() and (x or y >= 0) else 0.0,
+        "MINIMUM": min,
+        "MAXIMUM": max,
+        "LESS_THAN": lambda x, y: float(x < y),
+        "GREATER_THAN": lambda x, y: float(x > y),
+    }
+    if a is None:
+        return None
+    if operation in unary:
+        result = float(unary[operation](a))
+    elif operation in binary and b is not None:
+        result = float(binary[operation](a, b))
+    else:
+        return None
+    return np.array([min(max(result, 0.0), 1.0) if clamp else result])

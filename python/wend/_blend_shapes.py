@@ -1,0 +1,98 @@
+"""Blender's geometry as arrays of the renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Parameters = dict[str, Any]
+
+
+def _taken(collection: Any, attribute: str, width: int, kind: type) -> npt.NDArray[Any]:
+    values: npt.NDArray[Any] = np.empty(len(collection) * width, dtype=kind)
+    collection.foreach_get(attribute, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def mesh_parts(mesh: Any) -> Iterator[tuple[int, Parameters]]:
+    """Of an evaluated mesh, the triangles of each material: its number, and the parameters of a "trianglemesh"."""
+    mesh.calc_loop_triangles()
+    if not len(mesh.loop_triangles):
+        return
+    points = _taken(mesh.vertices, "co", 3, np.float32)
+    corners = _taken(mesh.loop_triangles, "loops", 3, np.int32)
+    vertices = _taken(mesh.loop_triangles, "vertices", 3, np.int32)
+    materials = _taken(mesh.loop_triangles, "material_index", 1, np.int32)
+    # Flat faces need no normals, smooth ones have those of their points.
+    domain = mesh.normals_domain
+    normals = _taken(mesh.vertex_normals, "vector", 3, np.float32) if domain == "POINT" else None
+    of_corners = _taken(mesh.corner_normals, "vector", 3, np.float32) if domain == "CORNER" else None
+    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    coordinates = None if layer is None else _taken(layer.uv, "vector", 2, np.float32)
+    for number in np.unique(materials):
+        chosen = materials == number
+        if coordinates is None and of_corners is None:
+            used, indices = np.unique(vertices[chosen], return_inverse=True)
+            parameters: Parameters = {"point3 P": points[used], "integer indices": indices.reshape(-1, 3).astype(np.int32)}
+            if normals is not None:
+                parameters["normal3 N"] = normals[used]
+        else:
+            flat, loops = vertices[chosen].reshape(-1), corners[chosen].reshape(-1)
+            parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32).reshape(-1, 3)}
+            if normals is not None:
+                parameters["normal3 N"] = normals[flat]
+            elif of_corners is not None:
+                parameters["normal3 N"] = of_corners[loops]
+            if coordinates is not None:
+                parameters["point2 uv"] = coordinates[loops]
+        yield int(number), parameters
+
+
+def hair_segments(curves: Any) -> Iterator[Parameters]:
+    """Of a hair object, each curve as the parameters of a "curve": a B-spline through its points."""
+    points = np.array([point.position for point in curves.points], dtype=np.float32).reshape(-1, 3)
+    radii = np.array([point.radius for point in curves.points], dtype=np.float32)
+    for curve in curves.curves:
+        first, count = curve.first_point_index, curve.points_length
+        yield from _segments(points[first : first + count], radii[first : first + count])
+
+
+def strands(system: Any, modifier: Any, object_: Any) -> Iterator[Parameters]:
+    """Of a particle system that grows hair, in the world."""
+    settings = system.settings
+    steps = 2**settings.render_step + 1
+    root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
+    for particle in range(len(system.particles) + len(system.child_particles)):
+        points = [system.co_hair(object=object_, particle_no=particle, step=step) for step in range(steps)]
+        yield from _segments(np.array(points, dtype=np.float32), np.linspace(root, tip, steps, dtype=np.float32))
+
+
+def _segments(points: npt.NDArray[np.float32], radii: npt.NDArray[np.float32]) -> Iterator[Parameters]:
+    """Straight pieces where there are few points; a Catmull-Rom curve, as Bezier pieces, through more."""
+    if len(points) < 2:
+        return
+    before = np.concatenate([2 * points[:1] - points[1:2], points[:-1]])
+    after = np.concatenate([points[1:], 2 * points[-1:] - points[-2:-1]])
+    tangents = (after - before) / 2
+    for i in range(len(points) - 1):
+        pieces = np.stack(
+            [points[i], points[i] + tangents[i] / 3, points[i + 1] - tangents[i + 1] / 3, points[i + 1]]
+        )
+        yield {
+            "point3 P": pieces,
+            "string type": "cylinder",
+            "float width0": 2 * float(radii[i]),
+            "float width1": 2 * float(radii[i + 1]),
+        }
+
+
+def box_of(corners: npt.NDArray[np.float64]) -> Parameters:
+    """The box around points, with outward faces."""
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    points = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)], dtype=np.float32)
+    quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    triangles = [[q[0], q[i], q[i + 1]] for q in quads for i in (1, 2)]
+    return {"point3 P": points, "integer indices": np.array(triangles, dtype=np.int32)}

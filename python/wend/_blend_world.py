@@ -1,0 +1,99 @@
+"""The world around a scene of Blender, as light of the renderer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._blend_materials import volume_parameters
+from ._blend_nodes import Nodes, output_node
+from ._film import Film, read
+from ._scene_reader import SceneReader
+from ._sky import equal_area
+
+#: From the sky's picture by latitude and longitude, as OpenEXR has it, to Blender's world: its middle is y, its left -x.
+_WORLD_FROM_SKY = np.array([[-1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
+
+
+def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
+    """Adds the light of the world; whether there is any. What is not one colour is rendered by Cycles as a panorama, if
+    that can be done here."""
+    tree = world.node_tree if world and world.use_nodes else None
+    output = output_node(tree) if tree else None
+    if output is None:
+        return _add_even(reader, np.array(world.color, dtype=np.float64) if world else np.zeros(3))
+    nodes = Nodes(reader, f"world '{world.name}'", f" world {world.name}")
+    node = nodes.shader(output.inputs["Surface"])
+    if node is None:
+        return False
+    if node.bl_idname == "ShaderNodeBackground":
+        colour, strength = nodes._constant(node.inputs["Color"]), nodes._constant(node.inputs["Strength"])
+        if colour is not None and strength is not None:
+            return _add_even(reader, np.broadcast_to(colour, 3) * float(strength[0]))
+    if not can_render:
+        nodes.warn(node, "a world that is not one colour is left out: it cannot be rendered while a render is going on")
+        return False
+    return _add_panorama(reader, nodes, node, world)
+
+
+def add_world_volume(reader: SceneReader, world: Any) -> str | None:
+    """The name of the medium that fills the world; None where there is none."""
+    tree = world.node_tree if world and world.use_nodes else None
+    output = output_node(tree) if tree else None
+    if output is None:
+        return None
+    nodes = Nodes(reader, f"world '{world.name}'", f" world {world.name}")
+    node = nodes.shader(output.inputs["Volume"])
+    parameters = volume_parameters(nodes, node) if node else None
+    if parameters is None:
+        return None
+    name = f" world {world.name}"
+    reader.builder.add("MakeNamedMedium", name, parameters | {"string type": "homogeneous"})
+    return name
+
+
+def _add_even(reader: SceneReader, colour: Any) -> bool:
+    if colour.max() <= 0:
+        return False
+    reader.builder.add("LightSource", "infinite", {"rgb L": colour})
+    return True
+
+
+def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> bool:
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    width = 2048
+    for other in world.node_tree.nodes:
+        if other.bl_idname == "ShaderNodeTexEnvironment" and other.image:
+            width = min(max(int(other.image.size[0]), 512), 4096)
+    nodes.warn(node, f"a world that is not one colour becomes a picture of {width} x {width // 2}, by Cycles")
+    scene = bpy.data.scenes.new("panorama")
+    camera = bpy.data.cameras.new("panorama")
+    eye = bpy.data.objects.new("panorama", camera)
+    file = reader.map_file("world.latlong.exr")
+    try:
+        scene.collection.objects.link(eye)
+        eye.rotation_euler = (np.pi / 2, 0, 0)
+        camera.type = "PANO"
+        camera.panorama_type = "EQUIRECTANGULAR"
+        scene.camera, scene.world = eye, world
+        scene.render.engine = "CYCLES"
+        scene.cycles.samples = 4
+        scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
+        scene.cycles.sample_clamp_direct = 0
+        scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, width // 2, 100
+        scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+        scene.render.filepath, scene.render.use_file_extension = file, False
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        picture = read(file).image
+    finally:
+        bpy.data.objects.remove(eye)
+        bpy.data.cameras.remove(camera)
+        bpy.data.scenes.remove(scene)
+    square = reader.map_file("world.exr")
+    Film.of(equal_area(np.ascontiguousarray(picture))).save(square)
+    with reader.builder.block():
+        reader.builder.add("Transform", _WORLD_FROM_SKY)
+        reader.builder.add("LightSource", "infinite", {"string filename": square})
+    return True

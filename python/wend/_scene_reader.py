@@ -1,0 +1,71 @@
+"""What readers of foreign scenes share: a builder that they fill, what they have to say, and files that they make."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import shutil
+import tempfile
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._builder import SceneBuilder
+from ._errors import SceneWarning
+
+#: (2, 4, 4): where something is when the shutter opens and when it closes; points are rows, multiplied from the left.
+Places = npt.NDArray[np.float64]
+
+
+@dataclass
+class Look:
+    """What a shape is given."""
+
+    name: str | None  #: of the material; None: an interface, which is not seen
+    emission: tuple[float, ...] | None = None
+    medium: str | None = None  #: inside
+    shape_parameters: dict[str, Any] = field(default_factory=dict)
+
+
+class SceneReader:
+    """The base of readers.
+
+    Args:
+        file: what messages call the scene; names in it are relative to its folder.
+        maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
+    """
+
+    def __init__(self, file: str, maps: str | os.PathLike[str] | None) -> None:
+        self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
+        self.materials: dict[str, Look] = {}
+        self._told: set[str] = set()
+        self._maps = None if maps is None else Path(maps)
+
+    def tell(self, place: str, text: str) -> None:
+        """Warns, once for each text."""
+        if text not in self._told:
+            self._told.add(text)
+            warnings.warn(f"{place}: warning: {text}", SceneWarning, stacklevel=3)
+
+    def map_file(self, name: str) -> str:
+        """A file for a picture that is made for the scene."""
+        if self._maps is None:
+            self._maps = Path(tempfile.mkdtemp(prefix="wend-maps-"))
+            atexit.register(shutil.rmtree, self._maps, ignore_errors=True)
+        self._maps.mkdir(parents=True, exist_ok=True)
+        return str(self._maps / name)
+
+    def put(self, places: Places) -> None:
+        """What follows is there, and moves between them."""
+        add = self.builder.add
+        if np.allclose(places[0], places[1], rtol=1e-12, atol=0):
+            add("Transform", places[0])
+            return
+        for when, place in zip(("StartTime", "EndTime"), places):
+            add("ActiveTransform", when)
+            add("Transform", place)
+        add("ActiveTransform", "All")

@@ -1,0 +1,434 @@
+"""Blender's scenes: `python -m wend.blend scene.blend --render picture.exr`, or `wend.blend.read(path)`.
+
+Wants `bpy` (`pip install 'wend[blender]'`), or Blender itself. Lengths are Blender's units. What has no counterpart here is
+told once for each kind, as a `SceneWarning` with the object, or material and node.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import warnings
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._builder import SceneBuilder
+from ._errors import InputError, SceneWarning
+from ._scene_reader import Look, SceneReader
+
+try:
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+except ImportError as error:
+    raise ImportError("wend.blend wants bpy: pip install 'wend[blender]'") from error
+
+from . import _blend_lights as lights
+from ._blend_materials import look_of, volume_parameters
+from ._blend_nodes import Nodes, output_node
+from ._blend_shapes import box_of, hair_segments, mesh_parts, strands
+from ._blend_world import add_world, add_world_volume
+
+#: Of Blender's camera, which looks along -z, to pbrt's.
+_CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
+
+#: Kinds of objects that have a surface once they are evaluated.
+_SOLID = ("MESH", "CURVE", "SURFACE", "META", "FONT")
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    frame: int | None = None,
+    scene: str | None = None,
+    camera: str | None = None,
+    resolution: tuple[int, int] | None = None,
+    spp: int = 64,
+    maps: str | os.PathLike[str] | None = None,
+) -> SceneBuilder:
+    """A .blend file, which is opened in place of what is open now, in the terms of the renderer.
+
+    Args:
+        path: the file.
+        frame: of the animation; None: the one that the file was saved at.
+        scene: its name; None: the one that the file was saved with.
+        camera: name of an object; None: the scene's.
+        resolution: (width, height) of the picture; None: the scene's.
+        spp: samples per pixel.
+        maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
+
+    Raises:
+        InputError: for a file that cannot be opened, or a scene or camera that is not in it.
+
+    Warns:
+        SceneWarning: for what has no counterpart, each kind once.
+    """
+    file = os.fspath(path)
+    try:
+        if not os.path.exists(file):
+            raise RuntimeError("no such file")
+        bpy.ops.wm.open_mainfile(filepath=file, load_ui=False)
+    except RuntimeError as error:
+        raise InputError(f"{file}: error: {str(error).strip()}") from None
+    return of_scene(
+        _named(bpy.data.scenes, scene, "scene") or bpy.context.scene,
+        name=file,
+        frame=frame,
+        camera=camera,
+        resolution=resolution,
+        spp=spp,
+        maps=maps,
+    )
+
+
+def of_scene(
+    scene: Any,
+    *,
+    name: str = "scene",
+    frame: int | None = None,
+    camera: str | None = None,
+    resolution: tuple[int, int] | None = None,
+    spp: int = 64,
+    maps: str | os.PathLike[str] | None = None,
+    depsgraph: Any = None,
+    can_render: bool = True,
+) -> SceneBuilder:
+    """The same of a scene that is open in Blender.
+
+    Args:
+        scene: a `bpy.types.Scene`.
+        name: what messages call it; file names are relative to its folder.
+        depsgraph: the evaluated scene, where a render is going on; None: it is evaluated here.
+        can_render: whether Cycles may be called for what has no counterpart, such as a sky.
+        frame, camera, resolution, spp, maps: as for `read`.
+    """
+    reader = _Reader(scene, name, maps, can_render)
+    if depsgraph is None:
+        if frame is not None:
+            scene.frame_set(frame)
+        bpy.context.window.scene = scene
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+    eye = _named(scene.objects, camera, "camera") or scene.camera
+    return reader.read(depsgraph, eye, resolution, spp)
+
+
+def _named(things: Any, name: str | None, kind: str) -> Any:
+    if name is None:
+        return None
+    if name not in things:
+        raise InputError(f"{name}: error: no {kind} of that name: there are {', '.join(t.name for t in things) or 'none'}")
+    return things[name]
+
+
+def _place(matrix: Any) -> Any:
+    """Rows as points, twice: nothing moves."""
+    rows = np.array(matrix, dtype=np.float64).T
+    return np.array([rows, rows])
+
+
+class _Reader(SceneReader):
+    def __init__(self, scene: Any, name: str, maps: str | os.PathLike[str] | None, can_render: bool) -> None:
+        super().__init__(name, maps)
+        self.scene = scene
+        self.can_render = can_render
+        self.around: str | None = None  #: the medium of the world
+        self.has_light = False
+        self._objects: dict[str, bool] = {}
+
+    def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int) -> SceneBuilder:
+        add = self.builder.add
+        self.around = add_world_volume(self, self.scene.world)
+        if self.around is not None:
+            add("MediumInterface", "", self.around)
+        self.add_film(eye, resolution, spp)
+        add("WorldBegin")
+        self.has_light = add_world(self, self.scene.world, self.can_render)
+        # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
+        seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
+        times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
+        for instance, shown in zip(depsgraph.object_instances, seen):
+            if shown:
+                object_ = instance.object
+                place = _place(instance.matrix_world)
+                self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
+        if not self.has_light:
+            self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
+        return self.builder
+
+    @staticmethod
+    def key_of(object_: Any) -> str:
+        """Of what it looks like: instances of one thing share it."""
+        data = object_.data
+        materials = " ".join(slot.material.name if slot.material else "" for slot in object_.material_slots)
+        return f"{object_.type} {data.as_pointer() if data is not None else object_.name} {materials}"
+
+    @staticmethod
+    def is_seen(instance: Any) -> bool:
+        object_ = instance.object
+        if instance.is_instance:
+            return bool(instance.show_self)
+        return not object_.hide_render and bool(instance.show_self)
+
+    # ---- Camera and film ----
+
+    def add_film(self, eye: Any, resolution: tuple[int, int] | None, spp: int) -> None:
+        add, render, cycles = self.builder.add, self.scene.render, getattr(self.scene, "cycles", None)
+        if resolution is None:
+            share = render.resolution_percentage / 100
+            resolution = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
+        self.add_camera(eye, resolution)
+        film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
+        exposure = float(cycles.film_exposure) if cycles is not None else 1.0
+        if exposure != 1:
+            film["float iso"] = 100 * exposure
+        if render.use_border:
+            # From the left and from below; pbrt's from above.
+            film["float cropwindow"] = (
+                render.border_min_x,
+                render.border_max_x,
+                1 - render.border_max_y,
+                1 - render.border_min_y,
+            )
+        add("Film", "rgb", film)
+        if cycles is not None and cycles.pixel_filter_type == "BOX":
+            add("PixelFilter", "box")
+        else:
+            radius = float(cycles.filter_width) if cycles is not None else 1.5
+            add("PixelFilter", "gaussian", {"float xradius": radius, "float yradius": radius, "float sigma": radius / 3})
+        add("Sampler", "sobol", {"integer pixelsamples": spp})
+        add("Integrator", "volpath", {"integer maxdepth": 100})
+
+    def add_camera(self, eye: Any, resolution: tuple[int, int]) -> None:
+        if eye is None or eye.type != "CAMERA":
+            raise InputError(f"{self.scene.name}: error: the scene has no camera")
+        camera = eye.data
+        place = f"camera '{eye.name}'"
+        matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
+        self.put(np.array([np.linalg.inv(_CAMERA @ matrix)] * 2))
+        window = self.window_of(camera, resolution)
+        if camera.type == "PANO":
+            self.tell(place, "a panoramic camera is taken as one with a lens")
+        parameters: dict[str, Any] = {"float screenwindow": window}
+        dof = camera.dof
+        if dof.use_dof:
+            if dof.aperture_blades > 2:
+                self.tell(place, "the aperture is round")
+            distance = float(dof.focus_distance)
+            if dof.focus_object is not None:
+                offset = np.array(dof.focus_object.matrix_world.translation) - np.array(eye.matrix_world.translation)
+                distance = abs(float(offset @ matrix[2, :3]))
+            size = camera.lens * 1e-3 if camera.type == "PERSP" else 1.0
+            parameters["float lensradius"] = size / (2 * max(dof.aperture_fstop, 1e-5))
+            parameters["float focaldistance"] = max(distance, 1e-5)
+        if camera.type == "ORTHO":
+            self.builder.add("Camera", "orthographic", parameters)
+        else:
+            self.builder.add("Camera", "perspective", parameters | {"float fov": 90})
+
+    def window_of(self, camera: Any, resolution: tuple[int, int]) -> Any:
+        """What the camera sees at a distance of 1: left, right, bottom, top."""
+        render = self.scene.render
+        width = resolution[0] * render.pixel_aspect_x
+        height = resolution[1] * render.pixel_aspect_y
+        fit = camera.sensor_fit
+        if fit == "AUTO":
+            fit = "HORIZONTAL" if width >= height else "VERTICAL"
+            sensor = camera.sensor_width
+        else:
+            sensor = camera.sensor_width if fit == "HORIZONTAL" else camera.sensor_height
+        size = float(camera.ortho_scale) if camera.type == "ORTHO" else sensor / max(camera.lens, 1e-6)
+        longest = width if fit == "HORIZONTAL" else height
+        x, y = size * width / longest / 2, size * height / longest / 2
+        # Shifts are parts of the larger side.
+        return np.array(
+            [-x + camera.shift_x * size, x + camera.shift_x * size, -y + camera.shift_y * size, y + camera.shift_y * size]
+        )
+
+    # ---- Objects ----
+
+    def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
+        kind = object_.type
+        if kind == "LIGHT":
+            lights.add(self, name, object_.data, place[0], object_.visible_camera)
+            self.has_light = True
+        elif kind in _SOLID:
+            self.add_solid(object_, place, name, is_copied)
+        elif kind == "CURVES":
+            look = look_of(self, object_.material_slots[0].material if object_.material_slots else None)
+            for segment in hair_segments(object_.data):
+                self.add_shape(place, look, ("curve", segment), name)
+        elif kind == "VOLUME":
+            self.add_volume(object_, place, name)
+        elif kind not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "GREASEPENCIL"):
+            self.tell(f"object '{name}'", f"a {kind} is left out")
+
+    def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
+        for system in getattr(object_, "particle_systems", []):
+            if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+                slots = object_.material_slots
+                number = min(system.settings.material, len(slots)) - 1
+                look = look_of(self, slots[number].material if slots else None)
+                for segment in strands(system, None, object_):
+                    self.add_shape(_place(np.eye(4)), look, ("curve", segment), name)
+        materials = [slot.material for slot in object_.material_slots]
+        key = self.key_of(object_)
+        if is_copied and key in self._objects:
+            with self.builder.block():
+                self.put(place)
+                self.builder.add("ObjectInstance", key)
+            return
+        mesh = object_.to_mesh()
+        if mesh is None:
+            return
+        try:
+            parts = [
+                (look_of(self, materials[min(number, len(materials) - 1)] if materials else None), parameters)
+                for number, parameters in mesh_parts(mesh)
+            ]
+        finally:
+            object_.to_mesh_clear()
+        # What shines or holds a medium is no part of an object that is placed several times.
+        if not is_copied or any(look.emission is not None or look.medium is not None for look, _ in parts):
+            for look, parameters in parts:
+                self.add_shape(place, look, ("trianglemesh", parameters), name)
+            return
+        self._objects[key] = True
+        with self.builder.block("Object", key):
+            for look, parameters in parts:
+                self.add_shape(_place(np.eye(4)), look, ("trianglemesh", parameters), name)
+        with self.builder.block():
+            self.put(place)
+            self.builder.add("ObjectInstance", key)
+
+    def add_shape(self, place: Any, look: Look, shape: tuple[str, dict[str, Any]], name: str) -> None:
+        kind, parameters = shape
+        add = self.builder.add
+        with self.builder.block():
+            self.put(place)
+            if look.name is None:
+                add("Material", "interface")
+            else:
+                add("NamedMaterial", look.name)
+            if look.medium is not None:
+                add("MediumInterface", look.medium, self.around or "")
+            if look.emission is not None:
+                if kind == "curve":
+                    self.tell(f"object '{name}'", "hair does not shine")
+                else:
+                    add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
+                    self.has_light = True
+            add("Shape", kind, parameters | look.shape_parameters)
+
+    def add_volume(self, object_: Any, place: Any, name: str) -> None:
+        volume = object_.data
+        where = f"object '{name}'"
+        material = object_.material_slots[0].material if object_.material_slots else None
+        output = output_node(material.node_tree) if material and material.node_tree else None
+        nodes = Nodes(self, f"material '{material.name}'" if material else where, name)
+        node = nodes.shader(output.inputs["Volume"]) if output is not None else None
+        parameters = volume_parameters(nodes, node) if node is not None else None
+        if not volume.grids.is_loaded:
+            volume.grids.load()
+        file = volume.grids.frame_filepath or bpy.path.abspath(volume.filepath)
+        if node is None or parameters is None or not file or not len(volume.grids):
+            self.tell(where, "a volume without a file, or a material with a volume, is left out")
+            return
+        grid = "density"
+        if node.bl_idname == "ShaderNodeVolumePrincipled":
+            grid = node.inputs["Density Attribute"].default_value or "density"
+        elif not any(g.name == "density" for g in volume.grids):
+            grid = volume.grids[0].name
+        if volume.render.space == "OBJECT":
+            # As opaque whatever its size: coefficients are of the object's own lengths.
+            sizes = np.linalg.norm(place[0][:3, :3], axis=1)
+            if np.ptp(sizes) > 1e-4 * sizes.max():
+                self.tell(where, "a volume of uneven scale is as opaque as its mean scale makes it")
+            parameters["float scale"] = 1 / max(float(sizes.mean()), 1e-30)
+        medium = f" volume {name}"
+        with self.builder.block():
+            self.put(place)
+            self.builder.add(
+                "MakeNamedMedium",
+                medium,
+                parameters | {"string type": "nanovdb", "string filename": file, "string gridname": grid},
+            )
+            self.builder.add("MediumInterface", medium, self.around or "")
+            self.builder.add("Material", "interface")
+            self.builder.add("Shape", "trianglemesh", box_of(np.array(object_.bound_box, dtype=np.float64)))
+
+
+def _frames(text: str) -> list[int]:
+    first, _, last = text.partition("-")
+    try:
+        frames = list(range(int(first), int(last or first) + 1))
+    except ValueError:
+        frames = []
+    if not frames:
+        raise InputError(f"--frames {text}: expected A-B, or one number")
+    return frames
+
+
+def _of_frame(name: str, frame: int | None) -> str:
+    if frame is None or "#" not in name:
+        return name
+    digits = name.count("#")
+    return name.replace("#" * digits, str(frame).zfill(digits))
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """What `python -m wend.blend` does; the exit status."""
+    import wend
+
+    parser = argparse.ArgumentParser(prog="python -m wend.blend", description="render a .blend file, or write it as a pbrt scene")
+    parser.add_argument("file", help="scene.blend")
+    parser.add_argument("-o", "--output", metavar="SCENE.pbrt", help="write the scene as a pbrt-v4 file")
+    parser.add_argument("--render", metavar="PICTURE", help="render it: .exr, .png or .jpg; #### stands for the frame")
+    parser.add_argument("--frames", metavar="A-B", help="one after another (default: the file's)")
+    parser.add_argument("--scene", metavar="NAME", help="(default: the file's)")
+    parser.add_argument("--camera", metavar="NAME", help="(default: the scene's)")
+    parser.add_argument("--resolution", metavar="WxH", help="(default: the scene's)")
+    parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
+    parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
+    parser.add_argument("--sampling", default="full")
+    options = parser.parse_args(arguments)
+    if not options.output and not options.render:
+        parser.error("give --render PICTURE, or -o SCENE.pbrt, or both")
+    warnings.simplefilter("always", SceneWarning)
+    warnings.showwarning = lambda message, *_, **__: print(message, file=sys.stderr)
+    try:
+        resolution = None
+        if options.resolution:
+            width, _, height = options.resolution.partition("x")
+            if not (width.isdigit() and height.isdigit() and int(width) > 0 and int(height) > 0):
+                raise InputError(f"--resolution {options.resolution}: expected WIDTHxHEIGHT")
+            resolution = (int(width), int(height))
+        frames: list[int | None] = [None] if not options.frames else [*_frames(options.frames)]
+        names = [options.output or "", options.render or ""]
+        if len(frames) > 1 and any(name and "#" not in name for name in names):
+            raise InputError("--frames: names need #### where the frame's number goes")
+        for frame in frames:
+            output, picture = (_of_frame(name, frame) for name in names)
+            builder = read(
+                options.file,
+                frame=frame,
+                scene=options.scene,
+                camera=options.camera,
+                resolution=resolution,
+                spp=options.spp,
+                maps=Path(output).with_suffix(".maps") if output else None,
+            )
+            if output:
+                Path(output).write_text(builder.text())
+            if picture:
+                amount = {"spp": options.spp} if options.time is None else {"time": options.time}
+                wend.render(builder.scene(), sampling=options.sampling, **amount).save(picture)
+    except (InputError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
