@@ -510,8 +510,8 @@ TEST(Bsdf, IsReciprocal) {
     // f(o, i) = f(i, o), with the squared ratio of indices where radiance is refracted.
     Pcg32 random(5);
     for (const Model& model : models()) {
-        // The outcomes of walks are reciprocal on average alone. Fibres with tilted scales are not (chiang2016), nor are
-        // layers that are weighed by albedo.
+        // The outcomes of walks are reciprocal on average alone. Fibres with tilted scales are not (chiang2016), nor
+        // are layers that are weighed by albedo.
         if (model.name.starts_with("coated_m") || model.name.starts_with("coated_black") || model.name == "coated" ||
             model.name.starts_with("hair") || model.name.starts_with("principled")) {
             continue;
