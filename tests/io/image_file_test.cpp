@@ -110,6 +110,8 @@ TEST_F(ImageFile, ExrKeepsEverything) {
     picture.offset = {5, 7};
     picture.full_size = {40, 30};
     picture.metadata = {{"scene", "cloud.pbrt"}, {"seed", "17"}, {"note", "two\nlines"}};
+    picture.view.emplace().camera_from_world[3] = 4;
+    picture.view->ndc_from_world[12] = -0.5f;
     Layer albedo{"albedo", {"R", "G", "B"}, std::vector<float>(17 * 9 * 3)};
     Layer depth{"depth", {"Z"}, std::vector<float>(17 * 9)};
     for (std::size_t i = 0; i < albedo.values.size(); ++i) {
@@ -127,6 +129,9 @@ TEST_F(ImageFile, ExrKeepsEverything) {
     EXPECT_EQ(read.offset, picture.offset);
     EXPECT_EQ(read.full_size, picture.full_size);
     EXPECT_EQ(read.metadata, picture.metadata);
+    ASSERT_TRUE(read.view);
+    EXPECT_EQ(read.view->camera_from_world, picture.view->camera_from_world);
+    EXPECT_EQ(read.view->ndc_from_world, picture.view->ndc_from_world);
     ASSERT_EQ(read.layers.size(), 2u);
     for (int i = 0; i < 2; ++i) {
         EXPECT_EQ(read.layers[i].name, picture.layers[i].name);

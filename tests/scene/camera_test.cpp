@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace wend {
@@ -96,6 +97,36 @@ test::SphereTest sphere_test(SphericalCamera::Mapping mapping, const test::Direc
             return c.ray({u.x * width, u.y * height}, any_lens).direction;
         },
         density);
+}
+
+/// A row vector times a matrix, divided by its last number.
+Vec3 times(const Vec3& p, const std::array<float, 16>& m) {
+    std::array<float, 4> out{};
+    const std::array<float, 4> in{p.x, p.y, p.z, 1};
+    for (std::size_t row = 0; row < 4; ++row) {
+        for (std::size_t column = 0; column < 4; ++column) {
+            out[column] += in[row] * m[4 * row + column];
+        }
+    }
+    return Vec3(out[0], out[1], out[2]) / out[3];
+}
+
+TEST(ViewMatrices, LeadPointsOfRaysBackToTheirPlaceOnTheFilm) {
+    const PerspectiveCamera shifted{{-0.5f, 0.9f, -0.2f, 0.6f}};
+    const OrthographicCamera parallel{{-2, 3, -1, 2}};
+    for (const Camera::Kind& kind : {Camera::Kind(perspective()), Camera::Kind(shifted), Camera::Kind(parallel)}) {
+        const Camera c = camera(kind);
+        const auto view = c.view_matrices();
+        ASSERT_TRUE(view);
+        for (const Vec2& film : {Vec2(0, 0), Vec2(width, height), Vec2(7, 15)}) {
+            const Vec3 p = c.ray(film, {0.5f, 0.5f}).at(3);
+            const Vec3 there = times(p, view->ndc_from_world);
+            EXPECT_NEAR(there.x, film.x / width, 1e-4f);
+            EXPECT_NEAR(there.y, film.y / height, 1e-4f);
+            EXPECT_LT(length(times(p, view->camera_from_world) - world_from_camera().inverse().point(p)), 1e-4f);
+        }
+    }
+    EXPECT_FALSE(camera(SphericalCamera{}).view_matrices());
 }
 
 TEST(SphericalCamera, EqualAreaCoversTheSphereUniformly) {

@@ -126,6 +126,7 @@ Picture Session::picture(const Film& film, const RenderSettings& settings, const
     nlohmann::json described = describe(settings);
     described.erase("threads");
     Picture picture = film.picture();
+    picture.view = scene_.camera().view_matrices();
     picture.metadata = {{"wend:scene", scene_file_},
                         {"wend:scene_digest", digest_of(files_)},
                         {"wend:settings", json_text(described)},

@@ -2,8 +2,10 @@
 
 #include <wend/core/image.h>
 #include <wend/core/vector.h>
+#include <wend/core/view_matrices.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct Picture {
     std::map<std::string, std::string> metadata;
     Vec2i offset{0, 0};
     Vec2i full_size{0, 0};
+    std::optional<ViewMatrices> view;  ///< where it is known, and straight lines stay straight
 };
 
 }  // namespace wend

@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
@@ -312,6 +313,18 @@ void start_threads() {
     static_cast<void>(are_started);
 }
 
+Imath::M44f to_matrix(const std::array<float, 16>& numbers) {
+    Imath::M44f m;
+    std::copy(numbers.begin(), numbers.end(), m.getValue());
+    return m;
+}
+
+std::array<float, 16> from_matrix(const Imath::M44f& m) {
+    std::array<float, 16> numbers;
+    std::copy_n(m.getValue(), numbers.size(), numbers.begin());
+    return numbers;
+}
+
 /// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
 void write_frame(const std::filesystem::path& file, const Picture& picture, const Imf::FrameBuffer& frame) {
     const Imath::Box2i window = data_window(picture);
@@ -324,6 +337,12 @@ void write_frame(const std::filesystem::path& file, const Picture& picture, cons
         header.zipCompressionLevel() = 2;
         for (const auto& [name, value] : picture.metadata) {
             header.insert(name, Imf::StringAttribute(value));
+        }
+        // Colours are those of Rec. 709, which is what the library takes for granted; others like to be told.
+        Imf::addChromaticities(header, Imf::Chromaticities());
+        if (picture.view) {
+            Imf::addWorldToCamera(header, to_matrix(picture.view->camera_from_world));
+            Imf::addWorldToNDC(header, to_matrix(picture.view->ndc_from_world));
         }
         for (auto slice = frame.begin(); slice != frame.end(); ++slice) {
             header.channels().insert(slice.name(), Imf::Channel(slice.slice().type));
@@ -375,6 +394,9 @@ Picture read_exr(const std::filesystem::path& file) {
             }
             input.setFrameBuffer(frame);
             input.readPixels(window.min.y, window.max.y);
+        }
+        if (Imf::hasWorldToCamera(header) && Imf::hasWorldToNDC(header)) {
+            picture.view = {from_matrix(Imf::worldToCamera(header)), from_matrix(Imf::worldToNDC(header))};
         }
         for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {

@@ -2,6 +2,9 @@
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>
 
+#include <algorithm>
+#include <array>
+
 namespace wend {
 namespace {
 
@@ -55,7 +58,47 @@ CameraRay local_ray(const RealisticCamera& c, const Vec2& p, const Vec2& lens) {
     return sample ? CameraRay{sample->ray, sample->weight} : CameraRay{{{0, 0, 0}, {0, 0, 1}}, 0};
 }
 
+/// Of the camera's own points, in normalized device coordinates.
+Imath::M44d projection(const ScreenWindow& s, bool is_perspective) {
+    const double width = s.x_max - s.x_min, height = s.y_max - s.y_min;
+    Imath::M44d m;
+    m[0][0] = 1 / width;
+    m[1][1] = -1 / height;
+    // What is added stands in the row of z where everything is divided by z.
+    const int row = is_perspective ? 2 : 3;
+    m[row][0] = -s.x_min / width;
+    m[row][1] = s.y_max / height;
+    if (is_perspective) {
+        m[2][3] = 1;
+        m[3][3] = 0;
+    }
+    return m;
+}
+
+std::array<float, 16> numbers(const Imath::M44d& m) {
+    std::array<float, 16> result;
+    std::transform(m.getValue(), m.getValue() + 16, result.begin(), [](double x) { return static_cast<float>(x); });
+    return result;
+}
+
 }  // namespace
+
+std::optional<ViewMatrices> Camera::view_matrices() const {
+    const auto* perspective = std::get_if<PerspectiveCamera>(&kind_);
+    const auto* orthographic = std::get_if<OrthographicCamera>(&kind_);
+    if (!perspective && !orthographic) {
+        return std::nullopt;
+    }
+    const Transform camera_from_world = motion_.start().inverse();
+    Imath::M44d m;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            m[column][row] = camera_from_world.element(row, column);
+        }
+    }
+    const ScreenWindow& screen = perspective ? perspective->screen : orthographic->screen;
+    return ViewMatrices{numbers(m), numbers(m * projection(screen, perspective != nullptr))};
+}
 
 CameraRay Camera::ray(const Vec2& film, const Vec2& lens, float time) const {
     const Vec2 p(film.x / static_cast<float>(width_), film.y / static_cast<float>(height_));

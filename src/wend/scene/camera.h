@@ -4,9 +4,11 @@
 
 #include <wend/core/motion.h>
 #include <wend/core/ray.h>
+#include <wend/core/view_matrices.h>
 #include <wend/scene/lens_system.h>
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 namespace wend {
@@ -82,6 +84,8 @@ public:
     Ray middle() const {
         return ray({0.5f * static_cast<float>(width_), 0.5f * static_cast<float>(height_)}, {0.5f, 0.5f});
     }
+    /// At time 0; none for cameras that bend straight lines.
+    std::optional<ViewMatrices> view_matrices() const;
 
 private:
     Kind kind_;
