@@ -27,8 +27,11 @@ Film one_pixel() {
 
 TEST(Film, AveragesItsSamples) {
     Film film({4, 3}, {{0, 0}, {4, 3}});
-    film.add({1, 2}, {Rgb(1, 2, 3), Rgb(0.5f), {0, 0, 1}, 4});
-    film.add({1, 2}, {Rgb(3, 2, 1), Rgb(0.1f), {0, 1, 0}, 2});
+    film.add({1, 2}, sample_of({1, 2, 3}));
+    film.add({1, 2}, sample_of({3, 2, 1}));
+    film.add_features({1, 2}, {Rgb(0.5f), {0, 0, 1}, 4, 0.5f});
+    film.add_features({1, 2}, {Rgb(0.1f), {0, 1, 0}, 2, 0});
+    film.begin_stage();
     const Picture picture = film.picture();
     EXPECT_EQ(picture.image.at(1, 2), Rgb(2));
     EXPECT_EQ(picture.image.at(0, 0), Rgb(0));
@@ -36,6 +39,7 @@ TEST(Film, AveragesItsSamples) {
     EXPECT_FLOAT_EQ(layer(picture, "albedo").values[3 * i], 0.3f);
     EXPECT_FLOAT_EQ(layer(picture, "normal").values[3 * i + 2], 0.5f);
     EXPECT_FLOAT_EQ(layer(picture, "depth").values[i], 3);
+    EXPECT_FLOAT_EQ(layer(picture, "scatter").values[i], 0.25f);
     EXPECT_EQ(layer(picture, "samples").values[i], 2);
     EXPECT_EQ(layer(picture, "samples").values[0], 0);
 }
@@ -46,14 +50,12 @@ TEST(Film, TellsWhatWalksDid) {
     sample.segments = 7;
     film.add({0, 0}, sample);
     film.begin_stage();
-    sample.scattered = true;
     sample.segments = 5;
     sample.branches = 4;
     sample.guided = true;
     film.add({0, 0}, sample);
     const Picture picture = film.picture();
     EXPECT_EQ(layer(picture, "guided").values, (std::vector<float>{0.5f, 0}));
-    EXPECT_EQ(layer(picture, "scatter").values, (std::vector<float>{0.5f, 0}));
     EXPECT_EQ(layer(picture, "segments").values, (std::vector<float>{6, 0}));
     EXPECT_EQ(layer(picture, "branches").values, (std::vector<float>{2.5f, 0}));
 }

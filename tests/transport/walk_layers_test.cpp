@@ -30,32 +30,6 @@ double mean_of(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// A camera in front of a slab of unit thickness, in the light of an even sky.
-SceneDescription slab(float absorption, float scattering) {
-    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, 16);
-    const MediumId medium = test::add_homogeneous(s, Rgb(absorption), Rgb(scattering));
-    test::add_box(s, Box3(Vec3(-100, -100, 0), Vec3(100, 100, 1)), test::add_interface(s), medium);
-    test::add_environment(s, Rgb(1.0f));
-    return s;
-}
-
-TEST(WalkLayers, TheShareOfScatteredFlightsIsThatOfTheSlab) {
-    constexpr int samples = 256;
-    const Scene scene(slab(0.1f, 0.7f));
-    const double share = mean_of(walk_layer(scene, "classical", samples, 10, "scatter"));
-    const double expected = -std::expm1(-0.8);
-    const double error = std::sqrt(expected * (1 - expected) / (samples * 16 * 16));
-    EXPECT_TRUE(agrees(share, error, expected, 4)) << share << " +- " << error << ", expected " << expected;
-    EXPECT_FALSE(agrees(share, error, -std::expm1(-0.84), 4)) << "5 % more fog would not have been seen";
-}
-
-TEST(WalkLayers, SurfacesBeforeTheFogKeepFlightsFromIt) {
-    SceneDescription s = slab(0.1f, 0.7f);
-    test::add_parallelogram(s, {-100, -100, -1}, {200, 0, 0}, {0, 200, 0}, test::add_diffuse(s, Rgb(0.5f)));
-    const Scene scene(std::move(s));
-    EXPECT_EQ(mean_of(walk_layer(scene, "classical", 4, 10, "scatter")), 0);
-}
-
 TEST(WalkLayers, WalksBetweenMirrorsHaveOneSegmentForEach) {
     constexpr int mirrors = 12;
     SceneDescription s = test::scene_with_camera({0, 0, 0}, {0, 0, 1}, 0.1f, 16);

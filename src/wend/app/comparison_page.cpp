@@ -44,13 +44,13 @@ struct WalkMap {
 
 std::vector<WalkMap> walk_maps(const std::vector<ComparisonRow>& rows) {
     using Kind = ColourScale::Kind;
-    return {
-        {"scatter", {"Scattering", "share of walks that meet a medium before any surface", {Kind::linear, 0.0f, 1.0f}}},
-        {"segments",
-         {"Walk length", "segments a sample, of all branches",
-          common_scale(rows, "segments", Kind::logarithmic, 1.0f)}},
-        {"guided", {"Guiding", "share of walks that were guided", {Kind::linear, 0.0f, 1.0f}}},
-        {"branches", {"Splitting", "branches a sample", common_scale(rows, "branches", Kind::logarithmic, 1.0f)}}};
+    return {{"scatter",
+             {"Scattering", "what media before the first surface take of its light", {Kind::linear, 0.0f, 1.0f}}},
+            {"segments",
+             {"Walk length", "segments a sample, of all branches",
+              common_scale(rows, "segments", Kind::logarithmic, 1.0f)}},
+            {"guided", {"Guiding", "share of walks that were guided", {Kind::linear, 0.0f, 1.0f}}},
+            {"branches", {"Splitting", "branches a sample", common_scale(rows, "branches", Kind::logarithmic, 1.0f)}}};
 }
 
 Image error_map(const ComparisonRow& row, const Reference& reference) {

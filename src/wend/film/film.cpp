@@ -40,15 +40,22 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
         const double v = sample.radiance[c];
         p.sum[c] += v;
         p.squares[c] += v * v;
-        p.albedo[c] += sample.albedo[c];
-        p.normal[c] += sample.normal[c];
     }
-    p.depth += sample.depth;
     ++p.count;
-    p.scattered += sample.scattered ? 1 : 0;
     p.guided += sample.guided ? 1 : 0;
     p.segments += sample.segments;
     p.branches += sample.branches;
+}
+
+void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
+    Pixel& p = at(pixel);
+    for (int c = 0; c < 3; ++c) {
+        p.albedo[c] += features.albedo[c];
+        p.normal[c] += features.normal[c];
+    }
+    p.depth += features.depth;
+    p.opacity += features.opacity;
+    ++p.featured;
 }
 
 void Film::reject(const Vec2i& pixel) {
@@ -189,7 +196,7 @@ Picture Film::picture() const {
     Layer variance{"variance", {"R", "G", "B"}, {}};
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const Pixel& p = pixels_[i];
-        const auto n = static_cast<float>(std::max(p.samples(), 1u));
+        const auto n = static_cast<float>(std::max(p.featured, 1u));
         for (int c = 0; c < 3; ++c) {
             albedo.values.push_back(p.albedo[c] / n);
             normal.values.push_back(p.normal[c] / n);
@@ -211,7 +218,7 @@ std::vector<Layer> Film::walk_layers() const {
     Layer guided{"guided", {"P"}, {}};
     for (const Pixel& p : pixels_) {
         const double scale = p.samples() > 0 ? 1.0 / p.samples() : 0.0;
-        scatter.values.push_back(static_cast<float>(p.scattered * scale));
+        scatter.values.push_back(p.opacity / static_cast<float>(std::max(p.featured, 1u)));
         guided.values.push_back(static_cast<float>(p.guided * scale));
         segments.values.push_back(static_cast<float>(static_cast<double>(p.segments) * scale));
         branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));

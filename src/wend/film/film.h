@@ -13,13 +13,17 @@ namespace wend {
 /// What one camera sample leaves on the film.
 struct FilmSample {
     Rgb radiance;
-    Rgb albedo;
-    Vec3 normal{0, 0, 0};
-    float depth = 0;             ///< distance to the first vertex; 0 where there is none
-    bool scattered = false;      ///< whether the first vertex was in a medium
     bool guided = false;         ///< whether any decision was
     std::uint32_t segments = 0;  ///< flights to a collision, surface or interface, of all branches
     std::uint32_t branches = 1;  ///< 1 and one more for each copy that splitting made
+};
+
+/// What a camera ray shows of the scene, which does not hang on how paths are drawn.
+struct FilmFeatures {
+    Rgb albedo;
+    Vec3 normal{0, 0, 0};
+    float depth = 0;    ///< distance to the first surface, media left out; 0 where there is none
+    float opacity = 0;  ///< of media before it: an estimate of 1 - transmittance
 };
 
 /// A rectangle of pixels, the upper end exclusive.
@@ -57,6 +61,8 @@ public:
 
     /// Adds a finite sample; `pixel` is in coordinates of the full picture.
     void add(const Vec2i& pixel, const FilmSample& sample);
+    /// Adds what one of its rays shows.
+    void add_features(const Vec2i& pixel, const FilmFeatures& features);
     /// Counts a sample that was not a number: it adds nothing, but is not forgotten.
     void reject(const Vec2i& pixel);
 
@@ -64,13 +70,12 @@ public:
     void begin_stage();
 
     Image beauty() const;
-    /// Beauty and the layers albedo, normal, depth, samples, variance (of the pixel's mean, from the scatter of its
-    /// samples; with stratified samples an overestimate), and walk_layers().
+    /// Beauty and the layers albedo, normal and depth of what its rays show, samples, variance (of the pixel's mean,
+    /// from the scatter of its samples; with stratified samples an overestimate), and walk_layers().
     Picture picture() const;
-    /// What walks did, over the samples of all stages alike: `scatter`, the share of samples that met a medium before
-    /// any surface (an estimate of the probability that the first flight was given, not of its absorption), `segments`,
-    /// the mean length of walks, `branches`, the mean number of those that splitting made of one, and `guided`, the
-    /// share of samples whose walks were guided.
+    /// `scatter`, the opacity of media before the first surface, by its rays; and what walks did, over the samples of
+    /// all stages alike: `segments`, the mean length of walks, `branches`, the mean
+    /// number of those that splitting made of one, and `guided`, the share of samples whose walks were guided.
     std::vector<Layer> walk_layers() const;
     /// Root mean square of the relative standard error of pixels, their luminance measured against at least a tenth of
     /// the mean.
@@ -108,11 +113,13 @@ private:
         double earlier_weight = 0;
         double earlier_sum[3] = {0, 0, 0};
         double earlier_spread[3] = {0, 0, 0};
-        // Of all samples.
+        // Of the rays whose features were added.
         float albedo[3] = {0, 0, 0};
         float normal[3] = {0, 0, 0};
         float depth = 0;
-        std::uint32_t scattered = 0;
+        float opacity = 0;
+        std::uint32_t featured = 0;
+        // Of all samples.
         std::uint32_t guided = 0;
         std::uint64_t segments = 0;
         std::uint64_t branches = 0;

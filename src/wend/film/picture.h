@@ -26,7 +26,7 @@ struct Picture {
     std::map<std::string, std::string> metadata;
     Vec2i offset{0, 0};
     Vec2i full_size{0, 0};
-    std::optional<ViewMatrices> view;  ///< where it is known, and straight lines stay straight
+    std::optional<ViewMatrices> view = std::nullopt;  ///< where it is known, and straight lines stay straight
 };
 
 }  // namespace wend

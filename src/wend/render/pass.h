@@ -5,6 +5,7 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/learners.h>
 #include <wend/render/render.h>
+#include <wend/transport/first_surface.h>
 #include <wend/transport/path_tracer.h>
 
 #include <array>
@@ -91,6 +92,7 @@ public:
           is_guided_(!choice.kinds()[kind].is_classical()),
           expects_(choice.kinds()[kind].preset.guides_survival()),
           learners_(learners),
+          scene_(scene),
           camera_(scene.camera()),
           is_moving_(scene.is_moving()),
           film_(film),
@@ -129,6 +131,9 @@ public:
     }
 
 private:
+    /// Rays of a pixel whose surfaces are looked at: those that every pixel has. More would tell little.
+    static constexpr int most_features = 15;
+
     /// The next sample of a pixel, if it is one of this kind; false if it was dropped.
     bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records) const {
         const int index = first_of(pixel) + tile.samples_done;
@@ -173,6 +178,11 @@ private:
         result.sample.guided = is_guided_;
         result.sample.radiance = settings_.balance * (result.sample.radiance * (place.weight * settings_.exposure));
         film_.add(pixel, result.sample);
+        if (is_traced && index < most_features) {
+            constexpr std::uint64_t purpose = 0x66656174;
+            Pcg32 random(hash_of(settings_.seed, number, index, purpose));
+            film_.add_features(pixel, first_surface(scene_, ray, random));
+        }
         return true;
     }
 
@@ -225,6 +235,7 @@ private:
     bool is_guided_;
     bool expects_;  ///< whether its survival follows the estimate of the pixel
     const Learners& learners_;
+    const Scene& scene_;
     const Camera& camera_;
     bool is_moving_;  ///< a time is drawn only where it matters
     Film& film_;

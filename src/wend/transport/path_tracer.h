@@ -248,10 +248,6 @@ private:
             }
         }
         path_.record(walk_events::Arrived{path_.now.travelled});
-        if (path_.now.counts.vertices == 0) {
-            remember_first(albedo(medium), {0, 0, 0});
-            result_.sample.scattered = true;
-        }
         if (!count_vertex()) {
             return false;
         }
@@ -273,9 +269,6 @@ private:
         if (path_.now.last.emitters_ahead > 0) {
             v.connected_before =
                 connections_.at_boundary * path_.now.last.emitters_ahead / mean_value(path_.now.last.pass_probability);
-        }
-        if (path_.now.counts.vertices == 0) {
-            remember_first(f.albedo(), hit.shading.n);
         }
         if (!count_vertex()) {
             return false;
@@ -442,12 +435,6 @@ private:
             return d_.survival.after_direction({weight.throughput, weight.density_ratio, weight.index_scale,
                                                 path_.now.counts.vertices, is_judged_elsewhere, in_volume});
         });
-    }
-
-    void remember_first(const Rgb& surface_albedo, const Vec3& normal) {
-        result_.sample.albedo = surface_albedo;
-        result_.sample.normal = normal;
-        result_.sample.depth = path_.now.travelled;
     }
 
     const PathTracer& tracer_;

@@ -1,0 +1,54 @@
+#include <wend/light/next_event.h>
+#include <wend/light/scattering.h>
+#include <wend/medium/transmittance.h>
+#include <wend/transport/first_surface.h>
+
+#include <optional>
+
+namespace wend {
+
+FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& random) {
+    constexpr int most_specular = 16;
+    FilmFeatures seen;
+    TracedRay ray(camera_ray);
+    MediumState medium = scene.medium_around(camera_ray);
+    Rgb passed(1.0f), weight(1.0f);
+    int specular = 0;
+    for (int met = 0; met < most_interfaces; ++met) {
+        const bool is_straight = specular == 0;
+        const std::optional<Hit> hit = scene.intersect(ray);
+        if (is_straight && medium.id != vacuum) {
+            const float length = hit ? hit->distance : longest_segment;
+            passed *= estimate_transmittance(scene.medium(medium.id), ray, length, random);
+        }
+        if (!hit) {
+            // Behind a mirror that shows nothing but the sky there is the mirror.
+            seen.depth = is_straight ? 0 : seen.depth;
+            break;
+        }
+        seen.depth += is_straight ? hit->distance : 0;
+        if (scene.is_interface(*hit)) {
+            medium = scene.medium_beyond(*hit, ray.direction, medium);
+            ray.pass(*hit);
+            continue;
+        }
+        const SurfaceScattering f(scene.bsdf(*hit), hit->shading, ray.direction);
+        std::optional<DirectionSample> s;
+        if (f.is_specular() && specular++ < most_specular) {
+            const float u = random.uniform();
+            s = f.sample(u, random.uniform2());
+        }
+        if (!s || !s->specular) {
+            seen.albedo = weight * f.albedo();
+            seen.normal = hit->shading.n;
+            break;
+        }
+        weight *= s->weight();
+        medium = scene.medium_beyond(*hit, s->direction, medium);
+        ray = ray.leave(*hit, s->direction);
+    }
+    seen.opacity = 1 - mean_value(passed);
+    return seen;
+}
+
+}  // namespace wend

@@ -1,0 +1,111 @@
+// Layers of what camera rays show: of the scene, and of nothing else.
+#include <tests/support/scenes.h>
+
+#include <wend/transport/first_surface.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace wend {
+namespace {
+
+constexpr int resolution = 16;
+
+FilmFeatures seen(const SceneDescription& description) {
+    const Scene scene(description);
+    Pcg32 random(1);
+    return first_surface(scene, scene.camera().middle(), random);
+}
+
+/// A camera in front of a slab of unit thickness at z = 0, in the light of an even sky.
+SceneDescription slab(bool grid = false) {
+    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    const Box3 box(Vec3(-100, -100, 0), Vec3(100, 100, 1));
+    const MediumId medium =
+        grid ? test::add_uniform_grid(s, box, Rgb(0.1f), Rgb(0.7f), 0) : test::add_homogeneous(s, Rgb(0.1f), Rgb(0.7f));
+    test::add_box(s, box, test::add_interface(s), medium);
+    test::add_environment(s, Rgb(1.0f));
+    return s;
+}
+
+void add_wall(SceneDescription& s, float z, int material) {
+    test::add_parallelogram(s, {-100, -100, z}, {0, 200, 0}, {200, 0, 0}, material);
+}
+
+TEST(FirstSurface, MediaHideNothingAndTellTheirOpacity) {
+    for (const bool grid : {false, true}) {
+        SceneDescription s = slab(grid);
+        EXPECT_NEAR(seen(s).opacity, -std::expm1(-0.8f), 1e-4f);
+        EXPECT_EQ(seen(s).depth, 0) << "nothing but sky";
+        add_wall(s, 3, test::add_diffuse(s, {0.5f, 0.25f, 0.125f}));
+        const FilmFeatures behind = seen(s);
+        EXPECT_NEAR(behind.depth, 8, 1e-4f);
+        EXPECT_EQ(behind.albedo, Rgb(0.5f, 0.25f, 0.125f));
+        EXPECT_NEAR(behind.normal.z, -1, 1e-6f);
+        EXPECT_NEAR(behind.opacity, -std::expm1(-0.8f), 1e-4f);
+        add_wall(s, -1, test::add_diffuse(s, Rgb(0.5f)));
+        EXPECT_EQ(seen(s).opacity, 0) << "a wall before the fog";
+        EXPECT_NEAR(seen(s).depth, 4, 1e-4f);
+    }
+}
+
+TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
+    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    ConductorMaterial mirror;
+    mirror.reflectance = s.textures.add_constant(Rgb(0.9f, 0.6f, 0.3f));
+    mirror.roughness.u = mirror.roughness.v = s.textures.add_constant(Rgb(0.0f));
+    s.materials.push_back(mirror);
+    add_wall(s, 0, static_cast<int>(s.materials.size()) - 1);
+    EXPECT_NEAR(seen(s).depth, 5, 1e-4f) << "the mirror's";
+    EXPECT_EQ(seen(s).albedo, Rgb(0.0f)) << "it shows nothing";
+    add_wall(s, -7, test::add_diffuse(s, Rgb(0.5f)));
+    const FilmFeatures reflected = seen(s);
+    EXPECT_NEAR(reflected.depth, 5, 1e-4f);
+    EXPECT_NEAR(reflected.albedo.r, 0.45f, 1e-3f);
+    EXPECT_NEAR(reflected.albedo.b, 0.15f, 1e-3f);
+    EXPECT_NEAR(std::abs(reflected.normal.z), 1, 1e-6f);
+}
+
+/// A foggy room with a mirror ball, which presets sample in very different ways.
+SceneDescription room() {
+    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, resolution);
+    const MediumId fog = test::add_homogeneous(s, Rgb(0.05f), Rgb(0.5f));
+    test::add_box(s, Box3(Vec3(-1), Vec3(1)), test::add_interface(s), fog);
+    test::add_parallelogram(s, {-1, -1, 0.9f}, {2, 0, 0}, {0, 2, 0}, test::add_diffuse(s, {0.7f, 0.3f, 0.1f}));
+    test::add_sphere(s, {0.4f, -0.4f, 0}, 0.4f, test::add_dielectric(s, 1.5f), vacuum, fog);
+    s.lights.push_back(PointLight{{-0.6f, 0.7f, 0}, Rgb(3.0f)});
+    return s;
+}
+
+std::vector<float> layer(const Scene& scene, const char* preset, std::uint64_t seed, const std::string& name) {
+    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    RenderSettings settings;
+    settings.preset = parse_preset(preset);
+    settings.samples = 20;
+    settings.max_depth = 20;
+    settings.seed = seed;
+    render(scene, film, settings);
+    const Picture picture = film.picture();
+    return std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; })
+        ->values;
+}
+
+TEST(FirstSurfaceSlow, LayersAreTheSameForEveryPreset) {
+    const Scene scene(room());
+    for (const std::string name : {"albedo", "normal", "depth", "scatter"}) {
+        const std::vector<float> classical = layer(scene, "classical", 1, name);
+        for (const char* preset : {"full", "distance+direction", "roulette+splitting"}) {
+            // The rays are the same, and so is what they show.
+            EXPECT_EQ(layer(scene, preset, 1, name), classical) << preset << ' ' << name;
+        }
+        EXPECT_NE(layer(scene, "classical", 2, name), classical) << "other rays show a little else: " << name;
+    }
+    // Layers of what walks did are not.
+    EXPECT_NE(layer(scene, "distance+direction", 1, "segments"), layer(scene, "classical", 1, "segments"));
+}
+
+}  // namespace
+}  // namespace wend
