@@ -364,6 +364,37 @@ def test_frames(scene, tmp_path):
     assert places[0] < SIZE / 2 - 4 and abs(places[1] - SIZE / 2) < 1 and places[2] > SIZE / 2 + 4
 
 
+def straight(moving):
+    """Moves it along x from frame 1 to 3, without the ease that Blender gives to keys."""
+    start = moving.location.x
+    for frame, x in ((1, -1.5), (3, 1.5)):
+        moving.location.x = start + x
+        moving.keyframe_insert("location", frame=frame)
+    for curve in moving.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+
+
+@pytest.mark.parametrize("what", ["object", "camera", "instances"])
+@pytest.mark.parametrize("position", ["START", "CENTER"])
+def test_motion_blur(scene, tmp_path, what, position):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    ball = mesh(scene, "cube", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), place=(0, 0, 1))
+    if what == "instances":
+        add(scene, "twin", ball.data, (0, 2, 2), size=(0.5, 0.5, 0.5))
+    moving = scene.camera if what == "camera" else ball
+    straight(moving)
+    scene.frame_set(2)
+    still = wend.render(blend.of_scene(scene, spp=16).scene(), sampling="classical").image
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter, scene.render.motion_blur_position = 0.8, position
+    ours, _ = check(scene, tmp_path, 1000)
+    # What stood still would be refused.
+    assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
+    assert scene.frame_current == 2 and scene.frame_subframe == 0
+
+
 def test_a_file_becomes_a_pbrt_scene(scene, tmp_path):
     floor(scene)
     lamp(scene, "POINT", 100, (0, 0, 3))
@@ -435,6 +466,22 @@ def test_the_add_on_renders_frames(scene, tmp_path, addon):
     for ours, theirs in zip(pictures["WEND"], pictures["CYCLES"]):
         assert np.abs(blocks(ours) / blocks(theirs) - 1).max() < 0.01
     assert np.abs(pictures["WEND"][0] - pictures["WEND"][1]).mean() > 0.01
+
+
+def test_the_add_on_blurs_what_moves(scene, tmp_path, addon):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    ball = mesh(scene, "cube", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), place=(0, 0, 1))
+    straight(ball)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.8
+    scene.render.engine = "WEND"
+    scene.wend.samples, scene.wend.guiding = 1000, "classical"
+    scene.render.filepath = str(tmp_path / "wend.exr")
+    bpy.ops.render.render(write_still=True)
+    ours = wend.read(scene.render.filepath).image
+    scene.render.engine = "CYCLES"
+    assert np.abs(blocks(ours) / blocks(by_cycles(scene, tmp_path, 1000)) - 1).max() < 0.01
 
 
 def test_the_add_on_says_what_is_wrong(scene, tmp_path, addon):

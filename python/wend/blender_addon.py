@@ -157,7 +157,7 @@ def _render(engine: Any, depsgraph: Any) -> None:
         warnings.simplefilter("always", SceneWarning)
         warnings.showwarning = lambda message, *_, **__: engine.report({"WARNING"}, str(message))
         try:
-            builder = of_scene(scene, resolution=size, depsgraph=depsgraph, can_render=False)
+            builder = of_scene(scene, resolution=size, depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False)
             render = Render(
                 builder.scene(),
                 spp=None if settings.seconds > 0 else settings.samples,
