@@ -422,6 +422,58 @@ def test_what_is_missing_is_named_once(scene):
     assert sum("TexNoise as Base Color" in text and made.name in text for text in texts) == 1
 
 
+@pytest.mark.parametrize(
+    ("role", "value", "text"),
+    [
+        ("is_holdout", True, "holdout"),
+        ("is_shadow_catcher", True, "shadow catcher"),
+        ("visible_camera", False, "rays of camera"),
+        ("visible_volume_scatter", False, "rays of volume scatter"),
+    ],
+)
+def test_roles_that_are_not_there_are_named(scene, role, value, text):
+    floor(scene)
+    sky(scene, (1, 1, 1))
+    setattr(mesh(scene, "cube"), role, value)
+    with pytest.warns(wend.SceneWarning, match=f"object 'Cube': warning: .*{text}"):
+        blend.of_scene(scene)
+
+
+def test_hair_objects(scene):
+    curves = bpy.data.hair_curves.new("hair")
+    curves.add_curves([3, 2])
+    for i, point in enumerate(curves.points):
+        point.position, point.radius = (i, 2 * i, 0), 0.1 * (i + 1)
+    add(scene, "hair", curves)
+    sky(scene, (1, 1, 1))
+    shapes = [dict(d[3]) for d in blend.of_scene(scene)._directives if d[:2] == ("Shape", ["curve"])]
+    ends = [tuple(shape["point3 P"][[0, 9]]) for shape in shapes]
+    assert ends == [(0, 1), (1, 2), (3, 4)]
+    widths = [(shape["float width0"][0], shape["float width1"][0]) for shape in shapes]
+    assert np.allclose(widths, [(0.2, 0.4), (0.4, 0.6), (0.8, 1.0)])
+
+
+def test_the_add_on_gives_the_passes_that_a_view_layer_asks_for(scene, tmp_path, addon):
+    floor(scene, (0.6, 0.4, 0.2))
+    sky(scene, (1, 1, 1))
+    camera(scene, (0, 0, 5), (0, 0.001, 0))
+    layer = scene.view_layers[0]
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
+    scene.render.engine, scene.wend.samples = "WEND", 4
+    scene.render.image_settings.media_type = "MULTI_LAYER_IMAGE"
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.image_settings.exr_codec, scene.render.image_settings.use_exr_interleave = "NONE", True
+    scene.render.filepath = str(tmp_path / "passes.exr")
+    bpy.ops.render.render(write_still=True)
+    # Uncompressed, a file ends with its last line: channel after channel, by name.
+    line = np.frombuffer((tmp_path / "passes.exr").read_bytes()[-11 * SIZE * 4 :], dtype="<f4").reshape(11, SIZE)
+    combined, depth, albedo, normal = np.split(line, [4, 5, 8])
+    assert np.allclose(combined[0], 1)
+    assert depth.min() > 4.9 and depth.max() < 6
+    assert np.allclose(albedo, [[0.2], [0.4], [0.6]], atol=1e-3)
+    assert np.allclose(normal, [[0], [0], [1]], atol=1e-3)
+
+
 def test_errors(tmp_path, capsys, scene):
     broken = tmp_path / "broken.blend"
     broken.write_bytes(b"BLENDER-v300" + bytes(100))

@@ -261,6 +261,7 @@ class _Reader(SceneReader):
 
     def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
         kind = object_.type
+        self.tell_roles(object_, name)
         if kind == "LIGHT":
             self.hold(place, f"light '{name}'")
             lights.add(self, name, object_.data, place[0], object_.visible_camera)
@@ -332,6 +333,21 @@ class _Reader(SceneReader):
                     add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
                     self.has_light = True
             add("Shape", kind, parameters | look.shape_parameters)
+
+    def tell_roles(self, object_: Any, name: str) -> None:
+        """Says what an object is to be seen by, or to hide, where it is more than the renderer can."""
+        where = f"object '{name}'"
+        if object_.is_holdout:
+            self.tell(where, "a holdout is an object like others")
+        # The lamp of a default file is one, without an effect.
+        if object_.is_shadow_catcher and object_.type != "LIGHT":
+            self.tell(where, "a shadow catcher is an object like others")
+        rays = ["diffuse", "glossy", "transmission", "volume_scatter", "shadow"]
+        if object_.type != "LIGHT":
+            rays.append("camera")
+        unseen = [ray.replace("_", " ") for ray in rays if not getattr(object_, f"visible_{ray}")]
+        if unseen:
+            self.tell(where, f"an object that rays of {', '.join(unseen)} do not see is seen by all")
 
     def hold(self, place: Any, where: str) -> None:
         """What cannot move is said to stay where the shutter opens."""
@@ -409,6 +425,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--resolution", metavar="WxH", help="(default: the scene's)")
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
     parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
+    parser.add_argument("--noise", type=float, help="relative noise to end at, in place of samples")
     parser.add_argument("--sampling", default="full")
     options = parser.parse_args(arguments)
     if not options.output and not options.render:
@@ -440,7 +457,8 @@ def main(arguments: list[str] | None = None) -> int:
             if output:
                 Path(output).write_text(builder.text())
             if picture:
-                amount = {"spp": options.spp} if options.time is None else {"time": options.time}
+                until = {"time": options.time, "noise": options.noise}
+                amount = {name: value for name, value in until.items() if value is not None} or {"spp": options.spp}
                 wend.render(builder.scene(), sampling=options.sampling, **amount).save(picture)
     except (InputError, OSError) as error:
         print(error, file=sys.stderr)
