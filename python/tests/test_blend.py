@@ -364,6 +364,37 @@ def test_frames(scene, tmp_path):
     assert places[0] < SIZE / 2 - 4 and abs(places[1] - SIZE / 2) < 1 and places[2] > SIZE / 2 + 4
 
 
+def straight(moving):
+    """Moves it along x from frame 1 to 3, without the ease that Blender gives to keys."""
+    start = moving.location.x
+    for frame, x in ((1, -1.5), (3, 1.5)):
+        moving.location.x = start + x
+        moving.keyframe_insert("location", frame=frame)
+    for curve in moving.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+
+
+@pytest.mark.parametrize("what", ["object", "camera", "instances"])
+@pytest.mark.parametrize("position", ["START", "CENTER"])
+def test_motion_blur(scene, tmp_path, what, position):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    ball = mesh(scene, "cube", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), place=(0, 0, 1))
+    if what == "instances":
+        add(scene, "twin", ball.data, (0, 2, 2), size=(0.5, 0.5, 0.5))
+    moving = scene.camera if what == "camera" else ball
+    straight(moving)
+    scene.frame_set(2)
+    still = wend.render(blend.of_scene(scene, spp=16).scene(), sampling="classical").image
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter, scene.render.motion_blur_position = 0.8, position
+    ours, _ = check(scene, tmp_path, 1000)
+    # What stood still would be refused.
+    assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
+    assert scene.frame_current == 2 and scene.frame_subframe == 0
+
+
 def test_a_file_becomes_a_pbrt_scene(scene, tmp_path):
     floor(scene)
     lamp(scene, "POINT", 100, (0, 0, 3))
@@ -389,6 +420,58 @@ def test_what_is_missing_is_named_once(scene):
         blend.of_scene(scene)
     texts = [str(w.message) for w in told]
     assert sum("TexNoise as Base Color" in text and made.name in text for text in texts) == 1
+
+
+@pytest.mark.parametrize(
+    ("role", "value", "text"),
+    [
+        ("is_holdout", True, "holdout"),
+        ("is_shadow_catcher", True, "shadow catcher"),
+        ("visible_camera", False, "rays of camera"),
+        ("visible_volume_scatter", False, "rays of volume scatter"),
+    ],
+)
+def test_roles_that_are_not_there_are_named(scene, role, value, text):
+    floor(scene)
+    sky(scene, (1, 1, 1))
+    setattr(mesh(scene, "cube"), role, value)
+    with pytest.warns(wend.SceneWarning, match=f"object 'Cube': warning: .*{text}"):
+        blend.of_scene(scene)
+
+
+def test_hair_objects(scene):
+    curves = bpy.data.hair_curves.new("hair")
+    curves.add_curves([3, 2])
+    for i, point in enumerate(curves.points):
+        point.position, point.radius = (i, 2 * i, 0), 0.1 * (i + 1)
+    add(scene, "hair", curves)
+    sky(scene, (1, 1, 1))
+    shapes = [dict(d[3]) for d in blend.of_scene(scene)._directives if d[:2] == ("Shape", ["curve"])]
+    ends = [tuple(shape["point3 P"][[0, 9]]) for shape in shapes]
+    assert ends == [(0, 1), (1, 2), (3, 4)]
+    widths = [(shape["float width0"][0], shape["float width1"][0]) for shape in shapes]
+    assert np.allclose(widths, [(0.2, 0.4), (0.4, 0.6), (0.8, 1.0)])
+
+
+def test_the_add_on_gives_the_passes_that_a_view_layer_asks_for(scene, tmp_path, addon):
+    floor(scene, (0.6, 0.4, 0.2))
+    sky(scene, (1, 1, 1))
+    camera(scene, (0, 0, 5), (0, 0.001, 0))
+    layer = scene.view_layers[0]
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
+    scene.render.engine, scene.wend.samples = "WEND", 4
+    scene.render.image_settings.media_type = "MULTI_LAYER_IMAGE"
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.image_settings.exr_codec, scene.render.image_settings.use_exr_interleave = "NONE", True
+    scene.render.filepath = str(tmp_path / "passes.exr")
+    bpy.ops.render.render(write_still=True)
+    # Uncompressed, a file ends with its last line: channel after channel, by name.
+    line = np.frombuffer((tmp_path / "passes.exr").read_bytes()[-11 * SIZE * 4 :], dtype="<f4").reshape(11, SIZE)
+    combined, depth, albedo, normal = np.split(line, [4, 5, 8])
+    assert np.allclose(combined[0], 1)
+    assert depth.min() > 4.9 and depth.max() < 6
+    assert np.allclose(albedo, [[0.2], [0.4], [0.6]], atol=1e-3)
+    assert np.allclose(normal, [[0], [0], [1]], atol=1e-3)
 
 
 def test_errors(tmp_path, capsys, scene):
@@ -435,6 +518,22 @@ def test_the_add_on_renders_frames(scene, tmp_path, addon):
     for ours, theirs in zip(pictures["WEND"], pictures["CYCLES"]):
         assert np.abs(blocks(ours) / blocks(theirs) - 1).max() < 0.01
     assert np.abs(pictures["WEND"][0] - pictures["WEND"][1]).mean() > 0.01
+
+
+def test_the_add_on_blurs_what_moves(scene, tmp_path, addon):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    ball = mesh(scene, "cube", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), place=(0, 0, 1))
+    straight(ball)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.8
+    scene.render.engine = "WEND"
+    scene.wend.samples, scene.wend.guiding = 1000, "classical"
+    scene.render.filepath = str(tmp_path / "wend.exr")
+    bpy.ops.render.render(write_still=True)
+    ours = wend.read(scene.render.filepath).image
+    scene.render.engine = "CYCLES"
+    assert np.abs(blocks(ours) / blocks(by_cycles(scene, tmp_path, 1000)) - 1).max() < 0.01
 
 
 def test_the_add_on_says_what_is_wrong(scene, tmp_path, addon):

@@ -53,8 +53,8 @@ def mesh_parts(mesh: Any) -> Iterator[tuple[int, Parameters]]:
 
 def hair_segments(curves: Any) -> Iterator[Parameters]:
     """Of a hair object, each curve as the parameters of a "curve": a B-spline through its points."""
-    points = np.array([point.position for point in curves.points], dtype=np.float32).reshape(-1, 3)
-    radii = np.array([point.radius for point in curves.points], dtype=np.float32)
+    points = _taken(curves.points, "position", 3, np.float32)
+    radii = _taken(curves.points, "radius", 1, np.float32)
     for curve in curves.curves:
         first, count = curve.first_point_index, curve.points_length
         yield from _segments(points[first : first + count], radii[first : first + count])

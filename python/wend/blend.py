@@ -11,6 +11,7 @@ import os
 import sys
 import warnings
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ except ImportError as error:
 
 from . import _blend_lights as lights
 from ._blend_materials import look_of, volume_parameters
+from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
 from ._blend_shapes import box_of, hair_segments, mesh_parts, strands
 from ._blend_world import add_world, add_world_volume
@@ -93,6 +95,7 @@ def of_scene(
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
     depsgraph: Any = None,
+    set_frame: Callable[[int, float], Any] | None = None,
     can_render: bool = True,
 ) -> SceneBuilder:
     """The same of a scene that is open in Blender.
@@ -101,6 +104,7 @@ def of_scene(
         scene: a `bpy.types.Scene`.
         name: what messages call it; file names are relative to its folder.
         depsgraph: the evaluated scene, where a render is going on; None: it is evaluated here.
+        set_frame: evaluates that at a frame and a part of one, for motion blur; None: as the scene does.
         can_render: whether Cycles may be called for what has no counterpart, such as a sky.
         frame, camera, resolution, spp, maps: as for `read`.
     """
@@ -111,7 +115,12 @@ def of_scene(
         bpy.context.window.scene = scene
         depsgraph = bpy.context.evaluated_depsgraph_get()
     eye = _named(scene.objects, camera, "camera") or scene.camera
-    return reader.read(depsgraph, eye, resolution, spp)
+    if set_frame is None:
+
+        def set_frame(whole: int, part: float) -> None:
+            scene.frame_set(whole, subframe=part)
+
+    return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
 
 
 def _named(things: Any, name: str | None, kind: str) -> Any:
@@ -137,12 +146,12 @@ class _Reader(SceneReader):
         self.has_light = False
         self._objects: dict[str, bool] = {}
 
-    def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int) -> SceneBuilder:
+    def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> SceneBuilder:
         add = self.builder.add
         self.around = add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
-        self.add_film(eye, resolution, spp)
+        self.add_film(eye, resolution, spp, motion)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
@@ -151,7 +160,9 @@ class _Reader(SceneReader):
         for instance, shown in zip(depsgraph.object_instances, seen):
             if shown:
                 object_ = instance.object
-                place = _place(instance.matrix_world)
+                place = motion.places(instance)
+                if motion.is_on and object_.original.is_deform_modified(self.scene, "RENDER"):
+                    self.tell(f"object '{object_.name}'", "what deforms while the shutter is open is taken as it is at the frame")
                 self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
@@ -173,12 +184,12 @@ class _Reader(SceneReader):
 
     # ---- Camera and film ----
 
-    def add_film(self, eye: Any, resolution: tuple[int, int] | None, spp: int) -> None:
+    def add_film(self, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> None:
         add, render, cycles = self.builder.add, self.scene.render, getattr(self.scene, "cycles", None)
         if resolution is None:
             share = render.resolution_percentage / 100
             resolution = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
-        self.add_camera(eye, resolution)
+        self.add_camera(eye, resolution, motion)
         film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
         exposure = float(cycles.film_exposure) if cycles is not None else 1.0
         if exposure != 1:
@@ -200,13 +211,13 @@ class _Reader(SceneReader):
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 100})
 
-    def add_camera(self, eye: Any, resolution: tuple[int, int]) -> None:
+    def add_camera(self, eye: Any, resolution: tuple[int, int], motion: Motion) -> None:
         if eye is None or eye.type != "CAMERA":
             raise InputError(f"{self.scene.name}: error: the scene has no camera")
         camera = eye.data
         place = f"camera '{eye.name}'"
         matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
-        self.put(np.array([np.linalg.inv(_CAMERA @ matrix)] * 2))
+        self.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
         window = self.window_of(camera, resolution)
         if camera.type == "PANO":
             self.tell(place, "a panoramic camera is taken as one with a lens")
@@ -250,7 +261,9 @@ class _Reader(SceneReader):
 
     def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
         kind = object_.type
+        self.tell_roles(object_, name)
         if kind == "LIGHT":
+            self.hold(place, f"light '{name}'")
             lights.add(self, name, object_.data, place[0], object_.visible_camera)
             self.has_light = True
         elif kind in _SOLID:
@@ -321,6 +334,26 @@ class _Reader(SceneReader):
                     self.has_light = True
             add("Shape", kind, parameters | look.shape_parameters)
 
+    def tell_roles(self, object_: Any, name: str) -> None:
+        """Says what an object is to be seen by, or to hide, where it is more than the renderer can."""
+        where = f"object '{name}'"
+        if object_.is_holdout:
+            self.tell(where, "a holdout is an object like others")
+        # The lamp of a default file is one, without an effect.
+        if object_.is_shadow_catcher and object_.type != "LIGHT":
+            self.tell(where, "a shadow catcher is an object like others")
+        rays = ["diffuse", "glossy", "transmission", "volume_scatter", "shadow"]
+        if object_.type != "LIGHT":
+            rays.append("camera")
+        unseen = [ray.replace("_", " ") for ray in rays if not getattr(object_, f"visible_{ray}")]
+        if unseen:
+            self.tell(where, f"an object that rays of {', '.join(unseen)} do not see is seen by all")
+
+    def hold(self, place: Any, where: str) -> None:
+        """What cannot move is said to stay where the shutter opens."""
+        if not np.array_equal(place[0], place[1]):
+            self.tell(where, "what moves while the shutter is open is left where it begins")
+
     def add_volume(self, object_: Any, place: Any, name: str) -> None:
         volume = object_.data
         where = f"object '{name}'"
@@ -348,7 +381,8 @@ class _Reader(SceneReader):
             parameters["float scale"] = 1 / max(float(sizes.mean()), 1e-30)
         medium = f" volume {name}"
         with self.builder.block():
-            self.put(place)
+            self.hold(place, where)
+            self.put(place[[0, 0]])
             self.builder.add(
                 "MakeNamedMedium",
                 medium,
@@ -391,6 +425,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--resolution", metavar="WxH", help="(default: the scene's)")
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
     parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
+    parser.add_argument("--noise", type=float, help="relative noise to end at, in place of samples")
     parser.add_argument("--sampling", default="full")
     options = parser.parse_args(arguments)
     if not options.output and not options.render:
@@ -422,7 +457,8 @@ def main(arguments: list[str] | None = None) -> int:
             if output:
                 Path(output).write_text(builder.text())
             if picture:
-                amount = {"spp": options.spp} if options.time is None else {"time": options.time}
+                until = {"time": options.time, "noise": options.noise}
+                amount = {name: value for name, value in until.items() if value is not None} or {"spp": options.spp}
                 wend.render(builder.scene(), sampling=options.sampling, **amount).save(picture)
     except (InputError, OSError) as error:
         print(error, file=sys.stderr)

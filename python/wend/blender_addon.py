@@ -122,6 +122,8 @@ def _classes() -> list[Any]:
                 self.register_pass(scene, view_layer, "Depth", 1, "Z", "VALUE")
             if view_layer.use_pass_normal:
                 self.register_pass(scene, view_layer, "Normal", 3, "XYZ", "VECTOR")
+            if view_layer.use_pass_diffuse_color:
+                self.register_pass(scene, view_layer, "Diffuse Color", 3, "RGB", "COLOR")
 
     class RENDER_PT_wend(bpy.types.Panel):  # type: ignore[misc,unused-ignore]
         """The settings."""
@@ -157,7 +159,7 @@ def _render(engine: Any, depsgraph: Any) -> None:
         warnings.simplefilter("always", SceneWarning)
         warnings.showwarning = lambda message, *_, **__: engine.report({"WARNING"}, str(message))
         try:
-            builder = of_scene(scene, resolution=size, depsgraph=depsgraph, can_render=False)
+            builder = of_scene(scene, resolution=size, depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False)
             render = Render(
                 builder.scene(),
                 spp=None if settings.seconds > 0 else settings.samples,
@@ -195,6 +197,7 @@ def _show(engine: Any, film: Any, is_last: bool) -> None:
         "Combined": np.concatenate([film.image, np.ones((height, width, 1), dtype=np.float32)], axis=2),
         "Depth": film["depth"][..., None],
         "Normal": film["normal"],
+        "Diffuse Color": film["albedo"],
     }
     for made in result.layers[0].passes:
         if made.name in values:

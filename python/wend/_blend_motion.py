@@ -1,0 +1,69 @@
+"""Where things of Blender are when the shutter opens and when it closes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Matrix = npt.NDArray[np.float64]
+
+#: Where the frame lies between the opening of the shutter (0) and its closing.
+_SHARES = {"START": 0.0, "CENTER": 0.5, "END": 1.0}
+
+
+def rows(matrix: Any) -> Matrix:
+    """Of a matrix of Blender, with points as rows."""
+    return np.array(matrix, dtype=np.float64).T
+
+
+class Motion:
+    """Places at both ends of the shutter; one place twice where there is no motion blur.
+
+    Args:
+        scene: whose frame is rendered.
+        eye: the camera.
+        depsgraph: evaluated at that frame, before and afterwards.
+        set_frame: evaluates it at a frame and a part of one.
+    """
+
+    def __init__(self, scene: Any, eye: Any, depsgraph: Any, set_frame: Callable[[int, float], Any]) -> None:
+        self._ends: list[dict[Any, Matrix]] = []
+        render = scene.render
+        self.is_on = bool(render.use_motion_blur) and render.motion_blur_shutter > 0
+        if not self.is_on:
+            return
+        frame, part = scene.frame_current, scene.frame_subframe
+        opening = frame + part - _SHARES[render.motion_blur_position] * render.motion_blur_shutter
+        for time in (opening, opening + render.motion_blur_shutter):
+            whole = int(np.floor(time))
+            set_frame(whole, float(time - whole))
+            depsgraph.update()
+            places = {_key(i): rows(i.matrix_world) for i in depsgraph.object_instances}
+            if eye is not None:
+                places[None] = rows(eye.evaluated_get(depsgraph).matrix_world.normalized())
+            self._ends.append(places)
+        set_frame(frame, part)
+        depsgraph.update()
+
+    def places(self, instance: Any) -> Matrix:
+        """(2, 4, 4), of an instance of the depsgraph."""
+        still = not getattr(getattr(instance.object, "cycles", None), "use_motion_blur", True)
+        return self._between(_key(instance), rows(instance.matrix_world), still)
+
+    def of_camera(self, eye: Any) -> Matrix:
+        """(2, 4, 4), without a scale."""
+        return self._between(None, rows(eye.matrix_world.normalized()), False)
+
+    def _between(self, key: Any, now: Matrix, still: bool) -> Matrix:
+        # What is not there all the time stays where it is at the frame.
+        if still or not self._ends or any(key not in places for places in self._ends):
+            return np.array([now, now])
+        return np.array([places[key] for places in self._ends])
+
+
+def _key(instance: Any) -> Any:
+    parent = instance.parent.name_full if instance.is_instance and instance.parent else ""
+    return instance.object.name_full, parent, tuple(instance.persistent_id) if instance.is_instance else ()
