@@ -27,14 +27,12 @@ except ImportError as error:
     raise ImportError("wend.blend wants bpy: pip install 'wend[blender]'") from error
 
 from . import _blend_lights as lights
+from ._blend_camera import add_view
 from ._blend_materials import look_of, volume_parameters
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
 from ._blend_shapes import box_of, hair_segments, mesh_parts, strands
 from ._blend_world import add_world, add_world_volume
-
-#: Of Blender's camera, which looks along -z, to pbrt's.
-_CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
 
 #: Kinds of objects that have a surface once they are evaluated.
 _SOLID = ("MESH", "CURVE", "SURFACE", "META", "FONT")
@@ -144,14 +142,14 @@ class _Reader(SceneReader):
         self.can_render = can_render
         self.around: str | None = None  #: the medium of the world
         self.has_light = False
-        self._objects: dict[str, bool] = {}
+        self._objects: dict[str, str] = {}
 
     def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> SceneBuilder:
         add = self.builder.add
         self.around = add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
-        self.add_film(eye, resolution, spp, motion)
+        add_view(self, self.scene, eye, resolution, spp, motion)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
@@ -181,81 +179,6 @@ class _Reader(SceneReader):
         if instance.is_instance:
             return bool(instance.show_self)
         return not object_.hide_render and bool(instance.show_self)
-
-    # ---- Camera and film ----
-
-    def add_film(self, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> None:
-        add, render, cycles = self.builder.add, self.scene.render, getattr(self.scene, "cycles", None)
-        if resolution is None:
-            share = render.resolution_percentage / 100
-            resolution = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
-        self.add_camera(eye, resolution, motion)
-        film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
-        exposure = float(cycles.film_exposure) if cycles is not None else 1.0
-        if exposure != 1:
-            film["float iso"] = 100 * exposure
-        if render.use_border:
-            # From the left and from below; pbrt's from above.
-            film["float cropwindow"] = (
-                render.border_min_x,
-                render.border_max_x,
-                1 - render.border_max_y,
-                1 - render.border_min_y,
-            )
-        add("Film", "rgb", film)
-        if cycles is not None and cycles.pixel_filter_type == "BOX":
-            add("PixelFilter", "box")
-        else:
-            radius = float(cycles.filter_width) if cycles is not None else 1.5
-            add("PixelFilter", "gaussian", {"float xradius": radius, "float yradius": radius, "float sigma": radius / 3})
-        add("Sampler", "sobol", {"integer pixelsamples": spp})
-        add("Integrator", "volpath", {"integer maxdepth": 100})
-
-    def add_camera(self, eye: Any, resolution: tuple[int, int], motion: Motion) -> None:
-        if eye is None or eye.type != "CAMERA":
-            raise InputError(f"{self.scene.name}: error: the scene has no camera")
-        camera = eye.data
-        place = f"camera '{eye.name}'"
-        matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
-        self.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
-        window = self.window_of(camera, resolution)
-        if camera.type == "PANO":
-            self.tell(place, "a panoramic camera is taken as one with a lens")
-        parameters: dict[str, Any] = {"float screenwindow": window}
-        dof = camera.dof
-        if dof.use_dof:
-            if dof.aperture_blades > 2:
-                self.tell(place, "the aperture is round")
-            distance = float(dof.focus_distance)
-            if dof.focus_object is not None:
-                offset = np.array(dof.focus_object.matrix_world.translation) - np.array(eye.matrix_world.translation)
-                distance = abs(float(offset @ matrix[2, :3]))
-            size = camera.lens * 1e-3 if camera.type == "PERSP" else 1.0
-            parameters["float lensradius"] = size / (2 * max(dof.aperture_fstop, 1e-5))
-            parameters["float focaldistance"] = max(distance, 1e-5)
-        if camera.type == "ORTHO":
-            self.builder.add("Camera", "orthographic", parameters)
-        else:
-            self.builder.add("Camera", "perspective", parameters | {"float fov": 90})
-
-    def window_of(self, camera: Any, resolution: tuple[int, int]) -> Any:
-        """What the camera sees at a distance of 1: left, right, bottom, top."""
-        render = self.scene.render
-        width = resolution[0] * render.pixel_aspect_x
-        height = resolution[1] * render.pixel_aspect_y
-        fit = camera.sensor_fit
-        if fit == "AUTO":
-            fit = "HORIZONTAL" if width >= height else "VERTICAL"
-            sensor = camera.sensor_width
-        else:
-            sensor = camera.sensor_width if fit == "HORIZONTAL" else camera.sensor_height
-        size = float(camera.ortho_scale) if camera.type == "ORTHO" else sensor / max(camera.lens, 1e-6)
-        longest = width if fit == "HORIZONTAL" else height
-        x, y = size * width / longest / 2, size * height / longest / 2
-        # Shifts are parts of the larger side.
-        return np.array(
-            [-x + camera.shift_x * size, x + camera.shift_x * size, -y + camera.shift_y * size, y + camera.shift_y * size]
-        )
 
     # ---- Objects ----
 
@@ -290,7 +213,7 @@ class _Reader(SceneReader):
         if is_copied and key in self._objects:
             with self.builder.block():
                 self.put(place)
-                self.builder.add("ObjectInstance", key)
+                self.builder.add("ObjectInstance", self._objects[key])
             return
         mesh = object_.to_mesh()
         if mesh is None:
@@ -307,13 +230,13 @@ class _Reader(SceneReader):
             for look, parameters in parts:
                 self.add_shape(place, look, ("trianglemesh", parameters), name)
             return
-        self._objects[key] = True
-        with self.builder.block("Object", key):
+        shared = self._objects[key] = f"{name} {len(self._objects)}"
+        with self.builder.block("Object", shared):
             for look, parameters in parts:
                 self.add_shape(_place(np.eye(4)), look, ("trianglemesh", parameters), name)
         with self.builder.block():
             self.put(place)
-            self.builder.add("ObjectInstance", key)
+            self.builder.add("ObjectInstance", shared)
 
     def add_shape(self, place: Any, look: Look, shape: tuple[str, dict[str, Any]], name: str) -> None:
         kind, parameters = shape

@@ -1,0 +1,97 @@
+"""Blender's camera and film."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._blend_motion import Motion
+from ._errors import InputError
+from ._scene_reader import SceneReader
+
+#: Of Blender's camera, which looks along -z, to pbrt's.
+_CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
+
+
+def add_view(
+    reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion
+) -> None:
+    """Adds camera, film, filter, sampler and integrator. `eye` is the camera's object.
+
+    Raises:
+        InputError: where that is none.
+    """
+    add, render, cycles = reader.builder.add, scene.render, getattr(scene, "cycles", None)
+    if resolution is None:
+        share = render.resolution_percentage / 100
+        resolution = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
+    _add_camera(reader, scene, eye, resolution, motion)
+    film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
+    exposure = float(cycles.film_exposure) if cycles is not None else 1.0
+    if exposure != 1:
+        film["float iso"] = 100 * exposure
+    if render.use_border:
+        # From the left and from below; pbrt's from above.
+        film["float cropwindow"] = (
+            render.border_min_x,
+            render.border_max_x,
+            1 - render.border_max_y,
+            1 - render.border_min_y,
+        )
+    add("Film", "rgb", film)
+    if cycles is not None and cycles.pixel_filter_type == "BOX":
+        add("PixelFilter", "box")
+    else:
+        radius = float(cycles.filter_width) if cycles is not None else 1.5
+        add("PixelFilter", "gaussian", {"float xradius": radius, "float yradius": radius, "float sigma": radius / 3})
+    add("Sampler", "sobol", {"integer pixelsamples": spp})
+    add("Integrator", "volpath", {"integer maxdepth": 100})
+
+
+def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int], motion: Motion) -> None:
+    if eye is None or eye.type != "CAMERA":
+        raise InputError(f"{scene.name}: error: the scene has no camera")
+    camera = eye.data
+    place = f"camera '{eye.name}'"
+    matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
+    reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
+    window = _window_of(scene, camera, resolution)
+    if camera.type == "PANO":
+        reader.tell(place, "a panoramic camera is taken as one with a lens")
+    parameters: dict[str, Any] = {"float screenwindow": window}
+    dof = camera.dof
+    if dof.use_dof:
+        if dof.aperture_blades > 2:
+            reader.tell(place, "the aperture is round")
+        distance = float(dof.focus_distance)
+        if dof.focus_object is not None:
+            offset = np.array(dof.focus_object.matrix_world.translation) - np.array(eye.matrix_world.translation)
+            distance = abs(float(offset @ matrix[2, :3]))
+        size = camera.lens * 1e-3 if camera.type == "PERSP" else 1.0
+        parameters["float lensradius"] = size / (2 * max(dof.aperture_fstop, 1e-5))
+        parameters["float focaldistance"] = max(distance, 1e-5)
+    if camera.type == "ORTHO":
+        reader.builder.add("Camera", "orthographic", parameters)
+    else:
+        reader.builder.add("Camera", "perspective", parameters | {"float fov": 90})
+
+
+def _window_of(scene: Any, camera: Any, resolution: tuple[int, int]) -> Any:
+    """What the camera sees at a distance of 1: left, right, bottom, top."""
+    render = scene.render
+    width = resolution[0] * render.pixel_aspect_x
+    height = resolution[1] * render.pixel_aspect_y
+    fit = camera.sensor_fit
+    if fit == "AUTO":
+        fit = "HORIZONTAL" if width >= height else "VERTICAL"
+        sensor = camera.sensor_width
+    else:
+        sensor = camera.sensor_width if fit == "HORIZONTAL" else camera.sensor_height
+    size = float(camera.ortho_scale) if camera.type == "ORTHO" else sensor / max(camera.lens, 1e-6)
+    longest = width if fit == "HORIZONTAL" else height
+    x, y = size * width / longest / 2, size * height / longest / 2
+    # Shifts are parts of the larger side.
+    return np.array(
+        [-x + camera.shift_x * size, x + camera.shift_x * size, -y + camera.shift_y * size, y + camera.shift_y * size]
+    )
