@@ -9,16 +9,14 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import warnings
 from collections import Counter
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._builder import SceneBuilder
-from ._errors import InputError, SceneWarning
+from ._errors import InputError
 from ._scene_reader import Look, SceneReader
 
 try:
@@ -27,6 +25,7 @@ except ImportError as error:
     raise ImportError("wend.blend wants bpy: pip install 'wend[blender]'") from error
 
 from . import _blend_lights as lights
+from . import _reader_command as command
 from ._blend_camera import add_view
 from ._blend_materials import look_of, volume_parameters
 from ._blend_motion import Motion
@@ -336,32 +335,17 @@ def _of_frame(name: str, frame: int | None) -> str:
 
 def main(arguments: list[str] | None = None) -> int:
     """What `python -m wend.blend` does; the exit status."""
-    import wend
-
     parser = argparse.ArgumentParser(prog="python -m wend.blend", description="render a .blend file, or write it as a pbrt scene")
     parser.add_argument("file", help="scene.blend")
-    parser.add_argument("-o", "--output", metavar="SCENE.pbrt", help="write the scene as a pbrt-v4 file")
-    parser.add_argument("--render", metavar="PICTURE", help="render it: .exr, .png or .jpg; #### stands for the frame")
-    parser.add_argument("--frames", metavar="A-B", help="one after another (default: the file's)")
+    parser.add_argument("--frames", metavar="A-B", help="one after another, #### in names being their numbers (default: the file's)")
     parser.add_argument("--scene", metavar="NAME", help="(default: the file's)")
     parser.add_argument("--camera", metavar="NAME", help="(default: the scene's)")
     parser.add_argument("--resolution", metavar="WxH", help="(default: the scene's)")
-    parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
-    parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
-    parser.add_argument("--noise", type=float, help="relative noise to end at, in place of samples")
-    parser.add_argument("--sampling", default="full")
-    options = parser.parse_args(arguments)
-    if not options.output and not options.render:
-        parser.error("give --render PICTURE, or -o SCENE.pbrt, or both")
-    warnings.simplefilter("always", SceneWarning)
-    warnings.showwarning = lambda message, *_, **__: print(message, file=sys.stderr)
-    try:
-        resolution = None
-        if options.resolution:
-            width, _, height = options.resolution.partition("x")
-            if not (width.isdigit() and height.isdigit() and int(width) > 0 and int(height) > 0):
-                raise InputError(f"--resolution {options.resolution}: expected WIDTHxHEIGHT")
-            resolution = (int(width), int(height))
+    command.add_options(parser)
+    options = command.parsed(parser, arguments)
+
+    def convert() -> None:
+        resolution = command.size_of(options.resolution) if options.resolution else None
         frames: list[int | None] = [None] if not options.frames else [*_frames(options.frames)]
         names = [options.output or "", options.render or ""]
         if len(frames) > 1 and any(name and "#" not in name for name in names):
@@ -375,18 +359,11 @@ def main(arguments: list[str] | None = None) -> int:
                 camera=options.camera,
                 resolution=resolution,
                 spp=options.spp,
-                maps=Path(output).with_suffix(".maps") if output else None,
+                maps=command.maps_of(output),
             )
-            if output:
-                Path(output).write_text(builder.text())
-            if picture:
-                until = {"time": options.time, "noise": options.noise}
-                amount = {name: value for name, value in until.items() if value is not None} or {"spp": options.spp}
-                wend.render(builder.scene(), sampling=options.sampling, **amount).save(picture)
-    except (InputError, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+            command.deliver(builder, options, output, picture)
+
+    return command.as_command(convert)
 
 
 if __name__ == "__main__":

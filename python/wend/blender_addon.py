@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ._errors import InputError, SceneWarning
+from ._reader_command import as_command
 
 #: Seconds between two looks at whether Blender wants an end.
 _STEP = 0.25
@@ -232,12 +233,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("wheel", type=Path, help="of Wend, for the Python of Blender (4.2 to 5.0: 3.11)")
     parser.add_argument("-o", "--output", type=Path, default=Path("wend-blender.zip"))
     options = parser.parse_args(arguments)
-    try:
-        write_zip(options.wheel, options.output)
-    except (InputError, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+    return as_command(lambda: write_zip(options.wheel, options.output))
 
 
 if __name__ == "__main__":

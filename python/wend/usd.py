@@ -10,15 +10,13 @@ import argparse
 import math
 import os
 import sys
-import warnings
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._builder import SceneBuilder
-from ._errors import InputError, SceneWarning
+from ._errors import InputError
 from ._scene_reader import Places, SceneReader
 
 try:
@@ -26,6 +24,7 @@ try:
 except ImportError as error:
     raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
 
+from . import _reader_command as command
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
@@ -278,45 +277,26 @@ def _reason(error: Any) -> str:
 
 def main(arguments: list[str] | None = None) -> int:
     """What `python -m wend.usd` does; the exit status."""
-    import wend
-
     parser = argparse.ArgumentParser(prog="python -m wend.usd", description="render a USD stage, or write it as a pbrt scene")
     parser.add_argument("stage", help=".usda, .usdc, .usd or .usdz")
-    parser.add_argument("-o", "--output", metavar="SCENE.pbrt", help="write the scene as a pbrt-v4 file")
-    parser.add_argument("--render", metavar="PICTURE", help="render it: .exr, .png or .jpg")
     parser.add_argument("--frame", type=float, help="time code (default: the first, or the default values)")
     parser.add_argument("--camera", metavar="PRIM", help="path of the camera (default: the first)")
     parser.add_argument("--resolution", default="640x360", metavar="WxH")
-    parser.add_argument("--spp", type=int, default=64, help="samples per pixel (64)")
-    parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
-    parser.add_argument("--sampling", default="full")
-    options = parser.parse_args(arguments)
-    if not options.output and not options.render:
-        parser.error("give --render PICTURE, or -o SCENE.pbrt, or both")
-    warnings.simplefilter("always", SceneWarning)
-    warnings.showwarning = lambda message, *_, **__: print(message, file=sys.stderr)
-    try:
-        width, _, height = options.resolution.partition("x")
-        if not (width.isdigit() and height.isdigit() and int(width) > 0 and int(height) > 0):
-            raise InputError(f"--resolution {options.resolution}: expected WIDTHxHEIGHT")
-        maps = None if not options.output else Path(options.output).with_suffix(".maps")
+    command.add_options(parser)
+    options = command.parsed(parser, arguments)
+
+    def convert() -> None:
         builder = read(
             options.stage,
             time=options.frame,
             camera=options.camera,
-            resolution=(int(width), int(height)),
+            resolution=command.size_of(options.resolution),
             spp=options.spp,
-            maps=maps,
+            maps=command.maps_of(options.output),
         )
-        if options.output:
-            Path(options.output).write_text(builder.text())
-        if options.render:
-            amount = {"spp": options.spp} if options.time is None else {"time": options.time}
-            wend.render(builder.scene(), sampling=options.sampling, **amount).save(options.render)
-    except (InputError, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+        command.deliver(builder, options, options.output, options.render)
+
+    return command.as_command(convert)
 
 
 if __name__ == "__main__":
