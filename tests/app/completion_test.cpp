@@ -74,7 +74,8 @@ TEST_F(Completion, BashOffersWhatThereIs) {
 }
 
 TEST_F(Completion, EveryOptionIsInEveryShellsScript) {
-    for (const std::string command : {"render", "compare", "metric", "merge", "demo", "halfspace", "slab", "field"}) {
+    for (const std::string command :
+         {"render", "compare", "metric", "merge", "denoise", "demo", "halfspace", "slab", "field"}) {
         const Words words = offered({"wend", command, "--"});
         for (const char* shell : {"zsh", "fish"}) {
             const std::string script = run_wend({"completion", shell}).out;
@@ -109,7 +110,8 @@ TEST_F(Completion, TheManualPageHasAllOfHelp) {
     const auto page = run_wend({"man-page"});
     ASSERT_EQ(page.status, 0) << page.err;
     EXPECT_FALSE(contains(run_wend({"--help"}).out, "man-page"));
-    for (const std::string command : {"render", "compare", "metric", "merge", "demo", "halfspace", "slab", "field"}) {
+    for (const std::string command :
+         {"render", "compare", "metric", "merge", "denoise", "demo", "halfspace", "slab", "field"}) {
         EXPECT_TRUE(contains(page.out, ".SS wend " + command + "\n")) << command;
     }
     for (const char* text : {"\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fITEXT\\fR\n", "\\fB\\-\\-carry\\-field\\fR\n",

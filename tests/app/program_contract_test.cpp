@@ -47,7 +47,8 @@ TEST_F(Program, SaysHowItIsUsed) {
     const auto general = run_wend({"--help"});
     EXPECT_EQ(general.status, 0);
     EXPECT_TRUE(general.err.empty());
-    for (const std::string command : {"render", "compare", "metric", "merge", "demo", "halfspace", "slab", "field"}) {
+    for (const std::string command :
+         {"render", "compare", "metric", "merge", "denoise", "demo", "halfspace", "slab", "field"}) {
         EXPECT_TRUE(contains(general.out, command));
         const auto help = run_wend({command, "--help"});
         EXPECT_EQ(help.status, 0);

@@ -61,7 +61,13 @@ void merge_files(const MergeOptions& options, const Streams& streams) {
     require_distinct(options.inputs, {options.output, options.common.json});
     const auto [merged, origins] = merge_renders(
         options.inputs.size(), [&](std::size_t k) { return options.inputs[k]; },
-        [&](std::size_t k) { return read_picture(options.inputs[k]); });
+        [&](std::size_t k) {
+            Picture picture = read_picture(options.inputs[k]);
+            if (picture.metadata.count("wend:denoised") > 0) {
+                throw InputError(Place{options.inputs[k]}, "a picture that was denoised cannot be merged");
+            }
+            return picture;
+        });
     require_no_other_render(options.output, origins);
     write_picture(options.output, merged.picture);
     note_result(options, streams, origins, merged);

@@ -1,5 +1,6 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
+#include <wend/app/denoiser.h>
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
@@ -32,6 +33,8 @@ struct RenderOptions {
     int samples = 0;
     double seconds = 0;
     double noise = 0;
+    bool denoise = false;
+    std::string denoiser;  ///< the library's file or folder
     std::string adaptive;  ///< "on", "off", or as `sampling` says
     std::string sampling = "full";
     std::string subsurface = "auto";
@@ -215,8 +218,12 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     Film film = session.new_film();
     const InterruptGuard interrupt;
     settings.stop = &interrupt.flag();
+    const auto denoiser = options.denoise && is_first_of(ranks)
+                              ? std::make_unique<Denoiser>(options.denoiser, options.common.threads)
+                              : nullptr;
     const auto write = [&](const RenderStatistics& statistics) {
-        (options.half ? write_colours : write_picture)(output, session.picture(film, settings, statistics));
+        const Picture picture = session.picture(film, settings, statistics);
+        (options.half ? write_colours : write_picture)(output, denoiser ? denoised(picture, *denoiser) : picture);
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
@@ -337,6 +344,13 @@ Action add_render_command(CLI::App& program) {
         .add_flag("--half", options->half,
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")
         ->needs(output);
+    CLI::Option* denoise =
+        command.add_flag("--denoise", options->denoise,
+                         "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");
+    command
+        .add_option("--oidn", options->denoiser,
+                    "the library's file or folder (default: what WEND_OIDN names, or the system's)")
+        ->needs(denoise);
     CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
     command

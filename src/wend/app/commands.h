@@ -9,6 +9,7 @@ Action add_render_command(CLI::App& program);
 Action add_compare_command(CLI::App& program);
 Action add_metric_command(CLI::App& program);
 Action add_merge_command(CLI::App& program);
+Action add_denoise_command(CLI::App& program);
 Action add_demo_command(CLI::App& program);
 Action add_field_command(CLI::App& program);
 Action add_halfspace_command(CLI::App& program);
