@@ -98,11 +98,12 @@ TEST_F(Compare, AnAblationIsATableOfEachDecision) {
                                   "ablation,full,classical", "--json", folder_.file("rows.json")});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto rows = nlohmann::json::parse(test::read_text(folder_.file("rows.json")))["rows"];
-    ASSERT_EQ(rows.size(), 12u) << "each once";
+    ASSERT_EQ(rows.size(), 14u) << "each once";
     EXPECT_EQ(rows[0]["sampling"], "classical");
-    EXPECT_EQ(rows[6]["sampling"], "full");
-    EXPECT_EQ(rows[11]["sampling"], "distance+direction+roulette");
-    for (const char* role : {"only distance", "only splitting", "no distance", "no splitting"}) {
+    EXPECT_EQ(rows[7]["sampling"], "full");
+    EXPECT_EQ(rows[13]["sampling"], "distance+direction+roulette+splitting");
+    for (const char* role :
+         {"only distance", "only splitting", "only adaptive", "no distance", "no splitting", "no adaptive"}) {
         EXPECT_NE(result.out.find(role), std::string::npos) << result.out;
     }
 }
