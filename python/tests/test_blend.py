@@ -258,6 +258,84 @@ def test_subsurface_of_one_colour_all_over(scene, tmp_path):
     assert ours.mean() == pytest.approx(1, abs=0.02)
 
 
+def mean_under_a_white_sky(scene, made):
+    """Of both, of a large plane seen from above."""
+    sky(scene, (1, 1, 1))
+    mesh(scene, "plane", made, size=40)
+    camera(scene, (0, 0, 5), (0, 0.01, 0))
+    return wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image.mean()
+
+
+def two(kind, first, second, factor=0.5):
+    """A material that mixes or adds two."""
+    made = bpy.data.materials.new(kind)
+    tree = made.node_tree
+    tree.nodes.clear()
+    both = node(tree, kind) if kind == "AddShader" else node(tree, kind, factor=factor)
+    sockets = both.inputs[-2:]
+    for (name, inputs), socket in zip((first, second), sockets):
+        link(tree, node(tree, name, **inputs), socket)
+    link(tree, both, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return made
+
+
+GREY = ("BsdfDiffuse", {"color": (0.8, 0.8, 0.8)})
+LIGHT = ("Emission", {"color": (1, 1, 1), "strength": 1.0})
+
+
+def test_a_mixture_with_light_reflects_its_share_alone(scene):
+    assert mean_under_a_white_sky(scene, two("MixShader", LIGHT, GREY)) == pytest.approx(0.5 + 0.4, abs=0.01)
+
+
+def test_a_sum_with_light_reflects_all(scene):
+    assert mean_under_a_white_sky(scene, two("AddShader", LIGHT, GREY)) == pytest.approx(1.8, abs=0.01)
+
+
+def test_a_sum_of_both_sides_is_one_material(scene):
+    through = ("BsdfTranslucent", {"color": (0.1, 0.1, 0.1)})
+    assert mean_under_a_white_sky(scene, two("AddShader", GREY, through)) == pytest.approx(0.9, abs=0.01)
+
+
+def test_groups_within_groups(scene):
+    inner = bpy.data.node_groups.new("inner", "ShaderNodeTree")
+    inner.interface.new_socket("Colour", in_out="INPUT", socket_type="NodeSocketColor")
+    inner.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    matt = inner.nodes.new("ShaderNodeBsdfDiffuse")
+    inner.links.new(inner.nodes.new("NodeGroupInput").outputs[0], matt.inputs["Color"])
+    inner.links.new(matt.outputs[0], inner.nodes.new("NodeGroupOutput").inputs[0])
+    outer = bpy.data.node_groups.new("outer", "ShaderNodeTree")
+    outer.interface.new_socket("Amount", in_out="INPUT", socket_type="NodeSocketFloat")
+    outer.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    used = outer.nodes.new("ShaderNodeGroup")
+    used.node_tree = inner
+    used.inputs[0].default_value = (0.6, 0.6, 0.6, 1)
+    mix = outer.nodes.new("ShaderNodeMixShader")
+    outer.links.new(outer.nodes.new("NodeGroupInput").outputs[0], mix.inputs[0])
+    outer.links.new(used.outputs[0], mix.inputs[1])
+    outer.links.new(outer.nodes.new("ShaderNodeEmission").outputs[0], mix.inputs[2])
+    outer.links.new(mix.outputs[0], outer.nodes.new("NodeGroupOutput").inputs[0])
+    made = bpy.data.materials.new("grouped")
+    tree = made.node_tree
+    tree.nodes.clear()
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = outer
+    group.inputs[0].default_value = 0.25
+    link(tree, group, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    assert mean_under_a_white_sky(scene, made) == pytest.approx(0.75 * 0.6 + 0.25, abs=0.01)
+
+
+def test_subsurface_scattering_in_the_sun(scene, tmp_path):
+    """Wide and even: what comes back is the colour, however it got there."""
+    wax = material("SubsurfaceScattering", color=(0.8, 0.5, 0.3), scale=0.1, radius=(1, 1, 1))
+    mesh(scene, "cube", wax, place=(0, 0, -2), stretch=(20, 20, 2))
+    lamp(scene, "SUN", 3, (0, 0, 5), (0, 0, 0), angle=0)
+    camera(scene, (0, 0, 5), (0, 0.01, 0))
+    theirs = by_cycles(scene, tmp_path, 256).mean(axis=(0, 1))
+    ours = wend.render(blend.of_scene(scene, spp=256).scene()).image.mean(axis=(0, 1))
+    # Cycles lets light in evenly, whatever it comes from, and inverts colours by a fit.
+    assert np.abs(ours / theirs - 1).max() < 0.25, ours / theirs
+
+
 def test_instances_of_a_collection(scene, tmp_path):
     sky(scene, (0.8, 0.8, 0.8))
     floor(scene)

@@ -21,6 +21,7 @@ class _Surface:
     alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
     inside: dict[str, Any] | None = None  #: parameters of a MakeNamedMedium
     is_clear: bool = False  #: light goes straight through
+    is_only_inside: bool = False  #: alone it is an interface around what is inside
 
 
 def look_of(reader: SceneReader, material: Any) -> Look:
@@ -52,6 +53,8 @@ def _look(reader: SceneReader, key: str, surface: _Surface, medium: dict[str, An
     if medium is not None:
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
     emission = tuple(float(x) for x in surface.emission) if surface.emission.max() > 0 else None
+    if surface.is_only_inside:
+        surface.material = None
     named = _name(reader, key, surface)
     if named is None and emission is None and medium is None:
         # Nothing is seen of it.
@@ -150,12 +153,16 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
             nodes.warn(node, "Coat Tint is left out")
     _detail(nodes, node, material)
     result = _Surface(material, emission=emission)
+    # Metal comes first, glass gets of the rest, and what scatters inside of the rest of that.
     transmission, subsurface = nodes.number(inputs["Transmission Weight"]), nodes.number(inputs["Subsurface Weight"])
-    if transmission > 0:
-        colour = nodes.colour(inputs["Base Color"])
-        glass = _clear(nodes, node, colour, nodes.number(inputs["Roughness"]), ior)
-        result = _blended(result, glass, transmission, emission)
-    elif subsurface > 0:
+    metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 or subsurface > 0 else 0.0
+    clear = min(transmission, 1.0) * (1 - metallic)
+    waxen = min(subsurface, 1.0) * (1 - metallic) * (1 - min(transmission, 1.0))
+    if clear + waxen > 0 and clear + waxen < 1:
+        material.pop("texture metallic", None)
+        material["float metallic"] = metallic / (1 - clear - waxen)
+    if waxen > 0:
+        nodes.warn(node, "what scatters inside is met through a boundary that refracts, not as Cycles' random walks do")
         radius = nodes.colour(inputs["Subsurface Radius"]) * nodes.number(inputs["Subsurface Scale"])
         wax: dict[str, Any] = {
             "string type": "subsurface",
@@ -167,14 +174,18 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         }
         nodes.add_to(wax, inputs["Base Color"], "reflectance", "rgb")
         _detail(nodes, node, wax)
-        result = _blended(result, _Surface(wax), subsurface, emission)
+        result = _blended(result, _Surface(wax), waxen / (1 - clear), emission)
+    if clear > 0:
+        colour = nodes.colour(inputs["Base Color"])
+        glass = _clear(nodes, node, colour, nodes.number(inputs["Roughness"]), ior)
+        result = _blended(result, glass, clear, emission)
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
         nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
     return result
 
 
 def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour) -> _Surface:
-    if amount >= 1:
+    if amount >= 1 - 1e-6:
         second.emission = emission
         return second
     return _Surface(mixed=(first, second, {"float amount": amount}), emission=emission)
@@ -242,15 +253,23 @@ def _translucent(nodes: Nodes, node: Any) -> _Surface:
 
 def _subsurface(nodes: Nodes, node: Any) -> _Surface:
     inputs = node.inputs
-    radius = nodes.colour(inputs["Radius"]) * nodes.number(inputs["Scale"])
-    material: dict[str, Any] = {
-        "string type": "subsurface",
-        "float eta": max(nodes.number(inputs["IOR"]), 1.0),
-        "float g": nodes.number(inputs["Anisotropy"]),
-        "rgb mfp": np.maximum(radius, 1e-6),
-    }
-    nodes.add_to(material, inputs["Color"], "reflectance", "rgb")
-    return _Surface(material)
+    radius = np.maximum(nodes.colour(inputs["Radius"]) * nodes.number(inputs["Scale"]), 1e-6)
+    mixed: dict[str, Any] = {"string type": "subsurface", "float eta": 1.33, "rgb mfp": radius}
+    nodes.add_to(mixed, inputs["Color"], "reflectance", "rgb")
+    if nodes.number(inputs["Anisotropy"]) != 0:
+        nodes.warn(node, "what scatters inside scatters evenly")
+    # Alone it has no surface: light goes in and out as it is. The albedo is that of Cycles' fit.
+    albedo = _albedo_inside(np.clip(nodes.colour(inputs["Color"]), 0, 1))
+    inside = {"rgb sigma_s": albedo / radius, "rgb sigma_a": (1 - albedo) / radius}
+    return _Surface(mixed, inside=inside, is_only_inside=True)
+
+
+def _albedo_inside(colour: Colour) -> Colour:
+    """Of collisions, that make an even surface of this colour: Cycles' fit for even scattering."""
+    part = colour**0.25
+    dark = 1.8260523782 * np.arctan(5.1124679 * colour) ** 1.09686102424
+    bright = 0.496310210422 * np.arctan(4.23190299701 * colour) ** 2.40602999408
+    return np.asarray(np.clip((1 - part) * dark + part * bright, 0, 1), dtype=np.float64)
 
 
 def _emission(nodes: Nodes, node: Any) -> _Surface:
@@ -279,21 +298,37 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
         if seen.alpha:
             nodes.warn(node, "of transparencies within each other the outermost counts")
         return _Surface(seen.material, seen.mixed, seen.emission, alpha, seen.inside)
-    if first.material is None and first.mixed is None:
-        return _Surface(second.material, second.mixed, emission, second.alpha)
-    if second.material is None and second.mixed is None:
-        return _Surface(first.material, first.mixed, emission, first.alpha)
-    return _Surface(mixed=(first, second, amount), emission=emission)
+    return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission)
+
+
+def _reflecting(surface: _Surface) -> _Surface:
+    """What only shines reflects nothing, and hides what is behind it."""
+    if surface.material is None and surface.mixed is None:
+        surface.material = {"string type": "diffuse", "rgb reflectance": (0, 0, 0)}
+    return surface
 
 
 def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
     first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[:2])
     emission = first.emission + second.emission
+    if (first.is_clear or second.is_clear) and emission.max() > 0:
+        nodes.warn(node, "what shines and is transparent as well hides what is behind it")
     for one, other in ((first, second), (second, first)):
         if one.material is None and one.mixed is None:
             return _Surface(other.material, other.mixed, emission, other.alpha, other.inside, other.is_clear and not emission.max() > 0)
+    through = _diffuse_both_ways(first.material, second.material) or _diffuse_both_ways(second.material, first.material)
+    if through is not None:
+        return _Surface(through, emission=emission)
     nodes.warn(node, "a sum of two surfaces is taken as their mean")
     return _Surface(mixed=(first, second, {"float amount": 0.5}), emission=emission)
+
+
+def _diffuse_both_ways(matt: dict[str, Any] | None, through: dict[str, Any] | None) -> dict[str, Any] | None:
+    """One material of a diffuse surface and of one that lets light through."""
+    if not matt or not through or matt["string type"] != "diffuse" or through["string type"] != "diffusetransmission":
+        return None
+    kept = {name: value for name, value in through.items() if not name.endswith(" reflectance")}
+    return kept | {name: value for name, value in matt.items() if name.endswith(" reflectance")}
 
 
 # ---- Volumes ----

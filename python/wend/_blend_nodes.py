@@ -23,13 +23,18 @@ def output_node(tree: Any) -> Any:
     return next((n for n in found if n.is_active_output), found[0] if found else None)
 
 
+def _like(socket: Any, sockets: Any) -> Any:
+    """Of a group, the socket on the other side."""
+    return next((other for other in sockets if other.identifier == socket.identifier), None)
+
+
 class Nodes:
     """The nodes of a material: what their inputs are."""
 
     def __init__(self, reader: SceneReader, place: str, key: str) -> None:
         self.reader, self.place, self.key = reader, place, key
-        #: Of each group that is entered: its node, from which inputs come.
-        self._groups: list[Any] = []
+        #: Of each tree that was entered, by its address: the group's node, whose inputs are those of the tree.
+        self._entered: dict[int, Any] = {}
         self._textures = 0
 
     def warn(self, node: Any, text: str) -> None:
@@ -53,22 +58,16 @@ class Nodes:
                 socket = next((l.from_socket for l in node.internal_links if l.to_socket == found), None)
                 if socket is None:
                     return None
-            elif node.bl_idname == "NodeGroupInput" and self._groups:
-                group = self._groups[-1]
-                socket = group.inputs[found.name]
-                if not socket.is_linked:
+            elif node.bl_idname == "NodeGroupInput":
+                group = self._entered.get(node.id_data.as_pointer())
+                socket = _like(found, group.inputs) if group is not None else None
+                if socket is None or not socket.is_linked:
                     return socket
-                self._groups.pop()
-                result = self.source(socket)
-                self._groups.append(group)
-                return result
             elif node.bl_idname == "ShaderNodeGroup" and node.node_tree:
-                inner = next((n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output), None)
-                if inner is None or len(self._groups) > 32:
-                    return None
-                self._groups.append(node)
-                socket = inner.inputs[found.name]
-                if not socket.is_linked:
+                outputs = [n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output]
+                socket = _like(found, outputs[0].inputs) if outputs else None
+                self._entered[node.node_tree.as_pointer()] = node
+                if socket is None or not socket.is_linked:
                     return socket
             else:
                 return found
