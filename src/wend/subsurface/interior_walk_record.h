@@ -12,8 +12,8 @@ namespace wend {
 /// How light that is brought changes, relatively: how much less it would be for more of each technique, and how much
 /// more for a larger logarithm of the preference of NextEventSettings.
 struct MixGradient {
-    InteriorGuide::PerTechnique shares{};
-    float preference = 0;
+    InteriorGuide::PerTechnique shares{};  ///< for more of each technique
+    float preference = 0;                  ///< for a larger logarithm of the preference
 };
 
 /// Of light that a connection from a collision found: `here` are InteriorWalk::relative_densities() at the collision,
@@ -40,7 +40,7 @@ struct InteriorWalkRecord {
     MixGradient slope{};
     /// Whether connections to lights from inside have succeeded: straight ones, and those that boundaries refract.
     bool connected = false;
-    bool connected_through = false;
+    bool connected_through = false;  ///< the second
 
     /// Light was found: its mean over the channels, and how that changes with the mix.
     void bring(float light, const MixGradient& relative_slope) {

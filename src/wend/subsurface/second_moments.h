@@ -20,27 +20,33 @@ public:
 
     /// Interior walks that are not finite say nothing.
     void add(int cell, const InteriorWalkRecord& interior_walk);
+    /// Counts in what another thread has counted.
     SecondMoments& operator+=(const SecondMoments& other);
 
     /// Of guided interior walks, or of others.
     struct Kind {
         std::array<double, 5> powers{};  ///< of F, from the zeroth on
-        double flights = 0;
+        double flights = 0;              ///< of all of them
 
+        /// Adds another's.
         Kind& operator+=(const Kind& other);
     };
+    /// Of the interior walks of a cell.
     struct Sums {
+        /// One number for each technique.
         using PerTechnique = std::array<double, std::tuple_size_v<InteriorGuide::PerTechnique>>;
-        Kind guided, unguided;
+        Kind guided;    ///< walks that were drawn by the guide
+        Kind unguided;  ///< others
         // Of guided interior walks:
-        PerTechnique slopes{};     ///< -(F² p_i / p + 2 F dF)
-        PerTechnique densities{};  ///< p_i / p
-        double connected = 0;      ///< number of interior walks
-        double connected_through = 0;
-        double preference_slope = 0;  ///< of F² with the logarithm of the preference
-        PerTechnique slope_squares{};
-        double preference_slope_squares = 0;
+        PerTechnique slopes{};                ///< -(F² p_i / p + 2 F dF)
+        PerTechnique densities{};             ///< p_i / p
+        double connected = 0;                 ///< number of interior walks that connections found light in
+        double connected_through = 0;         ///< the same, through boundaries
+        double preference_slope = 0;          ///< of F² with the logarithm of the preference
+        PerTechnique slope_squares{};         ///< sums of squares of `slopes`
+        double preference_slope_squares = 0;  ///< and of `preference_slope`
 
+        /// Adds another's.
         Sums& operator+=(const Sums& other);
     };
     /// By cell, of one medium.

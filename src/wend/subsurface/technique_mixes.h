@@ -24,7 +24,9 @@ public:
     /// The cell of an interior walk that begins at a point, finite; points outside of the box belong to the closest
     /// one.
     int cell_at(const Vec3& entry) const;
+    /// How many there are.
     int cells() const { return static_cast<int>(plans_.size()); }
+    /// How interior walks that begin in a cell are drawn.
     const TechniqueMix& plan(int cell) const { return plans_[static_cast<std::size_t>(cell)]; }
     /// The interior walk with what it brought over what is expected in its cell, as errors of a picture count relative
     /// to it, but no more than SecondMoments::most_expected. What moments are to be made of.
