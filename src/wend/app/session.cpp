@@ -2,7 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
-#include <wend/io/pbrt/parser.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/version.h>
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, pbrt::parse_file(options.file), {}) {
+    : Session(options, common, parse_scene(options.file), {}) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }

@@ -22,6 +22,10 @@ Rgb intensity_towards(const SpotLight& light, const Vec3& w) {
     if (!(cosine > light.cos_outer)) {
         return Rgb(0.0f);
     }
+    if (light.is_linear) {
+        const float outer = std::acos(light.cos_outer), inner = std::acos(light.cos_inner);
+        return light.intensity * std::clamp((outer - std::acos(cosine)) / (outer - inner), 0.0f, 1.0f);
+    }
     const float t = (cosine - light.cos_outer) / (light.cos_inner - light.cos_outer);
     return light.intensity * (t * t * (3 - 2 * t));
 }
@@ -44,6 +48,10 @@ Rgb intensity_towards(const ProjectionLight& light, const Vec3& w) {
 }
 
 float spread(const SpotLight& light) {
+    if (light.is_linear && light.cos_outer < light.cos_inner) {
+        const float outer = std::acos(light.cos_outer), inner = std::acos(light.cos_inner);
+        return 2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
+    }
     // The smooth step is a half on average.
     return 2 * pi * ((1 - light.cos_inner) + 0.5f * (light.cos_inner - light.cos_outer));
 }

@@ -17,6 +17,7 @@ struct SpotLight {
     AffineMap light_from_world;
     float cos_inner = 1;
     float cos_outer = 0;
+    bool is_linear = false;  ///< less in proportion to the angle, and not by a smooth step of its cosine
 };
 
 /// A point whose intensity, over all directions of its own space, is a square picture in the equal-area octahedral

@@ -68,12 +68,19 @@ std::uint64_t key_of(const Vec3& position) {
                    std::bit_cast<std::uint32_t>(position.z));
 }
 
+/// The reflectance r of which the series r + r² returned + ... is in proportion to the colour, and 1 for white.
+Rgb darkened(const Rgb& colour, float returned) {
+    const auto channel = [&](float c) { return c / (1 - returned + c * returned); };
+    return {channel(colour.r), channel(colour.g), channel(colour.b)};
+}
+
 Bsdf bsdf_of(const CoatedMaterial& m, const Textures& textures, const TexturePoint& p) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     CoatedBsdf b;
     b.coat = {m.ior, alpha.x, alpha.y};
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&m.base)) {
-        b.base = LambertBsdf{clamp01(textures.evaluate(diffuse->reflectance, p))};
+        const Rgb colour = clamp01(textures.evaluate(diffuse->reflectance, p));
+        b.base = LambertBsdf{m.is_linear && m.returned >= 0 ? darkened(colour, m.returned) : colour};
     } else {
         b.base = metal_of(std::get<ConductorMaterial>(m.base), textures, p, m.ior);
     }

@@ -85,6 +85,7 @@ private:
         const pbrt::ParameterSet& p = entity.parameters;
         CoatedMaterial material = load_coat(p, "");
         material.base = DiffuseMaterial{textures_.colour(p, "reflectance", Rgb(0.5f))};
+        material.is_linear = p.get_bool("linear", false);
         return {material};
     }
 
@@ -198,7 +199,11 @@ private:
             if (displacement) {
                 context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
             }
-            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
+            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"),
+                                                  is_from_top(p, "normalmaporigin") ? "raw" : "linear", entity.place);
+            if (is_from_top(p, "normalmaporigin")) {
+                detail.normal_map = std::make_shared<const Image>(upside_down(*detail.normal_map));
+            }
         } else if (displacement && textures_.varies(*displacement)) {
             detail.displacement = *displacement;
         }

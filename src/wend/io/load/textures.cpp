@@ -1,3 +1,4 @@
+#include <wend/io/colour_encoding.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
@@ -35,14 +36,34 @@ void apply_gamma(ImageWithOpacity& picture, float gamma) {
     }
 }
 
+/// That of a picture which is not PNG.
+std::string_view implied_encoding(const std::filesystem::path& file) {
+    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
+    return holds_floats ? "linear" : "sRGB";
+}
+
+/// Numbers as the file has them, whatever they are in others.
+ImageWithOpacity read_raw(const std::filesystem::path& file) {
+    ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
+    if (!is_png(file) && implied_encoding(file) == "sRGB") {
+        for (Rgb& c : picture.image.pixels) {
+            c = {linear_to_srgb(c.r), linear_to_srgb(c.g), linear_to_srgb(c.b)};
+        }
+    }
+    return picture;
+}
+
 ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::string& encoding, const Place& place) {
     if (encoding == "sRGB") {
         return read_image_with_opacity(file, ColourEncoding::srgb);
     }
+    if (encoding == "raw") {
+        return read_raw(file);
+    }
     const std::optional<float> gamma = gamma_of(encoding);
     if (!gamma && encoding != "linear") {
         throw InputError(place,
-                         fmt::format("the encoding \"{}\" is unknown; known are sRGB, linear, gamma X", encoding));
+                         fmt::format("the encoding \"{}\" is unknown; known are sRGB, linear, raw, gamma X", encoding));
     }
     ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
     if (gamma && is_png(file)) {
@@ -51,16 +72,14 @@ ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::stri
     return picture;
 }
 
-/// That of a picture which is not PNG.
-std::string_view implied_encoding(const std::filesystem::path& file) {
-    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
-    return holds_floats ? "linear" : "sRGB";
-}
-
 /// A picture's colours, or one number a pixel in all channels.
 Image reduce(ImageWithOpacity picture, TextureLoader::Channels channels) {
     std::vector<Rgb>& pixels = picture.image.pixels;
     for (std::size_t i = 0; i < pixels.size() && channels != TextureLoader::Channels::colours; ++i) {
+        if (channels == TextureLoader::Channels::luminance) {
+            pixels[i] = Rgb(luminance(pixels[i]));
+            continue;
+        }
         const bool is_first = channels == TextureLoader::Channels::first;
         const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
         const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
@@ -74,6 +93,9 @@ ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     if (wrap == "repeat") {
         return ImageTexture::Wrap::repeat;
     }
+    if (wrap == "mirror") {
+        return ImageTexture::Wrap::mirror;
+    }
     if (wrap == "clamp") {
         return ImageTexture::Wrap::clamp;
     }
@@ -85,7 +107,7 @@ ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     }
     throw InputError(
         p.place_of("wrap"),
-        fmt::format("the wrap mode \"{}\" is unknown; known are repeat, clamp, black, octahedralsphere", wrap));
+        fmt::format("the wrap mode \"{}\" is unknown; known are repeat, mirror, clamp, black, octahedralsphere", wrap));
 }
 
 /// Pictures are interpolated bilinearly unless the nearest pixel is wanted: with many samples a pixel, the finer
@@ -128,6 +150,22 @@ float finite_float(const pbrt::ParameterSet& p, std::string_view name, float fal
 
 }  // namespace
 
+bool is_from_top(const pbrt::ParameterSet& parameters, std::string_view name) {
+    const std::string origin = parameters.get_string(name, "bottom");
+    if (origin != "bottom" && origin != "top") {
+        throw InputError(parameters.place_of(name), fmt::format("\"{}\" is bottom or top, not \"{}\"", name, origin));
+    }
+    return origin == "top";
+}
+
+Image upside_down(const Image& image) {
+    Image result = image;
+    for (int y = 0; y < image.height; ++y) {
+        std::copy_n(&image.at(0, y), image.width, &result.at(0, image.height - 1 - y));
+    }
+    return result;
+}
+
 void TextureLoader::add(const pbrt::TextureEntity& texture) {
     by_name_.insert_or_assign({texture.kind, texture.name}, load(texture));
     context_.warnings.add_unused("Texture", texture);
@@ -144,8 +182,8 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
         {"dots", &TextureLoader::load_dots},         {"fbm", &TextureLoader::load_fractal},
         {"imagemap", &TextureLoader::load_imagemap}, {"marble", &TextureLoader::load_marble},
         {"mix", &TextureLoader::load_mix},           {"ptex", &TextureLoader::load_ptex},
-        {"scale", &TextureLoader::load_scale},       {"windy", &TextureLoader::load_windy},
-        {"wrinkled", &TextureLoader::load_wrinkled},
+        {"scale", &TextureLoader::load_scale},       {"sides", &TextureLoader::load_sides},
+        {"windy", &TextureLoader::load_windy},       {"wrinkled", &TextureLoader::load_wrinkled},
     };
     for (const Loader& loader : loaders) {
         if (loader.type == texture.type) {
@@ -154,7 +192,7 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
     }
     refuse_type("Texture", texture,
                 {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mix",
-                 "ptex", "scale", "windy", "wrinkled"});
+                 "ptex", "scale", "sides", "windy", "wrinkled"});
 }
 
 TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
@@ -174,17 +212,29 @@ TextureId TextureLoader::load_mix(const pbrt::TextureEntity& texture) {
     return add_node(MixTexture{first, second, amount}, {first, second, amount}, texture.place);
 }
 
+TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& texture, const std::string& filter) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    const std::string channels = p.get_string("channels", "");
+    if (channels != "" && channels != "luminance") {
+        throw InputError(p.place_of("channels"),
+                         fmt::format("the channels \"{}\" are unknown; known is luminance", channels));
+    }
+    return texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
+           : channels == "luminance"                       ? Channels::luminance
+           : filter == "bilinear" || filter == "trilinear" ? Channels::number
+                                                           : Channels::first;
+}
+
 TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     ImageTexture image;
     const std::string filter = load_filter(p);
     image.nearest = filter == "point";
-    const Channels channels = texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
-                              : filter == "bilinear" || filter == "trilinear" ? Channels::number
-                                                                              : Channels::first;
+    const Channels channels = load_channels(texture, filter);
     const std::filesystem::path file = required_file(context_, texture, "filename");
     image.image = picture(file, p.get_string("encoding", "sRGB"), p.place_of("encoding"), channels);
-    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != implied_encoding(file)) {
+    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != "raw" &&
+        p.get_string("encoding", "") != implied_encoding(file)) {
         context_.warnings.add(p.place_of("encoding"),
                               "the encoding of a picture that is not PNG is not asked for: "
                               "numbers of 8 bits are sRGB, others linear");
@@ -222,6 +272,11 @@ TextureId TextureLoader::load_checkerboard(const pbrt::TextureEntity& texture) {
                          fmt::format("a checkerboard has 2 or 3 dimensions, not {}", board.dimensions));
     }
     return add_node(board, {board.even, board.odd}, texture.place);
+}
+
+TextureId TextureLoader::load_sides(const pbrt::TextureEntity& texture) {
+    const SidesTexture sides{operand(texture, "tex1", 0), operand(texture, "tex2", 1)};
+    return add_node(sides, {sides.front, sides.back}, texture.place);
 }
 
 TextureId TextureLoader::load_direction_mix(const pbrt::TextureEntity& texture) {
@@ -288,6 +343,12 @@ TextureId TextureLoader::load_ptex(const pbrt::TextureEntity& texture) {
 TextureMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     const std::string kind = p.get_string("mapping", "uv");
+    if (const std::vector<float> m = p.get_floats("uvmatrix"); kind == "uv" && !m.empty()) {
+        if (m.size() != 6 || !std::all_of(m.begin(), m.end(), [](float x) { return std::isfinite(x); })) {
+            throw InputError(p.place_of("uvmatrix"), "\"uvmatrix\" is six finite numbers");
+        }
+        return UvMapping{m[0], m[4], m[2], m[5], m[1], m[3]};
+    }
     if (kind == "uv") {
         return UvMapping{finite_float(p, "uscale", 1), finite_float(p, "vscale", 1), finite_float(p, "udelta", 0),
                          finite_float(p, "vdelta", 0)};

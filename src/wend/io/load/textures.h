@@ -15,6 +15,13 @@
 
 namespace wend {
 
+/// A parameter that says where rows of a picture are counted from, beyond pbrt: "bottom" or "top", for v upwards or
+/// downwards. Throws InputError for another.
+bool is_from_top(const pbrt::ParameterSet& parameters, std::string_view name);
+
+/// The first row below.
+Image upside_down(const Image& image);
+
 /// Adds the textures of a scene file to the scene's, and looks up what parameters refer to.
 class TextureLoader {
 public:
@@ -45,11 +52,11 @@ public:
 
     /// What of a picture is wanted: its colours, or the one number that pbrt takes of it for a float texture. That is
     /// the opacity if there is one that is not 1 everywhere, or else the mean of the colours; but the first of them by
-    /// the filters that take single pixels.
-    enum class Channels { colours, number, first };
+    /// the filters that take single pixels. Or, beyond pbrt, the luminance of the colours.
+    enum class Channels { colours, number, first, luminance };
 
     /// Reads a picture file once however often it is asked for. `encoding` is pbrt's, of PNG files: "sRGB", "linear" or
-    /// "gamma X". A number is in all three channels.
+    /// "gamma X"; or "raw", of any file, whose numbers are taken as they are. A number is in all three channels.
     std::shared_ptr<const Image> picture(const std::filesystem::path& file, const std::string& encoding,
                                          const Place& place, Channels channels = Channels::colours);
 
@@ -60,6 +67,7 @@ private:
     TextureId load_mix(const pbrt::TextureEntity& texture);
     TextureId load_imagemap(const pbrt::TextureEntity& texture);
     TextureId load_checkerboard(const pbrt::TextureEntity& texture);
+    TextureId load_sides(const pbrt::TextureEntity& texture);
     TextureId load_direction_mix(const pbrt::TextureEntity& texture);
     TextureId load_bilerp(const pbrt::TextureEntity& texture);
     TextureId load_dots(const pbrt::TextureEntity& texture);
@@ -74,6 +82,7 @@ private:
     /// A parameter of the texture's own kind.
     TextureId operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
     TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place) const;
+    static Channels load_channels(const pbrt::TextureEntity& texture, const std::string& filter);
     TextureMapping load_mapping(const pbrt::TextureEntity& texture);
     /// A value that cannot be a texture itself.
     Rgb plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback);

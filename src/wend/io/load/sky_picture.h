@@ -1,0 +1,13 @@
+// Pictures of the whole sky in the mapping that lights have.
+#pragma once
+
+#include <wend/core/image.h>
+
+namespace wend {
+
+/// The square picture of a sphere by the equal-area octahedral mapping, of one by longitude and latitude: there the
+/// first row is around +z, the middle of a row is towards +x, and +y is to the left of it. Its pixels are means, and
+/// about as fine as those in the middle of the given one, up to 4096 x 4096.
+Image equal_area_sky(const Image& by_longitude);
+
+}  // namespace wend
