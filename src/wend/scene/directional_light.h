@@ -37,6 +37,8 @@ struct ProjectionLight {
     AffineMap light_from_world;
     std::shared_ptr<const LightPicture> picture;
     Vec2 half_size{1, 1};  ///< of the window
+    /// Whether it is the irradiance of the window that the picture gives, interpolated between its pixels.
+    bool lights_plane_evenly = false;
 };
 
 /// Power per steradian that leaves into a unit direction of the world.

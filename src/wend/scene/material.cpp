@@ -38,7 +38,8 @@ Bsdf bsdf_of(const DiffuseTransmissionMaterial& m, const Textures& textures, con
 ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p, float around) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     if (m.reflectance < 0) {
-        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y};
+        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y,
+                m.roughness.slopes};
     }
     // With eta = 1 the normal reflectance is k²/(4 + k²).
     Rgb k;
@@ -46,7 +47,7 @@ ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, con
     for (int c = 0; c < 3; ++c) {
         k[c] = 2 * std::sqrt(std::min(r[c], 0.9999f) / (1 - std::min(r[c], 0.9999f)));
     }
-    return {Rgb(1 / around), k / around, alpha.x, alpha.y};
+    return {Rgb(1 / around), k / around, alpha.x, alpha.y, m.roughness.slopes};
 }
 
 Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p) {
@@ -55,7 +56,9 @@ Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const Texture
 
 Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
-    return DielectricBsdf{m.ior, alpha.x, alpha.y};
+    DielectricBsdf b{m.ior, alpha.x, alpha.y};
+    b.slopes = m.roughness.slopes;
+    return b;
 }
 
 Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures&, const TexturePoint&) {
@@ -78,6 +81,7 @@ Bsdf bsdf_of(const CoatedMaterial& m, const Textures& textures, const TexturePoi
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     CoatedBsdf b;
     b.coat = {m.ior, alpha.x, alpha.y};
+    b.coat.slopes = m.roughness.slopes;
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&m.base)) {
         const Rgb colour = clamp01(textures.evaluate(diffuse->reflectance, p));
         b.base = LambertBsdf{m.is_linear && m.returned >= 0 ? darkened(colour, m.returned) : colour};

@@ -20,6 +20,7 @@ struct Roughness {
     TextureId u = 0;
     TextureId v = 0;
     bool remap = true;
+    FacetSlopes slopes = FacetSlopes::ggx;
 };
 
 struct ConductorMaterial {

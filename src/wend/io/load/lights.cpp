@@ -132,6 +132,16 @@ GoniometricLight load_goniometric(LoadContext& context, TextureLoader& textures,
     return source;
 }
 
+/// "profile", beyond pbrt: whether a wall across the beam is lit evenly, and not a sphere.
+bool load_even_profile(const pbrt::ParameterSet& p) {
+    const std::string profile = p.get_string("profile", "sphere");
+    if (profile != "sphere" && profile != "plane") {
+        throw InputError(p.place_of("profile"),
+                         fmt::format("the profile \"{}\" is unknown; known are sphere, plane", profile));
+    }
+    return profile == "plane";
+}
+
 /// "fovaxis", beyond pbrt: whether a field of view is that of the width, and not of the shorter side.
 bool load_fov_axis(const pbrt::ParameterSet& p) {
     const std::string axis = p.get_string("fovaxis", "shorter");
@@ -158,6 +168,7 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
     projector.half_size =
         (is_of_width ? Vec2(1, 1 / aspect) : Vec2(std::max(aspect, 1.0f), std::max(1 / aspect, 1.0f))) *
         std::tan(0.5f * fov * pi / 180);
+    projector.lights_plane_evenly = load_even_profile(p);
     projector.intensity = Rgb(non_negative_float(p, "scale", 1) * power_factor(p, luminance(spread(projector))));
     return projector;
 }
@@ -230,7 +241,8 @@ Image load_sky(LoadContext& context, TextureLoader& textures, const pbrt::LightE
     const std::string mapping = light.parameters.get_string("mapping", "equalarea");
     Image image = load_picture(context, textures, light);
     if (mapping == "equirectangular") {
-        return equal_area_sky(image);
+        const bool has_poles = light.parameters.get_bool("rowsatpoles", false);
+        return equal_area_sky(image, has_poles ? SkyRows::on_nodes : SkyRows::in_strips);
     }
     if (mapping != "equalarea") {
         throw InputError(light.parameters.place_of("mapping"),

@@ -320,7 +320,18 @@ private:
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
         const TextureId both = textures_.real(p, prefix + "roughness", 0);
         return {textures_.find_real(p, prefix + "uroughness").value_or(both),
-                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true)};
+                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true),
+                load_slopes(p)};
+    }
+
+    /// "facets", beyond pbrt.
+    static FacetSlopes load_slopes(const pbrt::ParameterSet& p) {
+        const std::string name = p.get_string("facets", "ggx");
+        if (name != "ggx" && name != "beckmann") {
+            throw InputError(p.place_of("facets"),
+                             fmt::format("the facets \"{}\" are unknown; known are ggx, beckmann", name));
+        }
+        return name == "ggx" ? FacetSlopes::ggx : FacetSlopes::beckmann;
     }
 
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.

@@ -9,17 +9,19 @@
 namespace wend {
 namespace {
 
-Rgb towards(const Image& by_longitude, const Vec3& d) {
+Rgb towards(const Image& by_longitude, SkyRows rows, const Vec3& d) {
     const float u = 0.5f - std::atan2(d.y, d.x) / (2 * pi), v = std::acos(std::clamp(d.z, -1.0f, 1.0f)) / pi;
     const int width = by_longitude.width, height = by_longitude.height;
-    return bilinear({u * static_cast<float>(width), v * static_cast<float>(height)}, [&](int x, int y) {
+    const float row =
+        rows == SkyRows::in_strips ? v * static_cast<float>(height) : v * static_cast<float>(height - 1) + 0.5f;
+    return bilinear({u * static_cast<float>(width), row}, [&](int x, int y) {
         return by_longitude.at(((x % width) + width) % width, std::clamp(y, 0, height - 1));
     });
 }
 
 }  // namespace
 
-Image equal_area_sky(const Image& by_longitude) {
+Image equal_area_sky(const Image& by_longitude, SkyRows rows) {
     constexpr int samples = 4;
     constexpr double finer = 1.25, least = 16, most = 4096;
     const double pixels = static_cast<double>(by_longitude.width) * by_longitude.height;
@@ -33,7 +35,7 @@ Image equal_area_sky(const Image& by_longitude) {
                     return (static_cast<float>(pixel) + (static_cast<float>(sample) + 0.5f) / samples) /
                            static_cast<float>(side);
                 };
-                sum += towards(by_longitude,
+                sum += towards(by_longitude, rows,
                                equal_area_square_to_sphere({within(x, i % samples), within(y, i / samples)}));
             }
             sky.at(x, y) = sum / (samples * samples);

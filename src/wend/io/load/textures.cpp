@@ -1,5 +1,3 @@
-#include <wend/io/colour_encoding.h>
-#include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/textures.h>
@@ -7,86 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
 #include <cmath>
-#include <cstdlib>
 
 namespace wend {
 namespace {
-
-/// The exponent in "gamma X"; none for another text.
-std::optional<float> gamma_of(const std::string& encoding) {
-    constexpr std::string_view prefix = "gamma ";
-    if (!encoding.starts_with(prefix)) {
-        return std::nullopt;
-    }
-    const char* text = encoding.c_str() + prefix.size();
-    char* end = nullptr;
-    const float gamma = std::strtof(text, &end);
-    return end != text && *end == '\0' && gamma > 0 && std::isfinite(gamma) ? std::optional(gamma) : std::nullopt;
-}
-
-/// By a gamma, of PNG files alone. Their opacity is encoded as the colours are.
-void apply_gamma(ImageWithOpacity& picture, float gamma) {
-    for (Rgb& c : picture.image.pixels) {
-        c = {std::pow(c.r, gamma), std::pow(c.g, gamma), std::pow(c.b, gamma)};
-    }
-    for (float& opacity : picture.opacity) {
-        opacity = std::pow(opacity, gamma);
-    }
-}
-
-/// That of a picture which is not PNG.
-std::string_view implied_encoding(const std::filesystem::path& file) {
-    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
-    return holds_floats ? "linear" : "sRGB";
-}
-
-/// Numbers as the file has them, whatever they are in others.
-ImageWithOpacity read_raw(const std::filesystem::path& file) {
-    ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
-    if (!is_png(file) && implied_encoding(file) == "sRGB") {
-        for (Rgb& c : picture.image.pixels) {
-            c = {linear_to_srgb(c.r), linear_to_srgb(c.g), linear_to_srgb(c.b)};
-        }
-    }
-    return picture;
-}
-
-ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::string& encoding, const Place& place) {
-    if (encoding == "sRGB") {
-        return read_image_with_opacity(file, ColourEncoding::srgb);
-    }
-    if (encoding == "raw") {
-        return read_raw(file);
-    }
-    const std::optional<float> gamma = gamma_of(encoding);
-    if (!gamma && encoding != "linear") {
-        throw InputError(place,
-                         fmt::format("the encoding \"{}\" is unknown; known are sRGB, linear, raw, gamma X", encoding));
-    }
-    ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
-    if (gamma && is_png(file)) {
-        apply_gamma(picture, *gamma);
-    }
-    return picture;
-}
-
-/// A picture's colours, or one number a pixel in all channels.
-Image reduce(ImageWithOpacity picture, TextureLoader::Channels channels) {
-    std::vector<Rgb>& pixels = picture.image.pixels;
-    for (std::size_t i = 0; i < pixels.size() && channels != TextureLoader::Channels::colours; ++i) {
-        if (channels == TextureLoader::Channels::luminance) {
-            pixels[i] = Rgb(luminance(pixels[i]));
-            continue;
-        }
-        const bool is_first = channels == TextureLoader::Channels::first;
-        const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
-        const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
-        pixels[i] = Rgb(is_first || picture.opacity.empty() ? colour : picture.opacity[i]);
-    }
-    return std::move(picture.image);
-}
 
 ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     const std::string wrap = p.get_string("wrap", "repeat");
@@ -149,22 +71,6 @@ float finite_float(const pbrt::ParameterSet& p, std::string_view name, float fal
 }
 
 }  // namespace
-
-bool is_from_top(const pbrt::ParameterSet& parameters, std::string_view name) {
-    const std::string origin = parameters.get_string(name, "bottom");
-    if (origin != "bottom" && origin != "top") {
-        throw InputError(parameters.place_of(name), fmt::format("\"{}\" is bottom or top, not \"{}\"", name, origin));
-    }
-    return origin == "top";
-}
-
-Image upside_down(const Image& image) {
-    Image result = image;
-    for (int y = 0; y < image.height; ++y) {
-        std::copy_n(&image.at(0, y), image.width, &result.at(0, image.height - 1 - y));
-    }
-    return result;
-}
 
 void TextureLoader::add(const pbrt::TextureEntity& texture) {
     by_name_.insert_or_assign({texture.kind, texture.name}, load(texture));
@@ -454,7 +360,7 @@ std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path&
                                                     const Place& place, Channels channels) {
     std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding, channels}];
     if (!image) {
-        image = std::make_shared<const Image>(reduce(read_encoded(file, encoding, place), channels));
+        image = std::make_shared<const Image>(reduce_picture(read_encoded(file, encoding, place), channels));
     }
     return image;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <wend/io/load/context.h>
+#include <wend/io/load/pictures.h>
 #include <wend/io/spectrum/colorimetry.h>
 #include <wend/scene/texture.h>
 
@@ -14,13 +15,6 @@
 #include <utility>
 
 namespace wend {
-
-/// A parameter that says where rows of a picture are counted from, beyond pbrt: "bottom" or "top", for v upwards or
-/// downwards. Throws InputError for another.
-bool is_from_top(const pbrt::ParameterSet& parameters, std::string_view name);
-
-/// The first row below.
-Image upside_down(const Image& image);
 
 /// Adds the textures of a scene file to the scene's, and looks up what parameters refer to.
 class TextureLoader {
@@ -50,10 +44,7 @@ public:
     /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
     Rgb mean(TextureId id) const;
 
-    /// What of a picture is wanted: its colours, or the one number that pbrt takes of it for a float texture. That is
-    /// the opacity if there is one that is not 1 everywhere, or else the mean of the colours; but the first of them by
-    /// the filters that take single pixels. Or, beyond pbrt, the luminance of the colours.
-    enum class Channels { colours, number, first, luminance };
+    using Channels = PictureChannels;
 
     /// Reads a picture file once however often it is asked for. `encoding` is pbrt's, of PNG files: "sRGB", "linear" or
     /// "gamma X"; or "raw", of any file, whose numbers are taken as they are. A number is in all three channels.

@@ -78,6 +78,7 @@ void add_environment(const Object& emitter) {
     Parameters p(emitter.place());
     p.text("filename", emitter.file("filename").string())
         .text("mapping", "equirectangular")
+        .flag("rowsatpoles", true)
         .real("scale", emitter.non_negative("scale", 1));
     emitter.ignore("mis_compensation");
     // Its middle is towards z, its left towards x, and its top towards y; of ours towards x, y and z.
@@ -101,7 +102,9 @@ void add_projector(const Object& emitter) {
     p.text("filename", bitmap.file("filename").string())
         .real("fov", fov)
         .text("fovaxis", "x")
-        .real("scale", emitter.non_negative("scale", 1));
+        .text("profile", "plane")
+        // As Mitsuba has it.
+        .real("scale", double{pi} * emitter.non_negative("scale", 1));
     bitmap.ignore("raw");
     bitmap.ignore("format");
     bitmap.warn_of_unused();

@@ -234,12 +234,8 @@ void Materials::set_roughness(const Object& bsdf, const std::string& prefix, Par
         throw InputError(bsdf.place_of("distribution"),
                          fmt::format("\"{}\" is no distribution of facets; known are beckmann, ggx", facets));
     }
-    if (facets == "beckmann") {
-        context_.warn(bsdf.place_of("distribution"),
-                      "facets of the distribution \"beckmann\", which is the default, are taken for those of \"ggx\"");
-    }
     bsdf.ignore("sample_visible");
-    p.flag("remaproughness", false);
+    p.flag("remaproughness", false).text("facets", facets);
     if (bsdf.has("alpha_u") || bsdf.has("alpha_v")) {
         p.real(prefix + "uroughness", textures_.number(bsdf, "alpha_u", 0.1))
             .real(prefix + "vroughness", textures_.number(bsdf, "alpha_v", 0.1));

@@ -78,7 +78,7 @@ void set_perspective(const Object& sensor, const FilmSize& film, Parameters& p) 
         p.real("fov", 2 * degrees * std::atan(std::min(half, half_y)));
     } else {
         p.real("fov", 90);
-        add_screen_window(p, half, half_y, -2 * x * half, 2 * y * half_y);
+        add_screen_window(p, half, half_y, 2 * x * half, -2 * y * half_y);
     }
     if (sensor.type() == "thinlens") {
         p.real("lensradius", sensor.non_negative("aperture_radius", 0));

@@ -60,6 +60,11 @@ Quadric quadric_of(const Object& shape, Parameters& p) {
 }  // namespace
 
 void Shapes::add(const Element& element) {
+    constexpr int deepest = 32;
+    if (depth_ >= deepest) {
+        throw InputError(element.place, "shapes are merged of each other, too deeply or in a circle");
+    }
+    ++depth_;
     const Object shape(context_, element);
     const std::string_view type = shape.type();
     if (is_mesh(type) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
@@ -74,12 +79,14 @@ void Shapes::add(const Element& element) {
         }
     } else if (is_one_of(type, {"bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"})) {
         context_.warn(shape.place(), fmt::format("{} is not implemented: it is left out", shape.title()));
+        --depth_;
         return;
     } else {
         refuse_type(shape,
                     "cube, cylinder, disk, instance, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
     }
     shape.warn_of_unused();
+    --depth_;
 }
 
 void Shapes::add_object(const Object& shape) {
@@ -130,12 +137,12 @@ void Shapes::add_object(const Object& shape) {
 }
 
 std::string Shapes::group_name(const Element& element) {
+    if (in_group_) {
+        throw InputError(element.place, "a \"shapegroup\" cannot be in another one");
+    }
     const auto [known, is_new] = groups_.try_emplace(&element);
     if (!is_new) {
         return known->second;
-    }
-    if (in_group_) {
-        throw InputError(element.place, "a \"shapegroup\" cannot be in another one");
     }
     const Object group(context_, element);
     known->second = context_.new_name();

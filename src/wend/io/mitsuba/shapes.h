@@ -28,6 +28,7 @@ private:
     Media& media_;
     std::map<const Element*, std::string> groups_;
     bool in_group_ = false;
+    int depth_ = 0;
 };
 
 }  // namespace wend::mitsuba
