@@ -92,7 +92,7 @@ TEST(MitsubaDocument, WhatIsWrongIsNamedWithItsPlace) {
         {"<shap type=\"sphere\"/>", "<shap> is unknown; known are scene, bsdf"},
         {"<shape/>", "<shape> needs the attribute \"type\""},
         {"<shape type=\"sphere\" typ=\"a\"/>", "<shape> has no attribute \"typ\""},
-        {"<shape type=\"sphere\" type=\"cube\"/>", "this is no XML"},
+        {"<shape type=\"sphere\" type=\"cube\"/>", "the attribute \"type\" is given twice"},
         {"<shape type=\"$kind\"/>", "\"$kind\" is not defined"},
         {"<shape type=\"sphere\"><ref id=\"no\"/></shape>", "nothing has the id \"no\""},
         {"<alias id=\"no\" as=\"a\"/>", "nothing before has the id \"no\""},

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/io/pbrt_support.h"
-#include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 #include <wend/io/mitsuba/reader.h>
 

@@ -105,8 +105,9 @@ void add_projector(const Object& emitter) {
         .text("profile", "plane")
         // As Mitsuba has it.
         .real("scale", double{pi} * emitter.non_negative("scale", 1));
-    bitmap.ignore("raw");
-    bitmap.ignore("format");
+    for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
+        bitmap.ignore(name);
+    }
     bitmap.warn_of_unused();
     add(emitter, emitter.transform("to_world") * Transform::scale(-1, 1, 1), "projection", p);
 }
@@ -156,9 +157,9 @@ bool add_area_emitter(Context& context, const Element& element) {
                              "the \"radiance\" of an area light may vary by a <texture type=\"bitmap\">");
         }
         p.text("filename", bitmap.file("filename").string()).text("origin", "top");
-        bitmap.ignore("raw");
-        bitmap.ignore("filter_type");
-        bitmap.ignore("format");
+        for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
+            bitmap.ignore(name);
+        }
         bitmap.warn_of_unused();
     } else {
         p.colour("L", light_of(emitter, "radiance"));

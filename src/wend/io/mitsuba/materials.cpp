@@ -170,6 +170,13 @@ std::string Materials::blended(const Object& bsdf, const Setting& setting) {
 
 void Materials::set_detail(const Element& element, Parameters& p) {
     const Object detail(context_, element);
+    if (detail.flag("use_shadowing_function", true)) {
+        context_.warn(detail.place_of("use_shadowing_function"),
+                      fmt::format("light on a {} is not weakened where it grazes what the normals show "
+                                  "(\"use_shadowing_function\")",
+                                  detail.type()));
+    }
+    detail.ignore("flip_invalid_normals");
     const std::vector<const Element*> maps = detail.nested("texture");
     if (maps.size() != 1) {
         throw InputError(detail.place(), fmt::format("{} has one <texture>, not {}", detail.title(), maps.size()));

@@ -44,6 +44,26 @@ TriangleMeshData cube() {
     return mesh;
 }
 
+/// The unit disk, with the radius and the angle as texture coordinates.
+TriangleMeshData disk() {
+    constexpr std::uint32_t rings = 16, segments = 256;
+    TriangleMeshData mesh;
+    for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+        for (std::uint32_t segment = 0; segment <= segments; ++segment) {
+            const Vec2 uv(static_cast<float>(ring) / rings, static_cast<float>(segment) / segments);
+            const float angle = 2 * pi * uv.y;
+            mesh.positions.push_back({uv.x * std::cos(angle), uv.x * std::sin(angle), 0});
+            mesh.normals.push_back({0, 0, 1});
+            mesh.uvs.push_back(uv);
+            if (ring < rings && segment < segments) {
+                const std::uint32_t corner = ring * (segments + 1) + segment, next = corner + segments + 1;
+                mesh.indices.insert(mesh.indices.end(), {corner, next, next + 1, corner, next + 1, corner + 1});
+            }
+        }
+    }
+    return mesh;
+}
+
 float angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
@@ -71,6 +91,9 @@ TriangleMeshData read_mesh(const Object& shape, bool& has_face_normals) {
     }
     if (shape.type() == "cube") {
         return cube();
+    }
+    if (shape.type() == "disk") {
+        return disk();
     }
     const std::filesystem::path file = shape.file("filename");
     if (shape.type() == "serialized") {

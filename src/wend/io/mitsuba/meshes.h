@@ -6,8 +6,8 @@
 
 namespace wend::mitsuba {
 
-/// The mesh that a shape is: `cube`, `obj`, `ply`, `rectangle` or `serialized`, with normals as Mitsuba has them: of
-/// files without any, means over the triangles at a vertex by their angles, unless faces are to be flat.
+/// The mesh that a shape is: `cube`, `disk`, `obj`, `ply`, `rectangle` or `serialized`, with normals as Mitsuba has
+/// them: of files without any, means over the triangles at a vertex by their angles, unless faces are to be flat.
 TriangleMeshData mesh_of(const Object& shape);
 
 /// As parameters of a `trianglemesh`.

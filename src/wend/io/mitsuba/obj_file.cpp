@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -124,7 +125,8 @@ private:
                     fmt::format("the index {} is out of range: there are {}", digits.substr(0, 40), size));
             corner[i] = static_cast<std::uint32_t>(index);
         }
-        require(corner[0] > 0 && left.empty(), fmt::format("\"{}\" is no corner of a face", word.substr(0, 40)));
+        require(corner[0] > 0 && std::count(word.begin(), word.end(), '/') <= 2,
+                fmt::format("\"{}\" is no corner of a face", word.substr(0, 40)));
         return corner;
     }
 

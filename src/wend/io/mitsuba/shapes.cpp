@@ -15,8 +15,21 @@ bool is_one_of(std::string_view type, std::initializer_list<std::string_view> na
     return std::find(names.begin(), names.end(), type) != names.end();
 }
 
-bool is_mesh(std::string_view type) {
-    return is_one_of(type, {"cube", "obj", "ply", "rectangle", "serialized"});
+/// Whether a texture is in an object, or in what it refers to.
+bool has_texture(const Object& object, int depth = 0) {
+    constexpr int deepest = 8;
+    if (depth > deepest || !object.nested("texture").empty()) {
+        return true;
+    }
+    const std::vector<const Element*> inner = object.nested("bsdf");
+    return std::any_of(inner.begin(), inner.end(),
+                       [&](const Element* bsdf) { return has_texture(Object(object.context(), *bsdf), depth + 1); });
+}
+
+/// Disks with textures are: their texture coordinates are others than those of a disk of pbrt.
+bool is_mesh(const Object& shape) {
+    return is_one_of(shape.type(), {"cube", "obj", "ply", "rectangle", "serialized"}) ||
+           (shape.type() == "disk" && has_texture(shape));
 }
 
 /// Of the map from the unit sphere, disk or cylinder, whose axis is z.
@@ -67,7 +80,7 @@ void Shapes::add(const Element& element) {
     ++depth_;
     const Object shape(context_, element);
     const std::string_view type = shape.type();
-    if (is_mesh(type) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
+    if (is_mesh(shape) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
         add_object(shape);
     } else if (type == "instance") {
         add_instance(shape);
@@ -93,7 +106,7 @@ void Shapes::add_object(const Object& shape) {
     Parameters p(shape.place());
     Transform to_world;
     std::string type = "trianglemesh";
-    if (is_mesh(shape.type())) {
+    if (is_mesh(shape)) {
         const TriangleMeshData mesh = mesh_of(shape);
         if (mesh.indices.empty()) {
             context_.warn(shape.place(), fmt::format("{} has no triangles: it is left out", shape.title()));
