@@ -38,8 +38,11 @@ def stage(layout: Layout, tree: list[dict]) -> None:
     stage_interfaces(layout)
     stage_python(layout)
     stage_sources(layout)
-    for page, (title, text, order) in LISTS.items():
-        layout.write(page, "\n".join([f"# {title}", "", text, "", "```{toctree}", ":glob:", "", *order, "*", "```", ""]))
+    for page, (title, text, first) in LISTS.items():
+        folder = Path(page).parent.as_posix()
+        others = sorted(Path(name).stem for name in layout.written if Path(name).parent.as_posix() == folder)
+        pages = [*first, *(name for name in others if name not in first and name != "index")]
+        layout.write(page, "\n".join([f"# {title}", "", text, "", "```{toctree}", "", *pages, "```", ""]))
     layout.write("bibliography.md", BIBLIOGRAPHY)
 
 
@@ -84,7 +87,6 @@ def main() -> None:
     drop_old_pages(layout, output / "html")
     environment = {
         "WEND_VERSION": options.version,
-        "WEND_PAGES": str(pages),
         "WEND_DOXYGEN_XML": str(run_doxygen(options.doxyfile, output / "doxygen")),
         "PYTHONPATH": str(options.python.resolve()),
         "PYTHONDONTWRITEBYTECODE": "1",

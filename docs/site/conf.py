@@ -35,8 +35,9 @@ breathe_default_project = "wend"
 breathe_domain_by_file_pattern = {"*/capi/*.h": "c"}
 breathe_show_include = False
 
-bibtex_bibfiles = [os.path.relpath(ROOT / "docs" / "references.bib", os.environ["WEND_PAGES"])]
-bibtex_reference_style = "author_year"
+bibtex_bibfiles = [str(ROOT / "docs" / "references.bib")]
+bibtex_default_style = "by_author"
+bibtex_reference_style = "authors_and_year"
 wend_bibliography = str(ROOT / "docs" / "references.bib")
 
 autodoc_member_order = "bysource"

@@ -20,18 +20,28 @@ def offences(text: str, tree: list[dict], page: str) -> Iterator[str]:
 
 
 def line_offences(line: str, known: dict[str, set[str]], page: str) -> Iterator[str]:
-    words = shlex.split(line, comments=True)
-    for at, word in enumerate(words):
-        if not PROGRAM.search(word):
-            continue
-        said = [*words[at + 1 :], ";"]
-        said = said[: next(i for i, other in enumerate(said) if other in END)]
-        command = next((other for other in said if other in known), "")
+    for said in program_calls(shlex.split(line, comments=True)):
+        command = next((word for word in said if word and word in known), "")
         if not command and not (said and set(said) <= known[""]):
             yield f"{page}: {line.strip()}: there is no such subcommand"
-            return
-        for option in said:
-            name = option.split("=")[0]
+            continue
+        for word in said:
+            name = word.split("=")[0]
             if re.match(r"--?[a-z]", name) and name not in known[command] | known[""]:
                 yield f"{page}: {line.strip()}: wend {command} has no option {name}"
-        return
+
+
+def program_calls(words: list[str]) -> Iterator[list[str]]:
+    """What is said to the program in a line of a shell: what follows its name where a command begins."""
+    command: list[str] = []
+    for word in [*words, ";"]:
+        if word not in END:
+            command.append(word)
+            continue
+        while command and (re.match(r"\w+=", command[0]) or command[0] == "time"):
+            command.pop(0)
+        if command and command[0] == "mpirun" and "wend" in command:
+            command = command[command.index("wend") :]
+        if command and PROGRAM.search(command[0]):
+            yield command[1:]
+        command = []

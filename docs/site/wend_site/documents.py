@@ -10,6 +10,7 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.transforms import SphinxTransform
 
+from . import citations, docstrings
 from .formulas import IN_TEXT, formula_html
 
 # As tests/layers/check_citations.py has them.
@@ -78,8 +79,11 @@ def visit_math_block(translator: Any, node: nodes.math_block) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
+    citations.register()
     app.add_config_value("wend_bibliography", "", "env", str)
     app.add_transform(Citations)
     app.add_transform(Formulas)
+    # Before napoleon, which knows the sections.
+    app.connect("autodoc-process-docstring", docstrings.process, priority=400)
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_math_block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -28,6 +28,9 @@ INDEXED = {"docs/theory": "theory/index.md", "docs/decisions": "decisions/index.
 # What is shown, or given as a file, where it lies.
 FILES = {".png", ".jpg", ".svg", ".pbrt"}
 
+# What pages are to have that are lists for readers of the repository, too.
+APPENDED = {"experiments/index.md": "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"}
+
 LINK = re.compile(r"\]\(([^()\s]+)\)")
 INCLUDED = re.compile(r"^(\s*(?:`{3,}|:{3,})\{(?:literalinclude|figure|image)\} )(\S+)$")
 FENCE = re.compile(r"^\s*(`{3,}|~{3,}|:{3,})")
@@ -115,7 +118,8 @@ class Layout:
         """Writes the pages of all documents."""
         for document in self.documents():
             text = (self.root / document).read_text()
-            self.write(self.page_of(document) or document, self.rewritten(text, document))
+            page = self.page_of(document) or document
+            self.write(page, self.rewritten(text, document) + APPENDED.get(page, ""))
 
     def write(self, page: str, text: str) -> None:
         """Writes a page, unless it is there already: Sphinx reads again what is newer."""

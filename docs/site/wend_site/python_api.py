@@ -38,17 +38,22 @@ def public_functions(path: Path) -> list[str]:
     return [name for name in names if not name.startswith("_") and name != "main"]
 
 
-def kind_of(name: str) -> str:
-    if name.endswith(("Error", "Warning")):
-        return "autoexception"
-    if name[0].isupper():
-        return "autoclass"
-    return "autodata" if name.endswith("dtype") else "autofunction"
+def kinds_in(package: Path) -> dict[str, str]:
+    """The directive for each class and function of a package; of other names there is none."""
+    kinds = {}
+    for path in package.glob("*.py"):
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef):
+                kinds[node.name] = "autoexception" if node.name.endswith(("Error", "Warning")) else "autoclass"
+            elif isinstance(node, ast.FunctionDef):
+                kinds[node.name] = "autofunction"
+    return kinds
 
 
 def module_page(module: str, names: list[str], path: Path) -> str:
     lines = [f"# {module}", "", "```{eval-rst}", f".. automodule:: {module}", "   :no-members:", "", f".. currentmodule:: {module}", ""]
+    kinds = kinds_in(path.parent)
     for name in names:
-        kind = kind_of(name)
+        kind = kinds.get(name, "autodata")
         lines += [f".. {kind}:: {name}", *(["   :members:"] if kind == "autoclass" else []), ""]
     return "\n".join([*lines, "```", ""])
