@@ -42,6 +42,7 @@ wend_bibliography = str(ROOT / "docs" / "references.bib")
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+autodoc_type_aliases = {"npt.ArrayLike": "ArrayLike", "npt.NDArray": "NDArray"}
 # Whoever reads the pages need not have them.
 autodoc_mock_imports = ["bpy", "pxr"]
 

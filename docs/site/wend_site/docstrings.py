@@ -4,6 +4,8 @@ import re
 from typing import Any
 
 QUOTED = re.compile(r"(?<!`)`([^`]+)`(?!`)(\w?)")
+# Stands for a colon meanwhile.
+COLON = "\ue000"
 NAME = re.compile(r"[A-Za-z_][\w.]*(\(\))?")
 
 
@@ -19,7 +21,7 @@ def as_rst(lines: list[str]) -> list[str]:
             result.append("    " + line)
         else:
             if begins_code(line, result):
-                result += ["::", ""]
+                result += [".. code-block:: python", ""]
             result.append(line)
     return quoted_as_rst("\n".join(result)).split("\n")
 
@@ -28,7 +30,7 @@ def begins_code(line: str, before: list[str]) -> bool:
     """Whether an indented block begins that is not what follows a heading such as "Args:"."""
     if not line.startswith("    ") or len(before) < 2 or before[-1].strip():
         return False
-    return not before[-2].startswith(" ") and not before[-2].endswith("::")
+    return not before[-2].startswith((" ", ".. "))
 
 
 def quoted_as_rst(text: str) -> str:
@@ -41,4 +43,12 @@ def quoted_as_rst(text: str) -> str:
 
 
 def process(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Before napoleon, which knows the sections, but would take what a property is up to a colon for its type."""
     lines[:] = as_rst(lines)
+    if what == "property":
+        lines[:] = [line.replace(":", COLON) for line in lines]
+
+
+def process_at_last(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """After napoleon."""
+    lines[:] = [line.replace(COLON, ":") for line in lines]

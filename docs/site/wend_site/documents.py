@@ -83,7 +83,8 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_config_value("wend_bibliography", "", "env", str)
     app.add_transform(Citations)
     app.add_transform(Formulas)
-    # Before napoleon, which knows the sections.
+    # Napoleon has 500.
     app.connect("autodoc-process-docstring", docstrings.process, priority=400)
+    app.connect("autodoc-process-docstring", docstrings.process_at_last, priority=600)
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_math_block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -6,9 +6,12 @@ import re
 BASE = r"[A-Za-zͰ-Ͽ]"
 # A letter by itself, or with the d of a differential; an index or exponent; anything else.
 TOKEN = re.compile(rf"(?P<raise>[_^])(?P<opens>\{{)?|(?P<letters>{BASE}+)|(?P<other>.)", re.DOTALL)
+DIGIT = re.compile(r"\d")
 SHORT = re.compile(r"\w+|[±+−∗*]")
-# In running text: one letter that has an index or an exponent.
-IN_TEXT = re.compile(rf"(?<![\w]){BASE}['′]?(?:[_^](?:\{{[^{{}}]*\}}|[A-Za-z0-9Ͱ-Ͽ]+))+")
+# In running text: mu, and one letter that has an index or an exponent.
+IN_TEXT = re.compile(rf"(?<!\w)(?:d?mu\d?(?!\w)|{BASE}['′]?(?:[_^](?:\{{[^{{}}]*\}}|[A-Za-z0-9Ͱ-Ͽ]+))+)")
+# What has a sign of its own.
+WORDS = {"mu": "<i>μ</i>", "sigma": "<i>σ</i>", "sqrt": "√"}
 TAGS = {"_": "sub", "^": "sup"}
 
 
@@ -38,6 +41,9 @@ def _rendered(text: str, at: int, closes: bool) -> tuple[str, int]:
             parts.append(f"<{tag}>{inside}</{tag}>")
         elif match["letters"]:
             parts.append(_letters(match["letters"]))
+            if match["letters"].endswith("mu") and (digit := DIGIT.match(text, at)):
+                parts.append(f"<sub>{digit[0]}</sub>")
+                at = digit.end()
         else:
             parts.append(html.escape(match["other"]))
     return "".join(parts), at + (1 if closes else 0)
@@ -46,6 +52,6 @@ def _rendered(text: str, at: int, closes: bool) -> tuple[str, int]:
 def _letters(letters: str) -> str:
     if len(letters) == 1:
         return f"<i>{letters}</i>"
-    if len(letters) == 2 and letters[0] == "d":
-        return f"d<i>{letters[1]}</i>"
-    return letters
+    if letters[0] == "d" and letters[1:] in ("mu", letters[1]):
+        return "d" + _letters(letters[1:])
+    return WORDS.get(letters, letters)

@@ -10,9 +10,9 @@ from .options import SPECIAL
 PICTURES = "docs/site/gallery"
 HEAD = """# Gallery
 
-Each scene is rendered twice, in the same time on the same two cores: on the left by classical path tracing, on the right with every decision guided. Training counts. Both pictures converge to the same one; only their noise differs.
+Each scene is rendered twice in the same time of two cores: on the left by classical path tracing, on the right with every decision guided. Training counts. Both pictures converge to the same one; only their noise differs.
 
-The scenes are files of this repository, and the commands are those that made the pictures (`docs/site/make_gallery.py`). [Scenes](project/scenes.md) has the measured errors.
+The times below are those of the processors, summed over threads. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
 """
 
 
@@ -41,7 +41,7 @@ def section(layout: Layout, scene: str, pair: dict) -> str:
             f"```{{figure}} {file}",
             f":alt: {scene}, {label}",
             "",
-            f"{label}: {what['spp']} samples, {what['seconds']:.0f} s",
+            f"{label}: {what['spp']} samples, {what['processor_seconds']:.0f} s",
             "```",
             ":::",
         ]
