@@ -10,9 +10,9 @@ from .options import SPECIAL
 PICTURES = "docs/site/gallery"
 HEAD = """# Gallery
 
-Each scene is rendered twice in the same time of two cores: on the left by classical path tracing, on the right with every decision guided. Training counts. Both pictures converge to the same one; only their noise differs.
+Below each picture are two renders of the same scene in the same time: on the left by classical path tracing, on the right with every decision guided. Training counts. Both converge to the picture above them; only their noise differs.
 
-The times below are those of the processors, summed over threads. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
+Times are those of the processors, summed over threads. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
 """
 
 
@@ -31,20 +31,18 @@ def about(layout: Layout, scene: str) -> str:
     return SPECIAL.sub(r"\\\1", " ".join(lines))
 
 
+def figure(layout: Layout, name: str, caption: str) -> list[str]:
+    file = os.path.relpath(layout.root / PICTURES / f"{name}.jpg", layout.pages)
+    return [f"```{{figure}} {file}", f":alt: {name}", ":width: 100%", "", caption, "```"]
+
+
 def section(layout: Layout, scene: str, pair: dict) -> str:
-    lines = [f"## {scene}", "", about(layout, scene), "", "::::{grid} 1 2 2 2", ":gutter: 1", ""]
+    lines = [f"## {scene}", "", about(layout, scene), "", *figure(layout, f"{scene}-reference", "converged"), ""]
+    lines += ["::::{grid} 1 2 2 2", ":gutter: 1", ""]
     for preset, what in pair.items():
-        file = os.path.relpath(layout.root / PICTURES / f"{scene}-{preset}.jpg", layout.pages)
         label = "every decision guided" if preset == "full" else "classical"
-        lines += [
-            ":::{grid-item}",
-            f"```{{figure}} {file}",
-            f":alt: {scene}, {label}",
-            "",
-            f"{label}: {what['spp']} samples, {what['processor_seconds']:.0f} s",
-            "```",
-            ":::",
-        ]
+        caption = f"{label}: {what['spp']} samples, {what['processor_seconds']:.0f} s"
+        lines += [":::{grid-item}", *figure(layout, f"{scene}-{preset}", caption), ":::"]
     scene_link = layout.link(f"../../scenes/{scene}.pbrt", "docs/site/index.md")
     commands = [re.sub(r" -o \S+/", " -o ", what["command"]) for what in pair.values()]
     return "\n".join([*lines, "::::", "", "```sh", *commands, "```", "", f"[scenes/{scene}.pbrt]({scene_link})", ""])
