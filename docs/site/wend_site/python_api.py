@@ -51,9 +51,10 @@ def kinds_in(package: Path) -> dict[str, str]:
 
 
 def module_page(module: str, names: list[str], path: Path) -> str:
-    lines = [f"# {module}", "", "```{eval-rst}", f".. automodule:: {module}", "   :no-members:", "", f".. currentmodule:: {module}", ""]
+    lines = [f"# {module}", "", "```{eval-rst}", f".. automodule:: {module}", "   :no-members:", "```", ""]
     kinds = kinds_in(path.parent)
     for name in names:
         kind = kinds.get(name, "autodata")
-        lines += [f".. {kind}:: {name}", *(["   :members:"] if kind == "autoclass" else []), ""]
-    return "\n".join([*lines, "```", ""])
+        lines += [f"## {name}", "", "```{eval-rst}", f".. {kind}:: {module}.{name}"]
+        lines += [*(["   :members:"] if kind == "autoclass" else []), "```", ""]
+    return "\n".join(lines)
