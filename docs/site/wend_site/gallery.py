@@ -12,7 +12,7 @@ HEAD = """# Gallery
 
 Below each picture are two renders of the same scene in the same time: on the left by classical path tracing, on the right with every decision guided. Training counts. Both converge to the picture above them; only their noise differs.
 
-Times are those of the processors, summed over threads. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
+Times are those of the processors, summed over threads; the machine had other work to do as well. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
 """
 
 

@@ -77,8 +77,15 @@ def stage_interfaces(layout: Layout) -> None:
         if module != C_FOLDER:
             layout.write(f"{folder_of(module)}/index.md", module_page(layout, f"# {module}\n", headers))
     layout.write("api/c/index.md", module_page(layout, C_HEAD, modules.pop(C_FOLDER)))
-    folders = [f"{Path(module).name}/index" for module in modules]
-    layout.write("api/cpp/index.md", "\n".join([CPP_HEAD, "```{toctree}", ":maxdepth: 2", "", *folders, "```", ""]))
+    layout.write("api/cpp/index.md", cpp_page(layout, modules))
+
+
+def cpp_page(layout: Layout, modules: dict[str, list[Path]]) -> str:
+    lines = [CPP_HEAD]
+    for module, headers in modules.items():
+        lines += [f"## {module}", "", *table(layout, headers, f"{Path(module).name}/"), ""]
+    lines += ["```{toctree}", ":hidden:", "", *(f"{Path(module).name}/index" for module in modules), "```", ""]
+    return "\n".join(lines)
 
 
 def folder_of(module: str) -> str:
@@ -105,9 +112,14 @@ def header_comment(path: Path) -> str:
 
 
 def module_page(layout: Layout, head: str, headers: list[Path]) -> str:
-    lines = [head, "| header | about |", "| --- | --- |"]
+    lines = [head, *table(layout, headers, ""), "", "```{toctree}", ":hidden:", "", *(header.stem for header in headers), "```", ""]
+    return "\n".join(lines)
+
+
+def table(layout: Layout, headers: list[Path], folder: str) -> list[str]:
+    """What each header is about, in its own first sentence."""
+    lines = ["| header | about |", "| --- | --- |"]
     for header in headers:
         about = SPECIAL.sub(r"\\\1", header_comment(layout.root / "src" / header).split(". ")[0].rstrip("."))
-        lines.append(f"| [{header.name}]({header.stem}.md) | {about} |")
-    lines += ["", "```{toctree}", ":hidden:", "", *(header.stem for header in headers), "```", ""]
-    return "\n".join(lines)
+        lines.append(f"| [{header.name}]({folder}{header.stem}.md) | {about} |")
+    return lines
