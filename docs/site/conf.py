@@ -26,8 +26,6 @@ smartquotes = False
 nitpicky = False
 default_role = "py:obj"
 highlight_language = "none"
-# Names in the sidebar of each page would take most of the time that a build takes.
-toc_object_entries = False
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4

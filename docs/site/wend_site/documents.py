@@ -10,7 +10,7 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.transforms import SphinxTransform
 
-from . import citations, docstrings
+from . import citations, docstrings, sidebar
 from .formulas import IN_TEXT, formula_html
 
 # As tests/layers/check_citations.py has them.
@@ -86,5 +86,8 @@ def setup(app: Sphinx) -> dict[str, bool]:
     # Napoleon has 500.
     app.connect("autodoc-process-docstring", docstrings.process, priority=400)
     app.connect("autodoc-process-docstring", docstrings.process_at_last, priority=600)
+    # The theme has 500.
+    app.connect("html-page-context", sidebar.use_titles, priority=400)
+    app.connect("env-updated", sidebar.forget_titles)
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_math_block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}
