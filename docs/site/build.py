@@ -21,7 +21,9 @@ from wend_site.sources import stage_notebooks, stage_sources
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 # Pages that are lists of others: in an order where there is one, then the rest.
-THEORY = ["conventions", "learned_field", "distance", "survival", "next_event", "guiding_choice", "reflection", "samples", "subsurface", "planar", "half_space"]
+THEORY = [
+    "conventions", "learned_field", "distance", "survival", "next_event", "guiding_choice", "reflection", "samples", "subsurface", "planar", "half_space",
+]
 LISTS = {
     "theory/index.md": ("How it works", "Formulas with their sources, derivations where they are ours, and limits.", THEORY),
     "decisions/index.md": ("Decisions", "Choices that are costly to reverse, and their reasons.", []),
