@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders the pictures of the gallery: each scene classically and with every decision guided, in equal time.
+"""Renders the pictures of the gallery: each scene classically and guided, in equal time.
 
 They go to docs/site/gallery, with what was rendered and how in gallery.json; the reference beside each scene is put there as
 well. Both renders of a scene run at once, so that they share the processors evenly whatever else runs. PYTHONPATH has to have
