@@ -82,7 +82,7 @@ def main() -> None:
     parser.add_argument("program", type=Path, help="wend")
     parser.add_argument("scenes", nargs="*", choices=[[], *SCENES], metavar="scene", help="default: all")
     parser.add_argument("--time", type=int, default=40, help="seconds for each pair (default: 40)")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     PICTURES.mkdir(exist_ok=True)
     record = json.loads(RECORD.read_text()) if RECORD.exists() else {}
     for scene in options.scenes or SCENES:
