@@ -1,4 +1,5 @@
 #include <wend/app/checkpoint.h>
+#include <wend/app/live_view.h>
 #include <wend/app/progress.h>
 #include <wend/app/progress_lines.h>
 #include <wend/app/watched_render.h>
@@ -65,6 +66,12 @@ void WatchOptions::add_to(CLI::App& command) {
         ->check(seconds_problem)
         ->capture_default_str()
         ->needs(file);
+    command
+        .add_option("--live", live,
+                    "show the render in a browser of this machine while it runs; the port on 127.0.0.1 (default: one "
+                    "that is free)")
+        ->expected(0, 1)
+        ->default_str("0");
     command.add_option("--resume", resume, "go on from this checkpoint; scene and settings must be the same");
 }
 
@@ -83,13 +90,17 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     constexpr double step = 0.25;
     // For the first picture: of a pass that takes longer there is a part.
     constexpr double longest_wait = 5;
-    Render render(session.scene(), film, settings);
+    // The first rank alone looks at the clock, writes files and is watched.
+    Team team(settings.ranks);
+    const bool is_first = team.rank() == 0;
+    std::optional<LiveView> view;
+    if (options.live && is_first) {
+        view.emplace(*options.live, session, settings.preset, streams);
+    }
+    Render render(session.scene(), film, view ? view->watched(settings) : settings);
     if (!options.resume.empty()) {
         resume_from(options.resume, render, session, settings);
     }
-    // The first rank alone looks at the clock and writes files.
-    Team team(settings.ranks);
-    const bool is_first = team.rank() == 0;
     std::optional<ProgressLines> lines;
     if (!is_first) {
         // One rank shows progress for all.
@@ -108,6 +119,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         bar.update(progress);
         if (lines) {
             lines->update(progress);
+        }
+        if (view) {
+            view->update(render, film, [&] { attempt(streams, [&] { write_picture(render.statistics()); }); });
         }
         if (!goes_on || render.is_stopped()) {
             break;
@@ -143,6 +157,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     // After the picture: it takes longer, and who stops a render may not wait for ever.
     if (!options.checkpoint.empty()) {
         attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+    }
+    if (view) {
+        view->finish(render, film);
     }
     return statistics;
 }

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace wend {
@@ -19,6 +20,7 @@ struct WatchOptions {
     std::string checkpoint;
     double checkpoint_every = 60;
     std::string resume;
+    std::optional<unsigned short> live;  ///< the port of the live view; 0: one that is free
 
     void add_to(CLI::App& command);
     /// Throws InputError for files that cannot be written.
