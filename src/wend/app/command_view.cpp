@@ -49,6 +49,7 @@ void view_pictures(const ViewOptions& options, const Streams& streams) {
         shown.picture = std::make_shared<const Picture>(read_picture(file));
         shown.size = {shown.picture->image.width, shown.picture->image.height};
         shown.offset = shown.picture->offset;
+        shown.layers = layer_names(*shown.picture);
         shown.version = 1;
         board.show(board.pictures().size(), std::move(shown));
     }

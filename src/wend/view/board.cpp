@@ -8,6 +8,14 @@
 
 namespace wend {
 
+std::vector<std::string> layer_names(const Picture& picture) {
+    std::vector<std::string> names;
+    for (const Layer& layer : picture.layers) {
+        names.push_back(layer.name);
+    }
+    return names;
+}
+
 void Board::show(std::size_t index, ShownPicture shown) {
     const std::lock_guard lock(mutex_);
     if (index >= pictures_.size()) {

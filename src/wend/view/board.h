@@ -23,12 +23,16 @@ struct NoisePoint {
     double noise = 0;  ///< Film::relative_noise()
 };
 
+/// Names of a picture's layers.
+std::vector<std::string> layer_names(const Picture& picture);
+
 /// A picture that is looked at: one that is being rendered, or a finished one. What its pointers lead to never changes.
 struct ShownPicture {
     std::string name;
     std::string phase;                       ///< "learning", "rendering", "paused", "done" or "file"
     Vec2i size{0, 0}, offset{0, 0};          ///< of the crop window
     std::shared_ptr<const Picture> picture;  ///< null: none yet
+    std::vector<std::string> layers;         ///< names of those that it has once they are wanted
     std::uint64_t version = 0;               ///< another one for every other `picture`
     RenderProgress progress;
     std::vector<NoisePoint> curve;

@@ -56,17 +56,17 @@ Segment first_segment(const Scene& scene, const Vec2i& pixel) {
     TracedRay ray(segment.ray);
     MediumState medium = scene.medium_around(segment.ray);
     segment.hit = scene.intersect(ray);
-    // Through vacuum nothing happens: what counts is the flight that begins at the first boundary.
-    for (int met = 0; met < most_interfaces && medium.id == vacuum && segment.hit && scene.is_interface(*segment.hit);
-         ++met) {
+    // Through vacuum nothing happens: what counts is the flight that begins at the first boundary. There a ray may meet
+    // two triangles in their edge.
+    const auto begins_later = [&] {
+        return segment.hit && scene.is_interface(*segment.hit) &&
+               (medium.id == vacuum || segment.hit->distance <= segment.hit->clearance);
+    };
+    for (int met = 0; met < most_interfaces && begins_later(); ++met) {
         medium = scene.medium_beyond(*segment.hit, ray.direction, medium);
         segment.ray.origin = segment.hit->position;
         ray.pass(*segment.hit);
-        const float passed = segment.hit->distance;
         segment.hit = scene.intersect(ray);
-        if (segment.hit) {
-            segment.hit->distance -= passed;
-        }
     }
     segment.medium = medium.id;
     segment.length = segment.hit ? segment.hit->distance : longest_segment;

@@ -79,15 +79,14 @@ const Layer* find_layer(const Picture& picture, const std::string& name) {
     return found != picture.layers.end() ? &*found : nullptr;
 }
 
-Json layer_names(const Picture* picture) {
+/// Those of the picture, and those that are made of them.
+Json all_layers(const ShownPicture& shown) {
     Json names = {beauty_name};
-    if (picture) {
-        if (find_layer(*picture, "variance")) {
-            names.push_back(noise_name);
-        }
-        for (const Layer& layer : picture->layers) {
-            names.push_back(layer.name);
-        }
+    if (std::find(shown.layers.begin(), shown.layers.end(), "variance") != shown.layers.end()) {
+        names.push_back(noise_name);
+    }
+    for (const std::string& layer : shown.layers) {
+        names.push_back(layer);
     }
     return names;
 }
@@ -115,7 +114,7 @@ Json picture_json(const ShownPicture& shown) {
             {"width", shown.size.x},
             {"height", shown.size.y},
             {"version", shown.version},
-            {"layers", layer_names(shown.picture.get())},
+            {"layers", all_layers(shown)},
             {"progress", progress_json(shown)},
             {"curve", std::move(curve)},
             {"kinds", std::move(kinds)},

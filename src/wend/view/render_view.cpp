@@ -27,6 +27,7 @@ Picture picture_of(const Film& film, bool with_layers) {
 RenderView::RenderView(Board& board, std::size_t index, std::string name) : board_(board), index_(index) {
     shown_.name = std::move(name);
     shown_.phase = "learning";
+    shown_.layers = layer_names(Film({1, 1}, {{0, 0}, {1, 1}}).picture());
     board_.show(index_, shown_);
 }
 

@@ -137,8 +137,9 @@ export class PictureView {
         for (let c = 0; c < left.channels; ++c) {
           const text = decode(left.halves[(py * left.width + px) * left.channels + c]).toPrecision(3);
           const at = [x + (px + 0.08) * scale, y + (py + 0.3 + 0.25 * c) * scale];
-          context.fillStyle = "#000a";
-          context.fillText(text, at[0] + 1, at[1] + 1);
+          context.lineWidth = 3;
+          context.strokeStyle = "#000";
+          context.strokeText(text, ...at);
           context.fillStyle = "#fff";
           context.fillText(text, ...at);
         }

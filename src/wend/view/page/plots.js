@@ -22,7 +22,7 @@ export function plotNoise(parent, pictures) {
   const lines = pictures.map(({ curve }) => curve.filter(([seconds, , noise]) => seconds > 0 && noise > 0));
   const points = lines.flat();
   if (points.length < 2) return false;
-  const width = 370, height = 190, left = 44, right = 8, top = 8, bottom = 26;
+  const width = 370, height = 190, left = 44, right = 8, top = 20, bottom = 26;
   const range = (values) => {
     const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values));
     return high - low < 0.1 ? [low - 0.1, high + 0.1] : [low, high];
