@@ -1,6 +1,9 @@
 #include <wend/app/live_view.h>
+#include <wend/view/display_client.h>
 #include <wend/view/page.h>
 #include <wend/view/questions.h>
+
+#include <CLI/CLI.hpp>
 
 #include <csignal>
 
@@ -12,13 +15,30 @@
 
 namespace wend {
 
-LiveView::LiveView(unsigned short port, const Session& session, const Preset& preset, const Streams& streams)
-    : view_(board_, 0, to_string(preset)) {
+void LiveViewers::add_to(CLI::App& command) {
+    command
+        .add_option("--live", port,
+                    "show the render in a browser of this machine while it runs; the port on 127.0.0.1 (default: one "
+                    "that is free)")
+        ->expected(0, 1)
+        ->default_str("0");
+    command.add_option("--display-server", display_server,
+                       "HOST:PORT of a viewer that speaks tev's protocol: send it the picture while it grows");
+}
+
+LiveView::LiveView(const LiveViewers& viewers, const Session& session, const Preset& preset, const Streams& streams)
+    : view_(board_, 0, std::filesystem::path(session.scene_file()).stem().string() + " " + to_string(preset)) {
+    if (!viewers.display_server.empty()) {
+        display_ = std::make_unique<DisplayClient>(viewers.display_server, board_, 0);
+    }
+    if (!viewers.port) {
+        return;
+    }
     const ViewOffer offer{std::filesystem::path(session.scene_file()).filename().string(),
                           &session.scene(),
                           {ViewCommand::Kind::save, ViewCommand::Kind::stop}};
     server_ = std::make_unique<LocalServer>(
-        port, view_page, [this, offer](std::string_view message) { return answer(board_, offer, message); });
+        *viewers.port, view_page, [this, offer](std::string_view message) { return answer(board_, offer, message); });
     streams.err << "view: " << server_->url() << '\n' << std::flush;
 }
 

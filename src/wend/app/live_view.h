@@ -1,4 +1,4 @@
-// The live view of one render: `wend render --live`.
+// The live view of one render: `wend render --live` and `--display-server`.
 #pragma once
 
 #include <wend/app/session.h>
@@ -6,16 +6,29 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace wend {
 
+class DisplayClient;
 class LocalServer;
+
+/// Who watches.
+struct LiveViewers {
+    std::optional<unsigned short> port;  ///< of a server for browsers; 0: one that is free
+    std::string display_server;          ///< HOST:PORT of a viewer such as tev; empty: none
+
+    void add_to(CLI::App& command);
+    bool any() const { return port || !display_server.empty(); }
+};
 
 /// Shows a render to viewers while it runs, and does what they ask for: to save the picture, or to end.
 class LiveView {
 public:
-    /// Serves at once, and says where. The session must outlive it. Throws InputError where the port is taken.
-    LiveView(unsigned short port, const Session& session, const Preset& preset, const Streams& streams);
+    /// Serves at once, and says where. The session must outlive it. Throws InputError where the port is taken, or no
+    /// display server listens.
+    LiveView(const LiveViewers& viewers, const Session& session, const Preset& preset, const Streams& streams);
     ~LiveView();
 
     /// The settings that the render is to have, so that viewers see what it learns from. This must outlive the render.
@@ -29,6 +42,7 @@ private:
     Board board_;
     RenderView view_;
     std::unique_ptr<LocalServer> server_;
+    std::unique_ptr<DisplayClient> display_;
 };
 
 }  // namespace wend

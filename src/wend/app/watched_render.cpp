@@ -1,5 +1,4 @@
 #include <wend/app/checkpoint.h>
-#include <wend/app/live_view.h>
 #include <wend/app/progress.h>
 #include <wend/app/progress_lines.h>
 #include <wend/app/watched_render.h>
@@ -66,13 +65,8 @@ void WatchOptions::add_to(CLI::App& command) {
         ->check(seconds_problem)
         ->capture_default_str()
         ->needs(file);
-    command
-        .add_option("--live", live,
-                    "show the render in a browser of this machine while it runs; the port on 127.0.0.1 (default: one "
-                    "that is free)")
-        ->expected(0, 1)
-        ->default_str("0");
     command.add_option("--resume", resume, "go on from this checkpoint; scene and settings must be the same");
+    live.add_to(command);
 }
 
 void WatchOptions::check() const {
@@ -94,8 +88,8 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     Team team(settings.ranks);
     const bool is_first = team.rank() == 0;
     std::optional<LiveView> view;
-    if (options.live && is_first) {
-        view.emplace(*options.live, session, settings.preset, streams);
+    if (options.live.any() && is_first) {
+        view.emplace(options.live, session, settings.preset, streams);
     }
     Render render(session.scene(), film, view ? view->watched(settings) : settings);
     if (!options.resume.empty()) {

@@ -2,13 +2,13 @@
 // stopped and resumed.
 #pragma once
 
+#include <wend/app/live_view.h>
 #include <wend/app/options.h>
 #include <wend/app/session.h>
 #include <wend/render/render.h>
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace wend {
@@ -20,7 +20,7 @@ struct WatchOptions {
     std::string checkpoint;
     double checkpoint_every = 60;
     std::string resume;
-    std::optional<unsigned short> live;  ///< the port of the live view; 0: one that is free
+    LiveViewers live;
 
     void add_to(CLI::App& command);
     /// Throws InputError for files that cannot be written.
