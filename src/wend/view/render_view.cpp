@@ -39,14 +39,13 @@ bool RenderView::is_due() const {
 void RenderView::update(const Render& render, const Film& film, const RenderProgress& progress,
                         const std::string& phase) {
     const bool stands_still = phase == "paused" || phase == "done";
-    const RenderStatistics statistics = render.statistics();
     shown_.size = {film.crop().width(), film.crop().height()};
     shown_.offset = film.crop().min;
     shown_.phase = phase;
     shown_.progress = progress;
-    shown_.kinds = statistics.kinds;
-    if (statistics.passes.size() != passes_) {
-        passes_ = statistics.passes.size();
+    if (progress.samples != samples_) {
+        samples_ = progress.samples;
+        shown_.kinds = render.statistics().kinds;
         shown_.fields = render.fields();
         shown_.records = shown_.fields ? records_ : nullptr;
         shown_.curve.push_back({shown_.progress.seconds, shown_.progress.samples, shown_.progress.relative_noise});

@@ -30,7 +30,7 @@ private:
     std::size_t index_;
     std::shared_ptr<SharedRecords> records_ = std::make_shared<SharedRecords>();
     ShownPicture shown_;
-    std::size_t passes_ = 0;    ///< that had ended when the fields were looked at
+    int samples_ = 0;           ///< that had ended when the fields were looked at
     Clock::time_point next_{};  ///< when a picture may be made again
     bool has_layers_ = false;
     bool is_last_ = false;  ///< whether the picture is that of a render that stands still
