@@ -41,6 +41,7 @@ struct RenderOptions {
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
+    bool record_time = false;
     std::string frames;
     bool carry_field = false;
 };
@@ -222,7 +223,10 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
                               ? std::make_unique<Denoiser>(options.denoiser, options.common.threads)
                               : nullptr;
     const auto write = [&](const RenderStatistics& statistics) {
-        const Picture picture = session.picture(film, settings, statistics);
+        Picture picture = session.picture(film, settings, statistics);
+        if (options.record_time) {
+            picture.metadata["wend:seconds"] = fmt::format("{:.3f}", statistics.seconds);
+        }
         (options.half ? write_colours : write_picture)(output, denoiser ? denoised(picture, *denoiser) : picture);
     };
     const RenderStatistics statistics =
@@ -344,6 +348,8 @@ Action add_render_command(CLI::App& program) {
         .add_flag("--half", options->half,
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")
         ->needs(output);
+    command.add_flag("--record-time", options->record_time,
+                     "write into an .exr how many seconds the render took: the same picture is then another file");
     CLI::Option* denoise =
         command.add_flag("--denoise", options->denoise,
                          "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");

@@ -55,6 +55,7 @@ void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
     }
     p.depth += features.depth;
     p.opacity += features.opacity;
+    p.alpha += features.alpha;
     ++p.featured;
 }
 
@@ -192,6 +193,7 @@ Picture Film::picture() const {
     Layer albedo{"albedo", {"R", "G", "B"}, {}};
     Layer normal{"normal", {"X", "Y", "Z"}, {}};
     Layer depth{"depth", {"Z"}, {}};
+    Layer alpha{"alpha", {"A"}, {}};
     Layer samples{"samples", {"N"}, {}};
     Layer variance{"variance", {"R", "G", "B"}, {}};
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
@@ -203,11 +205,12 @@ Picture Film::picture() const {
             variance.values.push_back(static_cast<float>(p.spread(c, weights[half_of(i)])));
         }
         depth.values.push_back(p.depth / n);
+        alpha.values.push_back(p.alpha / n);
         samples.values.push_back(static_cast<float>(p.samples()));
     }
     picture.layers = walk_layers();
     picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
-                                                   std::move(samples), std::move(variance)});
+                                                   std::move(alpha), std::move(samples), std::move(variance)});
     return picture;
 }
 

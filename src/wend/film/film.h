@@ -24,6 +24,7 @@ struct FilmFeatures {
     Vec3 normal{0, 0, 0};
     float depth = 0;    ///< distance to the first surface, media left out; 0 where there is none
     float opacity = 0;  ///< of media before it: an estimate of 1 - transmittance
+    float alpha = 0;    ///< 1 where there is a surface, else the opacity of all media on the straight way
 };
 
 /// A rectangle of pixels, the upper end exclusive.
@@ -70,8 +71,8 @@ public:
     void begin_stage();
 
     Image beauty() const;
-    /// Beauty and the layers albedo, normal and depth of what its rays show, samples, variance (of the pixel's mean,
-    /// from the scatter of its samples; with stratified samples an overestimate), and walk_layers().
+    /// Beauty and the layers albedo, normal, depth and alpha of what its rays show, samples, variance (of the pixel's
+    /// mean, from the scatter of its samples; with stratified samples an overestimate), and walk_layers().
     Picture picture() const;
     /// `scatter`, the opacity of media before the first surface, by its rays; and what walks did, over the samples of
     /// all stages alike: `segments`, the mean length of walks, `branches`, the mean
@@ -118,6 +119,7 @@ private:
         float normal[3] = {0, 0, 0};
         float depth = 0;
         float opacity = 0;
+        float alpha = 0;
         std::uint32_t featured = 0;
         // Of all samples.
         std::uint32_t guided = 0;

@@ -1,58 +1,42 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
+#include <wend/io/exr_check.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
-#include <wend/io/image_size.h>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfThreading.h>
-#include <fmt/format.h>
 #include <half.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <limits>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
 namespace wend {
 namespace {
-
-// More numbers than this in all channels together are refused, and in the lines that are unpacked at once.
-constexpr std::int64_t max_values = std::int64_t{1} << 30;
-constexpr std::int64_t max_values_at_once = std::int64_t{1} << 27;
-
-int lines_at_once(Imf::Compression compression) {
-    switch (compression) {
-        case Imf::ZIP_COMPRESSION:
-        case Imf::PXR24_COMPRESSION:
-            return 16;
-        case Imf::PIZ_COMPRESSION:
-        case Imf::B44_COMPRESSION:
-        case Imf::B44A_COMPRESSION:
-        case Imf::DWAA_COMPRESSION:
-            return 32;
-        case Imf::DWAB_COMPRESSION:
-            return 256;
-        default:
-            return 1;
-    }
-}
 
 template <class Value>
 Imf::Slice slice(Imf::PixelType type, const Value* first, const Imath::Box2i& window, std::size_t values_per_pixel) {
@@ -72,147 +56,13 @@ void insert_colours(Imf::FrameBuffer& frame, const Rgb& first, const Imath::Box2
     frame.insert("B", float_slice(&first.b, window, 3));
 }
 
-/// Whether an attribute holds what its type says: the library reads that, and goes on behind it whatever the size is.
-bool is_of_its_size(std::string_view type, std::string_view value) {
-    constexpr std::array<std::pair<std::string_view, std::size_t>, 24> sizes{{{"box2f", 16},
-                                                                              {"box2i", 16},
-                                                                              {"chromaticities", 32},
-                                                                              {"compression", 1},
-                                                                              {"deepImageState", 1},
-                                                                              {"double", 8},
-                                                                              {"envmap", 1},
-                                                                              {"float", 4},
-                                                                              {"int", 4},
-                                                                              {"keycode", 28},
-                                                                              {"lineOrder", 1},
-                                                                              {"m33d", 72},
-                                                                              {"m33f", 36},
-                                                                              {"m44d", 128},
-                                                                              {"m44f", 64},
-                                                                              {"rational", 8},
-                                                                              {"tiledesc", 9},
-                                                                              {"timecode", 8},
-                                                                              {"v2d", 16},
-                                                                              {"v2f", 8},
-                                                                              {"v2i", 8},
-                                                                              {"v3d", 24},
-                                                                              {"v3f", 12},
-                                                                              {"v3i", 12}}};
-    for (const auto& [known, size] : sizes) {
-        if (type == known) {
-            return value.size() == size;
-        }
-    }
-    const auto number = [&value](std::size_t at) {
-        std::uint32_t n = 0;
-        std::memcpy(&n, value.data() + at, sizeof n);
-        return std::uint64_t{n};
-    };
-    if (type == "preview") {
-        return value.size() >= 8 && number(0) < (1u << 16) && number(4) < (1u << 16) &&
-               value.size() == 8 + 4 * number(0) * number(4);
-    }
-    if (type == "stringvector") {
-        while (value.size() >= sizeof(std::uint32_t) && number(0) <= value.size() - sizeof(std::uint32_t)) {
-            value.remove_prefix(sizeof(std::uint32_t) + number(0));
-        }
-        return value.empty();
-    }
-    if (type == "chlist") {
-        constexpr std::size_t channel = 16;
-        while (!value.empty() && value.front() != 0) {
-            const std::size_t name = value.find('\0');
-            if (name == std::string_view::npos || value.size() - name - 1 < channel) {
-                return false;
-            }
-            value.remove_prefix(name + 1 + channel);
-        }
-        return value.size() == 1;
-    }
-    return true;
-}
-
-/// The library takes memory for what an attribute says that it holds: this compares that with the file's size.
-void check_attributes(const std::filesystem::path& file, const Place& place) {
-    constexpr std::streamoff bytes_before_header = 8;
-    constexpr std::size_t longest_name = 255;
-    std::ifstream stream(file, std::ios::binary);
-    std::uint32_t start[2] = {0, 0};  // the magic number and the version, with flags
-    stream.read(reinterpret_cast<char*>(start), bytes_before_header);
-    constexpr std::uint32_t magic = 20000630;
-    if (stream && start[0] != magic) {
-        throw InputError(place, "not an OpenEXR picture");
-    }
-    constexpr std::uint32_t many_parts = 0x1000;
-    auto left = static_cast<std::int64_t>(std::filesystem::file_size(file)) - bytes_before_header;
-    const auto take_name = [&] {
-        std::string name;
-        for (int c = stream.get(); c > 0 && name.size() <= longest_name; c = stream.get()) {
-            name += static_cast<char>(c);
-        }
-        left -= static_cast<std::int64_t>(name.size()) + 1;
-        if (name.size() > longest_name) {
-            throw InputError(place, "the picture is damaged: an attribute's name does not end");
-        }
-        return name;
-    };
-    // Each of many parts has a header, and an empty one ends them.
-    int attributes = 0;
-    for (bool ends = false; !ends;) {
-        if (take_name().empty()) {
-            ends = (start[1] & many_parts) == 0 || attributes == 0;
-            attributes = 0;
-            continue;
-        }
-        ++attributes;
-        const std::string type = take_name();
-        std::int32_t size = 0;
-        stream.read(reinterpret_cast<char*>(&size), sizeof size);
-        left -= sizeof size;
-        if (!stream || size < 0 || size > left) {
-            throw InputError(place, "the picture is truncated");
-        }
-        std::string value(static_cast<std::size_t>(size), '\0');
-        stream.read(value.data(), size);
-        left -= size;
-        if (!is_of_its_size(type, value)) {
-            throw InputError(place, "the picture is damaged: an attribute is not of its size");
-        }
-    }
-}
-
-/// Looks at the header alone: opening the file for reading already takes memory in proportion to its declared size.
-void check_size(Imf::IStream& stream, const Place& place) {
-    constexpr int bytes_before_header = 8;
-    char start[bytes_before_header];
-    stream.read(start, bytes_before_header);
-    int version = static_cast<unsigned char>(start[4]);
-    Imf::Header header;
-    header.readFrom(stream, version);
-    stream.seekg(0);
-
-    const Imath::Box2i& window = header.dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    check_image_size(width, height, std::filesystem::file_size(place.file), place);
-    std::int64_t channels = 0;
-    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
-        ++channels;
-    }
-    if (width * height * channels > max_values ||
-        width * lines_at_once(header.compression()) * channels > max_values_at_once) {
-        throw InputError(
-            place, fmt::format("the picture is too large: {} x {} pixels of {} channels", width, height, channels));
-    }
-}
-
 /// Opens the file and lets `body` read it; whatever the library throws becomes an InputError.
 void with_file(const std::filesystem::path& file, const std::function<void(Imf::InputFile&)>& body) {
     const Place place{file.string()};
     try {
-        check_attributes(file, place);
+        check_exr_attributes(file, place);
         Imf::StdIFStream stream(file.c_str());
-        check_size(stream, place);
+        check_exr_size(stream, place);
         Imf::InputFile input(stream);
         if (!input.isComplete()) {
             throw InputError(place, "the picture is truncated");
@@ -325,6 +175,40 @@ std::array<float, 16> from_matrix(const Imath::M44f& m) {
     return numbers;
 }
 
+template <class Number>
+std::optional<Number> number_of(const std::map<std::string, std::string>& metadata, const char* name) {
+    const auto found = metadata.find(name);
+    if (found == metadata.end()) {
+        return std::nullopt;
+    }
+    Number number{};
+    const char* const end = found->second.data() + found->second.size();
+    const auto [read, error] = std::from_chars(found->second.data(), end, number);
+    return error == std::errc() && read == end ? std::optional(number) : std::nullopt;
+}
+
+/// What others look for as numbers, from our texts: by pbrt's names, and the seed. The texts hold all digits; a number
+/// that its type cannot hold is left out, as is the seed of a picture with several.
+void insert_numbers(Imf::Header& header, const std::map<std::string, std::string>& metadata) {
+    const auto insert = [&](const char* name, const Imf::Attribute& number) {
+        if (metadata.count(name) == 0) {
+            header.insert(name, number);
+        }
+    };
+    const auto samples = number_of<std::uint64_t>(metadata, "wend:spp");
+    if (samples && *samples <= static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+        insert("samplesPerPixel", Imf::IntAttribute(static_cast<int>(*samples)));
+    }
+    if (const auto seconds = number_of<double>(metadata, "wend:seconds")) {
+        insert("renderTimeSeconds", Imf::FloatAttribute(static_cast<float>(*seconds)));
+    }
+    constexpr std::uint64_t most_exact = std::uint64_t{1} << std::numeric_limits<double>::digits;
+    const auto seed = number_of<std::uint64_t>(metadata, "wend:seed");
+    if (seed && *seed <= most_exact) {
+        insert("seed", Imf::DoubleAttribute(static_cast<double>(*seed)));
+    }
+}
+
 /// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
 void write_frame(const std::filesystem::path& file, const Picture& picture, const Imf::FrameBuffer& frame) {
     const Imath::Box2i window = data_window(picture);
@@ -338,6 +222,7 @@ void write_frame(const std::filesystem::path& file, const Picture& picture, cons
         for (const auto& [name, value] : picture.metadata) {
             header.insert(name, Imf::StringAttribute(value));
         }
+        insert_numbers(header, picture.metadata);
         // Colours are those of Rec. 709, which is what the library takes for granted; others like to be told.
         Imf::addChromaticities(header, Imf::Chromaticities());
         if (picture.view) {

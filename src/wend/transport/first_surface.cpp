@@ -32,6 +32,7 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
             ray.pass(*hit);
             continue;
         }
+        seen.alpha = 1;
         const SurfaceScattering f(scene.bsdf(*hit), hit->shading, ray.direction);
         std::optional<DirectionSample> s;
         if (f.is_specular() && specular++ < most_specular) {
@@ -48,6 +49,9 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
         ray = ray.leave(*hit, s->direction);
     }
     seen.opacity = 1 - mean_value(passed);
+    if (seen.alpha == 0) {
+        seen.alpha = seen.opacity;
+    }
     return seen;
 }
 
