@@ -4,6 +4,7 @@
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
+#include <wend/app/picture_options.h>
 #include <wend/app/session.h>
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
@@ -29,6 +30,7 @@ struct RenderOptions {
     CommonOptions common;
     SceneOptions scene;
     WatchOptions watch;
+    PictureOptions picture;
     std::string output;
     int samples = 0;
     double seconds = 0;
@@ -227,7 +229,14 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
         if (options.record_time) {
             picture.metadata["wend:seconds"] = fmt::format("{:.3f}", statistics.seconds);
         }
-        (options.half ? write_colours : write_picture)(output, denoiser ? denoised(picture, *denoiser) : picture);
+        if (denoiser) {
+            picture = denoised(picture, *denoiser);
+        }
+        if (options.half) {
+            write_colours(output, picture);
+        } else {
+            write_picture(output, picture, options.picture.format());
+        }
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
@@ -348,6 +357,10 @@ Action add_render_command(CLI::App& program) {
         .add_flag("--half", options->half,
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")
         ->needs(output);
+    options->picture.add_to(command);
+    for (const char* name : {"--layer-names", "--exr", "--alpha"}) {
+        command.get_option("--half")->excludes(command.get_option(name));
+    }
     command.add_flag("--record-time", options->record_time,
                      "write into an .exr how many seconds the render took: the same picture is then another file");
     CLI::Option* denoise =

@@ -21,6 +21,9 @@ namespace {
 constexpr std::int64_t max_values = std::int64_t{1} << 30;
 constexpr std::int64_t max_values_at_once = std::int64_t{1} << 27;
 
+// Of the version: each of many parts has a header, and an empty one ends them.
+constexpr std::uint32_t many_parts = 0x1000;
+
 int lines_at_once(Imf::Compression compression) {
     switch (compression) {
         case Imf::ZIP_COMPRESSION:
@@ -98,6 +101,42 @@ bool is_of_its_size(std::string_view type, std::string_view value) {
     return true;
 }
 
+/// What the parts of a file say that they hold, all together.
+class Sizes {
+public:
+    Sizes(std::uintmax_t file_bytes, const Place& place) : file_bytes_(file_bytes), place_(place) {}
+
+    /// Throws InputError where that is too much.
+    void add(const Imf::Header& header) {
+        const Imath::Box2i& window = header.dataWindow();
+        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+        const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+        check_image_size(width, height, file_bytes_, place_);
+        std::int64_t channels = 0;
+        for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+            ++channels;
+        }
+        values_ += width * height * channels;
+        pixels_ += width * height;
+        if (values_ > max_values || width * lines_at_once(header.compression()) * channels > max_values_at_once) {
+            throw InputError(place_, fmt::format("the picture is too large: {} x {} pixels of {} channels{}", width,
+                                                 height, channels, is_first_ ? "" : " in one of its parts"));
+        }
+        // The library keeps where each line or tile is, as the file does.
+        if (!is_credible_size(pixels_, file_bytes_) ||
+            (header.hasChunkCount() && header.chunkCount() > static_cast<std::int64_t>(file_bytes_ / 8))) {
+            throw InputError(place_, "the picture is truncated: it is too short for its parts");
+        }
+        is_first_ = false;
+    }
+
+private:
+    std::uintmax_t file_bytes_;
+    const Place& place_;
+    std::int64_t values_ = 0, pixels_ = 0;
+    bool is_first_ = true;
+};
+
 }  // namespace
 
 void check_exr_attributes(const std::filesystem::path& file, const Place& place) {
@@ -110,7 +149,6 @@ void check_exr_attributes(const std::filesystem::path& file, const Place& place)
     if (stream && start[0] != magic) {
         throw InputError(place, "not an OpenEXR picture");
     }
-    constexpr std::uint32_t many_parts = 0x1000;
     auto left = static_cast<std::int64_t>(std::filesystem::file_size(file)) - bytes_before_header;
     const auto take_name = [&] {
         std::string name;
@@ -123,7 +161,6 @@ void check_exr_attributes(const std::filesystem::path& file, const Place& place)
         }
         return name;
     };
-    // Each of many parts has a header, and an empty one ends them.
     int attributes = 0;
     for (bool ends = false; !ends;) {
         if (take_name().empty()) {
@@ -153,23 +190,17 @@ void check_exr_size(Imf::IStream& stream, const Place& place) {
     char start[bytes_before_header];
     stream.read(start, bytes_before_header);
     int version = static_cast<unsigned char>(start[4]);
-    Imf::Header header;
-    header.readFrom(stream, version);
+    const bool has_many_parts = (static_cast<unsigned char>(start[5]) & (many_parts >> 8)) != 0;
+    Sizes sizes(std::filesystem::file_size(place.file), place);
+    do {
+        Imf::Header header;
+        header.readFrom(stream, version);
+        if (header.readsNothing()) {
+            break;
+        }
+        sizes.add(header);
+    } while (has_many_parts);
     stream.seekg(0);
-
-    const Imath::Box2i& window = header.dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    check_image_size(width, height, std::filesystem::file_size(place.file), place);
-    std::int64_t channels = 0;
-    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
-        ++channels;
-    }
-    if (width * height * channels > max_values ||
-        width * lines_at_once(header.compression()) * channels > max_values_at_once) {
-        throw InputError(
-            place, fmt::format("the picture is too large: {} x {} pixels of {} channels", width, height, channels));
-    }
 }
 
 }  // namespace wend
