@@ -43,8 +43,8 @@ public:
     bool has_seed(std::uint64_t seed) const { return file_of_seed_.contains(seed); }
     std::size_t seeds() const { return seeds_.size(); }
 
-    /// What the picture that is merged of them keeps: sums (of seconds where all say theirs), all seeds, and the first one's scene and settings. At least
-    /// one was added.
+    /// What the picture that is merged of them keeps: sums (of seconds where all say theirs), all seeds, and the first
+    /// one's scene and settings. At least one was added.
     std::map<std::string, std::string> metadata() const;
 
 private:

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -195,6 +196,19 @@ std::array<float, 16> from_matrix(const Imath::M44f& m) {
     return numbers;
 }
 
+/// All but what the file itself is made of.
+std::map<std::string, std::string> texts_of(const Imf::Header& header) {
+    std::map<std::string, std::string> texts;
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+        const std::string_view name = attribute.name();
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+        if (text && name != "type" && name != "name") {
+            texts[attribute.name()] = text->value();
+        }
+    }
+    return texts;
+}
+
 }  // namespace
 
 bool is_exr(const std::filesystem::path& file) {
@@ -230,11 +244,7 @@ Picture read_exr(const std::filesystem::path& file) {
         if (Imf::hasWorldToCamera(header) && Imf::hasWorldToNDC(header)) {
             picture.view = {from_matrix(Imf::worldToCamera(header)), from_matrix(Imf::worldToNDC(header))};
         }
-        for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
-            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {
-                picture.metadata[attribute.name()] = text->value();
-            }
-        }
+        picture.metadata = texts_of(header);
         FileLayerNames(beauty.layer, picture.layers, picture.metadata).translate(picture);
     });
     return picture;
