@@ -1,6 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
 #include <wend/app/denoiser.h>
+#include <wend/app/extra_layers.h>
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
@@ -44,6 +45,7 @@ struct RenderOptions {
     std::string load_field, save_field, save_records;
     bool half = false;
     bool record_time = false;
+    std::string layers;
     std::string frames;
     bool carry_field = false;
 };
@@ -116,6 +118,7 @@ void check(const RenderOptions& options, const Preset& preset) {
             require_writable(file);
         }
     }
+    check_extra_layers(split_list(options.layers));
     options.watch.check();
 }
 
@@ -202,6 +205,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     RenderSettings settings = session.settings();
     settings.preset = plan.preset;
     settings.subsurface = plan.subsurface;
+    ask_for_layers(split_list(options.layers), session.scene(), settings);
     settings.fields = std::move(fields);
     if (options.samples > 0) {
         settings.samples = options.samples;
@@ -218,7 +222,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
         settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
     }
 
-    Film film = session.new_film();
+    Film film = session.new_film(settings);
     const InterruptGuard interrupt;
     settings.stop = &interrupt.flag();
     const auto denoiser = options.denoise && is_first_of(ranks)
@@ -358,7 +362,9 @@ Action add_render_command(CLI::App& program) {
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")
         ->needs(output);
     options->picture.add_to(command);
-    for (const char* name : {"--layer-names", "--exr", "--alpha"}) {
+    command.add_option("--layers", options->layers,
+                       "more layers of the picture, separated by commas: " + extra_layer_names());
+    for (const char* name : {"--layer-names", "--exr", "--alpha", "--layers"}) {
         command.get_option("--half")->excludes(command.get_option(name));
     }
     command.add_flag("--record-time", options->record_time,

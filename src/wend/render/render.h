@@ -19,6 +19,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace wend {
@@ -53,6 +54,9 @@ struct RenderSettings {
     Filter filter = Filter::box();
     float exposure = 1;    ///< multiplies all radiances
     ColourMatrix balance;  ///< multiplies them as well, once they are on the film; not singular
+    /// Which parts of the beauty the film gets, as many as its FilmLayers::parts.
+    PartsPlan parts;
+    std::vector<std::string> layers;  ///< that were asked for, by name, for those who describe the render
     /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;
     /// Not null: this is one of several processes that render the same picture together, and all of them get it. They

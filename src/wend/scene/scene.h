@@ -8,6 +8,7 @@
 #include <wend/medium/medium.h>
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>
+#include <wend/scene/light_groups.h>
 #include <wend/scene/light_sampler.h>
 #include <wend/scene/material.h>
 #include <wend/scene/media_at.h>
@@ -61,6 +62,7 @@ struct SceneDescription {
     std::vector<ObjectDefinition> objects;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    LightGroups light_groups;
     bool light_tree = true;  ///< choose lights by the tree, not by power alone
 };
 

@@ -33,6 +33,10 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
             continue;
         }
         seen.alpha = 1;
+        if (is_straight) {
+            seen.position = hit->position;
+            seen.face_normal = hit->normal;
+        }
         const SurfaceScattering f(scene.bsdf(*hit), hit->shading, ray.direction);
         std::optional<DirectionSample> s;
         if (f.is_specular() && specular++ < most_specular) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <utility>
@@ -55,15 +56,20 @@ public:
             textures_.add(texture);
         }
         for (const pbrt::MediumEntity& medium : description_.media) {
+            const int group = light_group(medium);
             scene_.media.push_back(load_medium(context_, medium));
+            LightGroups::set(scene_.light_groups.of_media, scene_.media.size() - 1, scene_.media.size(), group);
         }
         add_materials();
         for (const pbrt::LightEntity& light : description_.lights) {
+            const int group = light_group(light);
             if (auto loaded = load_light(context_, textures_, light)) {
                 scene_.lights.push_back(std::move(*loaded));
+                group_lights_from(scene_.lights.size() - 1, group);
             }
         }
         for (const pbrt::Entity& light : description_.area_lights) {
+            area_light_groups_.push_back(light_group(light));
             area_lights_.push_back(load_area_light(context_, textures_, light));
         }
         scene_.objects.resize(description_.objects.size());
@@ -196,7 +202,32 @@ private:
         const Presence presence = surface.alpha < 0          ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
+        const std::size_t first = scene_.lights.size();
         attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+        group_lights_from(first, area_light_groups_[*entity.area_light]);
+    }
+
+    /// The group that what shines is said to be in, to be asked for before it is loaded. Throws InputError for names
+    /// that layers cannot have.
+    int light_group(const pbrt::Entity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        if (!p.has("lightgroup")) {
+            return LightGroups::none;
+        }
+        const std::string name = p.get_string("lightgroup", "");
+        const auto is_plain = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+        };
+        if (name.empty() || name == LightGroups::rest || !std::all_of(name.begin(), name.end(), is_plain)) {
+            throw InputError(p.place_of("lightgroup"),
+                             fmt::format("a light group's name is of letters, digits, '_' and '-', and not \"{}\": "
+                                         "\"{}\" cannot be one",
+                                         LightGroups::rest, name));
+        }
+        return scene_.light_groups.index_of(name);
+    }
+    void group_lights_from(std::size_t first, int group) {
+        LightGroups::set(scene_.light_groups.of_lights, first, scene_.lights.size(), group);
     }
 
     /// Those of materials have none.
@@ -221,6 +252,7 @@ private:
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
     std::vector<AreaLight> area_lights_;
+    std::vector<int> area_light_groups_;
     std::vector<Place> places_;  ///< of the scene's surfaces
     std::vector<Box3> object_boxes_;
     std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
