@@ -25,14 +25,14 @@ Film film_with(FilmLayers layers) {
     return Film({side, side}, {{0, 0}, {side, side}}, std::move(layers));
 }
 
-/// Samples of two parts, in stages of unlike noise.
-void fill(Film& film, bool halves) {
+/// Samples of two parts, in stages of unlike noise, and of means that are 1.5 but for `shift` times the noise.
+void fill(Film& film, bool halves, double shift = 0) {
     Pcg32 random(1);
     for (const float spread : {4.0f, 1.0f, 0.2f}) {
         for (int k = 0; k < side * side * 9; ++k) {
             const Vec2i pixel(k % side, k / side % side);
-            const double a = static_cast<double>(random.uniform()),
-                         b = 1 + static_cast<double>(spread * random.uniform());
+            const double a = static_cast<double>(random.uniform());
+            const double b = 1 + static_cast<double>(spread) * (static_cast<double>(random.uniform()) - 0.5 + shift);
             FilmSample sample;
             sample.radiance = Rgb(static_cast<float>(a + b));
             sample.is_of_half_a = halves && random.uniform() < 0.5f;
@@ -53,7 +53,7 @@ TEST(FilmLayers, AreNotThereUnlessAskedFor) {
 
 TEST(FilmLayers, PartsAreWeightedAsTheirSum) {
     Film film = film_with({{"direct", "indirect"}, false, false});
-    fill(film, false);
+    fill(film, false, 0.5);
     const Picture picture = film.picture();
     double mean = 0;
     for (std::size_t i = 0; i < 3 * picture.image.pixels.size(); ++i) {

@@ -36,7 +36,7 @@ Picture Film::picture() const {
     }
     picture.layers = walk_layers();
     picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
-                                                   std::move(alpha), std::move(samples), std::move(variance)});
+                                                   std::move(samples), std::move(variance), std::move(alpha)});
     for (std::vector<Layer>& more : std::array{part_layers(weights), half_layers(weights), geometry_layers()}) {
         std::move(more.begin(), more.end(), std::back_inserter(picture.layers));
     }
