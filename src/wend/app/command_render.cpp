@@ -78,6 +78,10 @@ std::vector<int> parse_passes(const std::string& text) {
     return passes;
 }
 
+std::vector<std::string> layers_of(const RenderOptions& options) {
+    return options.layers.empty() ? std::vector<std::string>() : split_list(options.layers);
+}
+
 /// Throws InputError for what is wrong whatever the scene.
 RenderPlan plan_of(const RenderOptions& options) {
     options.scene.check();
@@ -118,7 +122,7 @@ void check(const RenderOptions& options, const Preset& preset) {
             require_writable(file);
         }
     }
-    check_extra_layers(split_list(options.layers));
+    check_extra_layers(layers_of(options));
     options.watch.check();
 }
 
@@ -205,7 +209,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     RenderSettings settings = session.settings();
     settings.preset = plan.preset;
     settings.subsurface = plan.subsurface;
-    ask_for_layers(split_list(options.layers), session.scene(), settings);
+    ask_for_layers(layers_of(options), session.scene(), settings);
     settings.fields = std::move(fields);
     if (options.samples > 0) {
         settings.samples = options.samples;

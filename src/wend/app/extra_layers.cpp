@@ -16,7 +16,7 @@ constexpr std::array<std::pair<std::string_view, PathPart>, path_parts> parts_by
      {"direct", PathPart::direct},
      {"indirect", PathPart::indirect},
      {"volume", PathPart::volume}}};
-constexpr std::string_view lights = "lights", halves = "halves", geometry = "geometry";
+constexpr std::string_view lights = "lights", halves = "halves", geometry = "geometry", objects = "cryptomatte";
 
 bool has(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -68,6 +68,18 @@ private:
     }
 };
 
+ObjectIds ids_of(const Scene& scene) {
+    const SceneDescription& d = scene.description();
+    ObjectIds ids;
+    for (std::size_t i = 0; i < d.surfaces.size(); ++i) {
+        ids.of_surfaces.push_back(cryptomatte_id(d.names.surface(i)));
+    }
+    for (std::size_t i = 0; i < d.media.size(); ++i) {
+        ids.of_media.push_back(cryptomatte_id(d.names.medium(i)));
+    }
+    return ids;
+}
+
 }  // namespace
 
 std::string extra_layer_names() {
@@ -75,21 +87,21 @@ std::string extra_layer_names() {
     for (const auto& [name, part] : parts_by_path) {
         text.append(name).append(", ");
     }
-    return text.append(lights).append(", ").append(halves).append(", ").append(geometry);
+    return text.append(lights).append(", ").append(halves).append(", ").append(geometry).append(", ").append(objects);
 }
 
 void check_extra_layers(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const bool is_part = std::any_of(parts_by_path.begin(), parts_by_path.end(),
                                          [&](const auto& part) { return part.first == name; });
-        if (!is_part && name != lights && name != halves && name != geometry) {
-            throw InputError("unknown layer '" + name + "': expected " + extra_layer_names());
+        if (!is_part && name != lights && name != halves && name != geometry && name != objects) {
+            throw InputError("layers: there is no '" + name + "', but " + extra_layer_names());
         }
     }
 }
 
 FilmLayers film_layers(const std::vector<std::string>& names, const Scene& scene) {
-    return {Parts(names, scene).names, has(names, halves), has(names, geometry)};
+    return {Parts(names, scene).names, has(names, halves), has(names, geometry), has(names, objects)};
 }
 
 void ask_for_layers(const std::vector<std::string>& names, const Scene& scene, RenderSettings& settings) {
@@ -98,6 +110,9 @@ void ask_for_layers(const std::vector<std::string>& names, const Scene& scene, R
     std::sort(settings.layers.begin(), settings.layers.end());
     settings.layers.erase(std::unique(settings.layers.begin(), settings.layers.end()), settings.layers.end());
     settings.parts = Parts(names, scene).plan;
+    if (has(names, objects)) {
+        settings.objects = ids_of(scene);
+    }
 }
 
 }  // namespace wend

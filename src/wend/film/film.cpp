@@ -37,7 +37,8 @@ Film::Film(const Vec2i& full_size, const PixelRect& crop, FilmLayers layers)
       layers_(std::move(layers)),
       pixels_(checked_size(full_size, crop)),
       parts_(pixels_.size(), layers_.parts.size() + (layers_.halves ? 2 : 0)),
-      geometry_(layers_.geometry ? pixels_.size() : 0) {
+      geometry_(layers_.geometry ? pixels_.size() : 0),
+      coverage_(layers_.objects ? pixels_.size() : 0) {
 }
 
 void Film::add(const Vec2i& pixel, const FilmSample& sample) {
@@ -85,6 +86,13 @@ void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
             sum.position[c] += features.position[c];
             sum.face_normal[c] += features.face_normal[c];
         }
+    }
+}
+
+void Film::add_coverage(const Vec2i& pixel, std::span<const Coverage> seen) {
+    WEND_EXPECT(layers_.objects);
+    for (const Coverage& object : seen) {
+        coverage_[index_of(pixel)].add(object);
     }
 }
 

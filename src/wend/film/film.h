@@ -2,6 +2,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
+#include <wend/film/cryptomatte.h>
 #include <wend/film/film_layers.h>
 #include <wend/film/part_sums.h>
 #include <wend/film/picture.h>
@@ -74,6 +75,8 @@ public:
     void add_parts(const Vec2i& pixel, std::span<const std::array<double, 3>> parts);
     /// Adds what one of its rays shows.
     void add_features(const Vec2i& pixel, const FilmFeatures& features);
+    /// Adds which objects one of its rays shows, how much each: for FilmLayers::objects.
+    void add_coverage(const Vec2i& pixel, std::span<const Coverage> seen);
     /// Counts a sample that was not a number: it adds nothing, but is not forgotten.
     void reject(const Vec2i& pixel, bool is_of_half_a = false);
 
@@ -106,6 +109,7 @@ public:
         bytes.same(film.crop_);
         bytes.same(film.parts_.parts());
         bytes.same(film.geometry_.size());
+        bytes.same(film.coverage_.size());
         bytes(film.earlier_weights_, film.first_variances_);
         archive_pixels(bytes, film, 0, film.pixels_.size());
     }
@@ -168,6 +172,9 @@ private:
         if (!film.geometry_.empty()) {
             bytes.raw(film.geometry_.data() + first, count);
         }
+        for (std::size_t i = first; i < first + count && !film.coverage_.empty(); ++i) {
+            bytes(film.coverage_[i]);
+        }
     }
 
     /// Adds to what makes the halves: the samples of half a, and how many they are.
@@ -175,6 +182,7 @@ private:
     std::vector<Layer> part_layers(const Halves& weights) const;
     std::vector<Layer> half_layers(const Halves& weights) const;
     std::vector<Layer> geometry_layers() const;
+    std::vector<Layer> object_layers() const;
     std::size_t half_of(std::size_t index) const;
     /// What the pixels of one half are, as they alone tell it.
     std::vector<float> estimates_of_half(const Halves& weights, std::size_t half) const;
@@ -201,6 +209,7 @@ private:
     std::vector<Pixel> pixels_;
     PartSums parts_;                  ///< those of `layers_`, and behind them what add_to_half() adds to
     std::vector<Geometry> geometry_;  ///< none where it was not asked for
+    std::vector<PixelCoverage> coverage_;
     /// Of the stage before this one; none as long as this is the first.
     Halves earlier_weights_{0, 0};
     Halves first_variances_{0, 0};

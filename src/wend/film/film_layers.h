@@ -12,6 +12,7 @@ struct FilmLayers {
     /// `half_a` and `half_b`, of half of the samples each: see Film::picture().
     bool halves = false;
     bool geometry = false;  ///< `position` and `face_normal` of what rays show
+    bool objects = false;   ///< which objects rays show: cryptomatte_layers()
 };
 
 /// Names of parts that are one light group's.

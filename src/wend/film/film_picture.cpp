@@ -37,7 +37,8 @@ Picture Film::picture() const {
     picture.layers = walk_layers();
     picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
                                                    std::move(samples), std::move(variance), std::move(alpha)});
-    for (std::vector<Layer>& more : std::array{part_layers(weights), half_layers(weights), geometry_layers()}) {
+    for (std::vector<Layer>& more :
+         std::array{part_layers(weights), half_layers(weights), geometry_layers(), object_layers()}) {
         std::move(more.begin(), more.end(), std::back_inserter(picture.layers));
     }
     return picture;
@@ -108,6 +109,14 @@ std::vector<Layer> Film::geometry_layers() const {
         }
     }
     return {std::move(position), std::move(face_normal)};
+}
+
+std::vector<Layer> Film::object_layers() const {
+    std::vector<float> rays;
+    for (const Pixel& pixel : pixels_) {
+        rays.push_back(static_cast<float>(std::max(pixel.featured, 1u)));
+    }
+    return cryptomatte_layers(coverage_, rays);
 }
 
 bool counts_as_beauty(const std::string& layer) {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -124,7 +125,8 @@ Image read_beauty(Imf::MultiPartInputFile& input, const Beauty& beauty) {
 bool channel_before(const std::string& a, const std::string& b) {
     constexpr std::string_view colours = "RGBA";
     const auto rank = [&](const std::string& name) {
-        return std::pair(name.size() == 1 ? std::min(colours.find(name[0]), colours.size()) : colours.size(), name);
+        const auto upper = static_cast<char>(std::toupper(static_cast<unsigned char>(name.empty() ? ' ' : name[0])));
+        return std::pair(name.size() == 1 ? std::min(colours.find(upper), colours.size()) : colours.size(), name);
     };
     return rank(a) < rank(b);
 }

@@ -187,7 +187,12 @@ private:
         if (is_traced && index < most_features) {
             constexpr std::uint64_t purpose = 0x66656174;
             Pcg32 random(hash_of(settings_.seed, number, index, purpose));
-            film_.add_features(pixel, first_surface(scene_, ray, random));
+            SeenObjects seen{settings_.objects};
+            film_.add_features(pixel,
+                               first_surface(scene_, ray, random, settings_.objects.is_empty() ? nullptr : &seen));
+            if (!settings_.objects.is_empty()) {
+                film_.add_coverage(pixel, seen.parts);
+            }
         }
         return true;
     }

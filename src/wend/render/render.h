@@ -10,6 +10,7 @@
 #include <wend/render/preset.h>
 #include <wend/render/ranks.h>
 #include <wend/sampling/sampler.h>
+#include <wend/transport/first_surface.h>
 #include <wend/transport/path_tracer.h>
 #include <wend/transport/subsurface_guides.h>
 
@@ -56,6 +57,7 @@ struct RenderSettings {
     ColourMatrix balance;  ///< multiplies them as well, once they are on the film; not singular
     /// Which parts of the beauty the film gets, as many as its FilmLayers::parts.
     PartsPlan parts;
+    ObjectIds objects;                ///< not empty: the film gets which of them it shows (FilmLayers::objects)
     std::vector<std::string> layers;  ///< that were asked for, by name, for those who describe the render
     /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;

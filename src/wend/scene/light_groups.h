@@ -19,11 +19,11 @@ struct LightGroups {
 
     /// The index of a name, which is added where it is new.
     int index_of(const std::string& name) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) {
+        const auto index = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+        if (index == static_cast<int>(names.size())) {
             names.push_back(name);
         }
-        return static_cast<int>(found - names.begin());
+        return index;
     }
     static int get(const std::vector<int>& groups, std::size_t i) { return i < groups.size() ? groups[i] : none; }
     /// Those from `begin` to before `end` are in a group.

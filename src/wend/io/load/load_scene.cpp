@@ -55,6 +55,7 @@ public:
         for (const pbrt::TextureEntity& texture : description_.textures) {
             textures_.add(texture);
         }
+        scene_.names.of_media = medium_names();
         for (const pbrt::MediumEntity& medium : description_.media) {
             const int group = light_group(medium);
             scene_.media.push_back(load_medium(context_, medium));
@@ -142,6 +143,7 @@ private:
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
         const std::size_t patches = patches_of(entity);
+        const ObjectNames::Name name = name_of(entity);
         std::optional<Shape> shape = load_shape(context_, entity, entity.area_light || interior != exterior);
         if (!shape) {
             return;
@@ -172,6 +174,19 @@ private:
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
         places_.push_back(entity.place);
+        scene_.names.of_surfaces.push_back(name);
+    }
+
+    /// What the scene calls a shape, or else where it is.
+    ObjectNames::Name name_of(const pbrt::ShapeEntity& entity) {
+        const bool has_name = entity.parameters.has("name");
+        const std::string text = has_name ? entity.parameters.get_string("name", "")
+                                          : std::filesystem::path(entity.place.file).filename().string();
+        const auto [found, is_new] = texts_.try_emplace(text, static_cast<int>(scene_.names.texts.size()));
+        if (is_new) {
+            scene_.names.texts.push_back(text);
+        }
+        return {found->second, has_name ? 0 : entity.place.line};
     }
 
     /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last
@@ -254,6 +269,7 @@ private:
     std::vector<AreaLight> area_lights_;
     std::vector<int> area_light_groups_;
     std::vector<Place> places_;  ///< of the scene's surfaces
+    std::map<std::string, int> texts_;
     std::vector<Box3> object_boxes_;
     std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
     std::map<std::pair<std::size_t, const Motion*>, std::size_t> group_objects_;
