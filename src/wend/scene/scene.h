@@ -8,9 +8,11 @@
 #include <wend/medium/medium.h>
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>
+#include <wend/scene/light_groups.h>
 #include <wend/scene/light_sampler.h>
 #include <wend/scene/material.h>
 #include <wend/scene/media_at.h>
+#include <wend/scene/object_names.h>
 #include <wend/scene/shape.h>
 #include <wend/scene/surface_detail.h>
 #include <wend/scene/texture.h>
@@ -61,6 +63,8 @@ struct SceneDescription {
     std::vector<ObjectDefinition> objects;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    LightGroups light_groups;
+    ObjectNames names;
     bool light_tree = true;  ///< choose lights by the tree, not by power alone
 };
 
@@ -151,6 +155,10 @@ public:
     bool counts_vertices_in(MediumId id) const {
         const auto* inside = id != vacuum ? std::get_if<HomogeneousMedium>(&medium(id)) : nullptr;
         return !inside || inside->counts_vertices;
+    }
+    /// Which of the description's surfaces was hit.
+    std::size_t surface_index(const Hit& hit) const {
+        return static_cast<std::size_t>(hit.surface - d_.surfaces.data());
     }
     /// What the scene was built from.
     const SceneDescription& description() const { return d_; }
