@@ -74,7 +74,11 @@ const std::vector<Model>& models() {
         {"principled_metal", principled(1, 0.4f)},
         {"principled_coated", principled(0.3f, 0.6f, 0.8f)},
         {"hair", HairBsdf(0.4f, 1.55f, Rgb(0.1f, 0.3f, 1), 0.3f, 0.4f, 0.035f)},
-        {"hair_sharp", HairBsdf(-0.7f, 1.55f, Rgb(0.5f), 0.25f, 0.3f, 0.1f)}};
+        {"hair_sharp", HairBsdf(-0.7f, 1.55f, Rgb(0.5f), 0.25f, 0.3f, 0.1f)},
+        {"conductor_beckmann",
+         ConductorBsdf{Rgb(0.2f, 0.9f, 1.5f), Rgb(3.9f, 2.4f, 1.9f), 0.5f, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_beckmann", DielectricBsdf{1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}}};
     return all;
 }
 
@@ -559,17 +563,38 @@ TEST(Bsdf, AnIndexOfOneIsNotThere) {
 }
 
 TEST(Microfacets, ProjectedAreaOfTheNormalsIsOne) {
-    for (const auto& [ax, ay] : {std::pair{0.5f, 0.5f}, {0.8f, 0.3f}}) {
-        const Microfacets facets(ax, ay);
-        double projected = 0;
-        constexpr int n = 1000;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < n; ++j) {
-                const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
-                projected += facets.d(m) * m.z * 2 * pi / (n * n);
+    for (const FacetSlopes slopes : {FacetSlopes::ggx, FacetSlopes::beckmann}) {
+        for (const auto& [ax, ay] : {std::pair{0.5f, 0.5f}, {0.8f, 0.3f}}) {
+            const Microfacets facets(ax, ay, slopes);
+            double projected = 0;
+            constexpr int n = 1000;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
+                    projected += facets.d(m) * m.z * 2 * pi / (n * n);
+                }
             }
+            EXPECT_NEAR(projected, 1, 1e-3);
         }
-        EXPECT_NEAR(projected, 1, 1e-3);
+    }
+}
+
+// What is visible of the facets is what the macrosurface shows.
+TEST(Microfacets, MaskingKeepsTheProjectedAreaOfWhatIsSeen) {
+    for (const FacetSlopes slopes : {FacetSlopes::ggx, FacetSlopes::beckmann}) {
+        const Microfacets facets(0.6f, 0.4f, slopes);
+        for (const Vec3& w : {normalize(Vec3(0.3f, 0.2f, 1)), normalize(Vec3(-1, 0.5f, 0.4f))}) {
+            double visible = 0;
+            constexpr int n = 1000;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
+                    visible += facets.g1(w) * facets.d(m) * std::max(dot(w, m), 0.0f) * 2 * pi / (n * n);
+                }
+            }
+            // Beckmann's masking is a fit.
+            EXPECT_NEAR(visible, w.z, slopes == FacetSlopes::ggx ? 1e-3 : 4e-3);
+        }
     }
 }
 

@@ -356,7 +356,7 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
 
 Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
+    CLI::App& command = *program.add_subcommand("render", "render a scene");
     options->scene.add_to(command);
     CLI::Option* output = command.add_option(
         "-o,--output", options->output,

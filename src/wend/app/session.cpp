@@ -3,7 +3,7 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
-#include <wend/io/pbrt/parser.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/version.h>
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ PixelRect parse_crop(const std::string& text, const Vec2i& size) {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
-    command.add_option("scene", file, "pbrt-v4 scene file")->required();
+    command.add_option("scene", file, "scene file: pbrt-v4, or Mitsuba 3 (.xml)")->required();
     add_choices_to(command);
 }
 
@@ -80,7 +80,7 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, pbrt::parse_file(options.file), {}) {
+    : Session(options, common, parse_scene(options.file), {}) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }

@@ -20,6 +20,7 @@ struct Roughness {
     TextureId u = 0;
     TextureId v = 0;
     bool remap = true;
+    FacetSlopes slopes = FacetSlopes::ggx;
 };
 
 struct ConductorMaterial {
@@ -60,6 +61,9 @@ struct CoatedMaterial {
     int max_depth = 10;
     int walks = 1;
     float returned = -1;  ///< CoatedBsdf::returned, where the thickness is the same everywhere
+    /// Whether what comes out is in proportion to the reflectance of a diffuse base, as if what the coat returns met
+    /// white.
+    bool is_linear = false;
 };
 
 /// HairBsdf by textures: absorption by one of three colours.

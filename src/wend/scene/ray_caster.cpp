@@ -438,6 +438,7 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     }
     hit.position = point.position;
     hit.normal = normalize(point.normal);
+    hit.is_behind = dot(ray.direction, hit.normal) > 0;
     // Along the normal: a wide surface across an axis is as exact as its place on that axis.
     const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
     hit.clearance = rounding * (dot(facing, point.largest) + max_of(largest_of(hit.position, hit.position)));

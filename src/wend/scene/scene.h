@@ -87,6 +87,7 @@ struct Hit {
     Vec2 uv;        ///< surface parameters; not computed for interfaces
     const Surface* surface = nullptr;
     SurfaceElement element;
+    bool is_behind = false;        ///< the ray came from where the normal does not point to
     bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
     float clearance = 0;           ///< by how much rounding may have moved the position
     float thickness = 0;           ///< of a curve: what leaves it starts so far outside of it; 0: no curve
@@ -95,7 +96,7 @@ struct Hit {
 
 /// Where textures are evaluated for a hit.
 inline TexturePoint texture_point(const Hit& hit) {
-    return {hit.uv, hit.position, hit.normal};
+    return {hit.uv, hit.position, hit.normal, hit.is_behind};
 }
 
 /// Embree's structures over the scene's surfaces.

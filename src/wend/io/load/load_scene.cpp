@@ -5,9 +5,9 @@
 #include <wend/io/load/load_scene.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/shapes.h>
-#include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
 
@@ -278,7 +278,7 @@ private:
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides) {
-    return load_scene(pbrt::parse_file(file), overrides);
+    return load_scene(parse_scene(file), overrides);
 }
 
 LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {

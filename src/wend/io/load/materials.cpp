@@ -85,6 +85,7 @@ private:
         const pbrt::ParameterSet& p = entity.parameters;
         CoatedMaterial material = load_coat(p, "");
         material.base = DiffuseMaterial{textures_.colour(p, "reflectance", Rgb(0.5f))};
+        material.is_linear = p.get_bool("linear", false);
         return {material};
     }
 
@@ -198,7 +199,11 @@ private:
             if (displacement) {
                 context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
             }
-            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
+            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"),
+                                                  is_from_top(p, "normalmaporigin") ? "raw" : "linear", entity.place);
+            if (is_from_top(p, "normalmaporigin")) {
+                detail.normal_map = std::make_shared<const Image>(upside_down(*detail.normal_map));
+            }
         } else if (displacement && textures_.varies(*displacement)) {
             detail.displacement = *displacement;
         }
@@ -315,7 +320,18 @@ private:
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
         const TextureId both = textures_.real(p, prefix + "roughness", 0);
         return {textures_.find_real(p, prefix + "uroughness").value_or(both),
-                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true)};
+                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true),
+                load_slopes(p)};
+    }
+
+    /// "facets", beyond pbrt.
+    static FacetSlopes load_slopes(const pbrt::ParameterSet& p) {
+        const std::string name = p.get_string("facets", "ggx");
+        if (name != "ggx" && name != "beckmann") {
+            throw InputError(p.place_of("facets"),
+                             fmt::format("the facets \"{}\" are unknown; known are ggx, beckmann", name));
+        }
+        return name == "ggx" ? FacetSlopes::ggx : FacetSlopes::beckmann;
     }
 
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.

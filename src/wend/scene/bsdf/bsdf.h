@@ -5,6 +5,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
+#include <wend/medium/microfacet.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <array>
@@ -52,6 +53,7 @@ struct ConductorBsdf {
     Rgb k;
     float alpha_x = 0;
     float alpha_y = 0;
+    FacetSlopes slopes = FacetSlopes::ggx;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
@@ -69,6 +71,7 @@ struct DielectricBsdf {
     float odds = 1;
     /// Of all samples, in (0,1], what is left to Fresnel's equations all the same.
     float fresnel_share = 0.25f;
+    FacetSlopes slopes = FacetSlopes::ggx;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
