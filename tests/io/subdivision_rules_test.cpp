@@ -209,6 +209,8 @@ TEST(SubdivisionRulesTest, HolesShapeTheirNeighbours) {
     const TriangleMeshData mesh = limit_of(control, 2);
     EXPECT_EQ(mesh.indices.size(), 3u * 10u << 4);
     EXPECT_TRUE(has_point(mesh, {0.5f, 0.5f, 0.5f}));
+    control.holes = {0, 0};
+    EXPECT_EQ(limit_triangles(control, 2), 5 * 4 * 8);
 }
 
 TEST(SubdivisionRulesTest, TextureCoordinatesOfVerticesGoWithThem) {

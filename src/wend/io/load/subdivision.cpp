@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -255,8 +256,12 @@ std::optional<TriangleMeshData> limit_surface(const ControlMesh& control, const 
 }
 
 double limit_triangles(const ControlMesh& control, int levels) {
+    std::vector<std::uint32_t> sizes = control.face_sizes;
+    for (const std::uint32_t hole : control.holes) {
+        sizes[hole] = 0;
+    }
     // Of edges cut into r pieces, a quadrangle becomes 2 r², a corner of a larger face r² / 2; that itself a fan.
-    return static_cast<double>(control.corners.size()) * std::max(std::pow(4.0, levels) / 2, 1.0);
+    return std::accumulate(sizes.begin(), sizes.end(), 0.0) * std::max(std::pow(4.0, levels) / 2, 1.0);
 }
 
 }  // namespace wend
