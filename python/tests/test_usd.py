@@ -295,47 +295,6 @@ def test_what_is_hidden_or_a_guide_is_not_seen(stage):
     assert coverage(stage) == 0
 
 
-def test_frames_are_those_of_the_time(stage):
-    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
-    place = cube.AddTranslateOp()
-    place.Set(Gf.Vec3d(-5, 0, -10), 1)
-    place.Set(Gf.Vec3d(5, 0, -10), 3)
-    stage.stage.SetStartTimeCode(1)
-    stage.stage.SetEndTimeCode(3)
-    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    cube.CreateDisplayColorAttr([(0, 0, 0)])
-
-    def column(**options):
-        return np.nonzero(stage.image(size=(80, 80), **options)[40, :, 0] < 0.9)[0].mean()
-
-    assert column() == pytest.approx(20, abs=2)
-    assert column(time=2) == pytest.approx(39.5, abs=2)
-
-
-def test_what_moves_is_blurred_while_the_shutter_is_open(stage):
-    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
-    place = cube.AddTranslateOp()
-    place.Set(Gf.Vec3d(-5, 0, -11), 1)
-    place.Set(Gf.Vec3d(5, 0, -11), 3)
-    cube.CreateDisplayColorAttr([(0, 0, 0)])
-    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    still = 1 - stage.image(size=(80, 80), spp=64, time=2)[:, :, 0].mean()
-    stage.camera.CreateShutterOpenAttr(-0.5)
-    stage.camera.CreateShutterCloseAttr(0.5)
-    sky = stage.image(size=(80, 80), spp=256, time=2)[:, :, 0]
-    assert 1 - sky.mean() == pytest.approx(still, rel=0.05)
-    # At distance 10 the front, 2 across, goes from -2.5 to 2.5: each place is behind it for two fifths of the time.
-    assert 1 - sky[40, 35:45].mean() == pytest.approx(0.4, abs=0.05)
-    columns = np.nonzero((1 - sky[38:42]).mean(axis=0) > 0.02)[0]
-    assert columns.min() == pytest.approx(26, abs=2) and columns.max() == pytest.approx(53, abs=2)
-    # A camera that goes along sees it sharp.
-    move = stage.camera.AddTranslateOp()
-    move.Set(Gf.Vec3d(-5, 0, 0), 1)
-    move.Set(Gf.Vec3d(5, 0, 0), 3)
-    sharp = stage.image(size=(80, 80), spp=64, time=2)[:, :, 0]
-    assert 1 - sharp[40, 40] == pytest.approx(1, abs=1e-3)
-
-
 def test_volumes_are_named_with_their_files(stage):
     volume = UsdVol.Volume.Define(stage.stage, "/smoke")
     field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")

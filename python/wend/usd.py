@@ -78,6 +78,8 @@ class _Reader(SceneReader):
         self.refinement = refinement
         self.stage = stage
         self.time = time
+        #: when the shutter opens and when it closes; the time twice where nothing is blurred
+        self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.objects: set[str] = set()
         self.has_light = False
@@ -121,7 +123,7 @@ class _Reader(SceneReader):
             if in_object:
                 self.warn(prim, "a light that is copied by an instancer is left out")
             else:
-                self.has_light = lights.add(self, prim, world[0]) or self.has_light
+                self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
             for part, faces in mesh_parts(self, prim, world[0], in_object):
                 self.add_shape(prim, part, world, faces, in_object)
@@ -178,14 +180,14 @@ class _Reader(SceneReader):
                         self.add_prim(part, self.world(part) @ from_root, in_object=True)
             names.append(key)
         indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
-        places = instancer.ComputeInstanceTransformsAtTime(self.time, self.time)
+        start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
-        for i, place in zip(shown, places):
+        for i, places in zip(shown, zip(start, end)):
             if not 0 <= indices[i] < len(names):
                 raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
             with self.builder.block():
-                self.put(np.array(place) @ world)
+                self.put(np.array(places) @ world)
                 self.builder.add("ObjectInstance", names[indices[i]])
 
     def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
@@ -239,7 +241,8 @@ class _Reader(SceneReader):
         lens = camera.GetCamera(self.time)
         shutter = [camera.GetShutterOpenAttr().Get(self.time), camera.GetShutterCloseAttr().Get(self.time)]
         if shutter[0] < shutter[1] and not self.time.IsDefault():
-            self.transforms = [UsdGeom.XformCache(self.time.GetValue() + offset) for offset in shutter]
+            self.shutter = [Usd.TimeCode(self.time.GetValue() + offset) for offset in shutter]
+            self.transforms = [UsdGeom.XformCache(time) for time in self.shutter]
         # A tenth of a scene unit, which is a millimetre where that is a centimetre.
         width, height = lens.horizontalAperture, lens.verticalAperture
         shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)

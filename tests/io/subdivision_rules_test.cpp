@@ -249,6 +249,19 @@ TEST(SubdivisionRulesTest, TextureCoordinatesOfCornersHaveSeams) {
     }
 }
 
+TEST(SubdivisionRulesTest, WhatMovesIsOnTheLimitAtBothEnds) {
+    ControlMesh moving = cube(), end = cube();
+    for (std::size_t i = 0; i < end.positions.size(); ++i) {
+        end.positions[i] = end.positions[i] * Vec3(1, 2, 0.5f) + Vec3(static_cast<float>(i), 0, 0);
+    }
+    moving.end_positions = end.positions;
+    const TriangleMeshData both = limit_of(moving, 2), first = limit_of(cube(), 2), last = limit_of(end, 2);
+    EXPECT_EQ(both.positions, first.positions);
+    EXPECT_EQ(both.indices, last.indices);
+    EXPECT_EQ(both.end_positions, last.positions);
+    EXPECT_EQ(both.end_normals, last.normals);
+}
+
 std::string shape(const std::string& parameters) {
     return "Shape \"subdivision\" \"point3 P\" [ 0 0 0  1 0 0  1 1 0  0 1 0 ] \"integer indices\" [ 0 1 2 3 ] " +
            parameters;

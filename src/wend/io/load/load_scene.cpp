@@ -196,7 +196,8 @@ private:
         const Presence presence = surface.alpha < 0          ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
-        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+        attach(area_lights_[*entity.area_light], {presence, patches, entity.world_from_object, entity.motion}, surface,
+               scene_.lights);
     }
 
     /// Those of materials have none.

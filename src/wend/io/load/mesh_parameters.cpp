@@ -72,22 +72,49 @@ TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::
     return mesh;
 }
 
+std::vector<Vec3> take_end_positions(pbrt::ShapeEntity& shape, std::size_t vertices) {
+    const pbrt::Location place = shape.parameters.place_of("P1");
+    std::vector<Vec3> positions = take_vectors<Vec3>(shape.parameters, "P1", pbrt::ParameterType::point3);
+    if (!positions.empty() && positions.size() != vertices) {
+        throw InputError(place, fmt::format("\"P1\" has {} values for {} vertices", positions.size(), vertices));
+    }
+    return positions;
+}
+
+void take_motion(pbrt::ShapeEntity& shape, TriangleMeshData& mesh) {
+    const pbrt::Location place = shape.parameters.place_of("N1");
+    mesh.end_positions = take_end_positions(shape, mesh.positions.size());
+    mesh.end_normals = take_vectors<Vec3>(shape.parameters, "N1", pbrt::ParameterType::normal3);
+    const std::size_t wanted = mesh.end_positions.empty() ? 0 : mesh.normals.size();
+    if (mesh.end_normals.size() != wanted) {
+        throw InputError(place, fmt::format("\"N1\" has {} values: it must have as many as \"N\" where there is "
+                                            "\"P1\", and none otherwise",
+                                            mesh.end_normals.size()));
+    }
+}
+
 TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
     TriangleMesh mesh;
     mesh.positions = std::move(raw.positions);
     mesh.normals = std::move(raw.normals);
     mesh.uvs = std::move(raw.uvs);
     mesh.indices = std::move(raw.indices);
-    for (Vec3& v : mesh.positions) {
-        v = shape.world_from_object.point(v);
-        if (!is_finite(v)) {
-            throw InputError(shape.place, fmt::format("Shape \"{}\" has a vertex that is not finite", shape.type));
+    mesh.end_positions = std::move(raw.end_positions);
+    mesh.end_normals = std::move(raw.end_normals);
+    for (auto* const positions : {&mesh.positions, &mesh.end_positions}) {
+        for (Vec3& v : *positions) {
+            v = shape.world_from_object.point(v);
+            if (!is_finite(v)) {
+                throw InputError(shape.place, fmt::format("Shape \"{}\" has a vertex that is not finite", shape.type));
+            }
         }
     }
-    for (Vec3& n : mesh.normals) {
-        const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
-        // A normal that is no direction leaves its part of the surface flat.
-        n = is_finite(mapped) && length_squared(mapped) > 0 ? normalize(mapped) : Vec3(0, 0, 0);
+    for (auto* const normals : {&mesh.normals, &mesh.end_normals}) {
+        for (Vec3& n : *normals) {
+            const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
+            // A normal that is no direction leaves its part of the surface flat.
+            n = is_finite(mapped) && length_squared(mapped) > 0 ? normalize(mapped) : Vec3(0, 0, 0);
+        }
     }
     return mesh;
 }

@@ -39,6 +39,14 @@ TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners);
 /// take_faces(), and the parameters N and uv; those that are not one a vertex are dropped with a warning, as pbrt does.
 TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners);
 
+/// The parameter P1, which pbrt has not: where vertices are at time 1; empty where it is absent. Throws InputError if
+/// it has not one value a vertex.
+std::vector<Vec3> take_end_positions(pbrt::ShapeEntity& shape, std::size_t vertices);
+
+/// The same and N1, which goes with N, of a mesh whose vertices and normals are known. Throws InputError if these are
+/// not as many.
+void take_motion(pbrt::ShapeEntity& shape, TriangleMeshData& mesh);
+
 /// To the world; normals that are given turn with ReverseOrientation. Throws InputError for vertices that are not
 /// finite.
 TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw);

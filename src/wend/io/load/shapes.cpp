@@ -17,7 +17,9 @@ namespace {
 Shape load_triangle_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     // Faces are numbered for Ptex textures only.
     static_cast<void>(shape.parameters.take_ints("faceIndices"));
-    return place(shape, take_mesh(context, shape, 3));
+    TriangleMeshData mesh = take_mesh(context, shape, 3);
+    take_motion(shape, mesh);
+    return place(shape, std::move(mesh));
 }
 
 Shape load_ply_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {

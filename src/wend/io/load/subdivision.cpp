@@ -40,6 +40,7 @@ struct Pattern {
 /// What a face has where it is cut.
 struct Sample {
     Vec3 position, normal;
+    Vec3 end_position, end_normal;  ///< of what moves
     Vec2 uv;
 };
 
@@ -47,10 +48,11 @@ struct Sample {
 /// unless normals or texture coordinates differ.
 class LimitMesh {
 public:
-    LimitMesh(const Far::TopologyLevel& control, int rate, bool has_uvs)
+    LimitMesh(const Far::TopologyLevel& control, int rate, bool has_uvs, bool is_moving)
         : control_(control),
           rate_(rate),
           has_uvs_(has_uvs),
+          is_moving_(is_moving),
           point_of_vertex_(static_cast<std::size_t>(control.GetNumVertices()), none),
           points_of_edge_(static_cast<std::size_t>(control.GetNumEdges()), none) {}
 
@@ -111,9 +113,12 @@ private:
         const auto vertex = static_cast<std::uint32_t>(mesh_.positions.size());
         *next = vertex;
         const std::uint32_t first = first_vertex_[point];
-        const Vec3 position = first == vertex ? sample.position : mesh_.positions[first];
-        mesh_.positions.push_back(position);
+        mesh_.positions.push_back(first == vertex ? sample.position : Vec3(mesh_.positions[first]));
         mesh_.normals.push_back(sample.normal);
+        if (is_moving_) {
+            mesh_.end_positions.push_back(first == vertex ? sample.end_position : Vec3(mesh_.end_positions[first]));
+            mesh_.end_normals.push_back(sample.end_normal);
+        }
         if (has_uvs_) {
             mesh_.uvs.push_back(sample.uv);
         }
@@ -123,17 +128,22 @@ private:
 
     /// Up to what the two sides of an edge may differ by as they are evaluated.
     bool is_alike(std::uint32_t vertex, const Sample& sample) const {
-        constexpr float cosine = 1 - 4e-5f, tolerance = 1e-5f;
-        const Vec3& normal = mesh_.normals[vertex];
-        if (!(dot(normal, sample.normal) >= cosine || (normal == Vec3(0, 0, 0) && sample.normal == normal))) {
+        constexpr float tolerance = 1e-5f;
+        if (!is_one_way(mesh_.normals[vertex], sample.normal) ||
+            (is_moving_ && !is_one_way(mesh_.end_normals[vertex], sample.end_normal))) {
             return false;
         }
         return !has_uvs_ || (mesh_.uvs[vertex] - sample.uv).length() <= tolerance * std::max(1.0f, sample.uv.length());
     }
 
+    static bool is_one_way(const Vec3& a, const Vec3& b) {
+        constexpr float cosine = 1 - 4e-5f;
+        return dot(a, b) >= cosine || (a == Vec3(0, 0, 0) && b == a);
+    }
+
     const Far::TopologyLevel& control_;
     int rate_;
-    bool has_uvs_;
+    bool has_uvs_, is_moving_;
     std::vector<std::uint32_t> point_of_vertex_, points_of_edge_;
     std::vector<std::uint32_t> first_vertex_;       ///< at each point
     std::vector<std::uint32_t> next_vertex_;        ///< in the same place
@@ -155,6 +165,9 @@ public:
             return std::nullopt;
         }
         prepare(surface_, &control_.positions.data()->x, 3, patch_);
+        if (!control_.end_positions.empty()) {
+            prepare(surface_, &control_.end_positions.data()->x, 3, end_patch_);
+        }
         if (!control_.uvs.empty()) {
             prepare(uv_surface_, &control_.uvs.data()->x, 2, uv_patch_);
         }
@@ -166,13 +179,9 @@ public:
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             const float* const uv = &pattern.coordinates[2 * i];
             Sample& sample = samples_[i];
-            sample.normal = evaluate(uv, sample.position);
-            if (sample.normal == Vec3(0, 0, 0)) {
-                // Where a boundary runs smoothly through the corner of a face, both ways along it are the same.
-                float beside[2];
-                move_inwards(uv, beside);
-                Vec3 elsewhere;
-                sample.normal = evaluate(beside, elsewhere);
+            sample.normal = point_at(uv, patch_, sample.position);
+            if (!control_.end_positions.empty()) {
+                sample.end_normal = point_at(uv, end_patch_, sample.end_position);
             }
             if (!control_.uvs.empty()) {
                 uv_surface_.Evaluate(uv, uv_patch_.data(), 2, &sample.uv.x);
@@ -196,10 +205,23 @@ private:
         surface.PreparePatchPoints(values, width, patch.data(), width);
     }
 
-    /// The normal, zero where there is none; fills in the place.
-    Vec3 evaluate(const float* uv, Vec3& position) const {
+    /// Fills in the place; returns the normal, zero where there is none.
+    Vec3 point_at(const float* uv, const std::vector<float>& patch, Vec3& position) const {
+        Vec3 normal = evaluate(uv, patch, position);
+        if (normal == Vec3(0, 0, 0)) {
+            // Where a boundary runs smoothly through the corner of a face, both ways along it are the same.
+            float beside[2];
+            move_inwards(uv, beside);
+            Vec3 elsewhere;
+            normal = evaluate(beside, patch, elsewhere);
+        }
+        return normal;
+    }
+
+    /// The same without a second look.
+    Vec3 evaluate(const float* uv, const std::vector<float>& patch, Vec3& position) const {
         Vec3 du, dv;
-        surface_.Evaluate(uv, patch_.data(), 3, &position.x, &du.x, &dv.x);
+        surface_.Evaluate(uv, patch.data(), 3, &position.x, &du.x, &dv.x);
         const Vec3 normal = cross(du, dv);
         constexpr float smallest_sine = 1e-4f;
         const bool has_normal =
@@ -228,7 +250,7 @@ private:
     const ControlMesh& control_;
     Factory factory_;
     Bfr::Surface<float> surface_, uv_surface_;
-    std::vector<float> patch_, uv_patch_;
+    std::vector<float> patch_, end_patch_, uv_patch_;
     std::vector<Sample> samples_;
 };
 
@@ -242,7 +264,7 @@ std::optional<TriangleMeshData> limit_surface(const ControlMesh& control, const 
     const Far::TopologyLevel level = refiner->GetLevel(0);
     const int rate = 1 << levels;
     FaceSampler sampler(control, *refiner, levels);
-    LimitMesh mesh(level, rate, !control.uvs.empty());
+    LimitMesh mesh(level, rate, !control.uvs.empty(), !control.end_positions.empty());
     std::map<int, Pattern> patterns;
     for (int face = 0; face < level.GetNumFaces(); ++face) {
         if (const auto parameterization = sampler.begin(face)) {

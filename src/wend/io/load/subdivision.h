@@ -41,6 +41,7 @@ struct ControlMesh {
     };
 
     std::vector<Vec3> positions;
+    std::vector<Vec3> end_positions;        ///< at time 1 (TriangleMesh); empty where nothing moves
     std::vector<std::uint32_t> face_sizes;  ///< corners of each face, three or more
     std::vector<std::uint32_t> corners;     ///< vertices of all faces, against the clock
     std::vector<Vec2> uvs;
@@ -53,7 +54,7 @@ struct ControlMesh {
 /// The surface that subdivision of a mesh tends to (catmull1978, loop1987), cut into triangles: each edge of the
 /// control mesh becomes 2^levels edges, whose ends are on the surface and have its normals. These are zero where it has
 /// none, and differ from face to face at creases that stay sharp. Texture coordinates are one a vertex if there are
-/// any.
+/// any. What moves is on the limit of what the control mesh is at both ends.
 ///
 /// Indices must be within their ranges. Faces with a vertex twice are left out, and creases along what is no edge are
 /// ignored. None if nothing is left. Throws std::invalid_argument for faces of other than 3 to 256 corners, of other

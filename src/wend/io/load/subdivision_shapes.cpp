@@ -219,6 +219,7 @@ Shape load_subdivision_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
     const Rules rules = load_rules(shape.parameters);
     ControlMesh control;
     control.positions = take_positions(shape);
+    control.end_positions = take_end_positions(shape, control.positions.size());
     take_control_faces(shape, rules.scheme, control);
     control.holes = take_indices(shape, "holeIndices", control.face_sizes.size(), "faces");
     take_creases(shape, control);
