@@ -35,7 +35,9 @@ struct Surface {
     MediumId exterior = vacuum;
     /// The geometric normal points against the shape's own orientation. A mesh with normals follows those instead.
     bool flip_normal = false;
-    int first_light = -1;  ///< area light of the first primitive, those of the others following; -1: none
+    /// Area light of the first primitive, those of the others following; -1: none. What shines is placed once at most,
+    /// by the motion that its lights have.
+    int first_light = -1;
     TextureId alpha = -1;  ///< probability of being there at all; -1: certain
 
     bool bounds_medium() const { return interior != exterior; }
@@ -188,6 +190,8 @@ public:
 
 private:
     void add_emitting_media();
+    /// For each surface, the last instance that it is part of; -1: it is not placed.
+    std::vector<int> instances_of_surfaces() const;
     /// For each region of a medium that a ray starts in, where it leaves that.
     std::vector<Hit> ways_out(const Ray& ray) const;
     int material_id(const Hit& hit) const {

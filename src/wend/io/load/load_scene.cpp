@@ -218,7 +218,8 @@ private:
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
         const std::size_t first = scene_.lights.size();
-        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+        attach(area_lights_[*entity.area_light], {presence, patches, entity.world_from_object, entity.motion}, surface,
+               scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
     }
 
