@@ -51,7 +51,7 @@ TEST(ColouredGlass, APaneInAnEvenSkyHasItsSeries) {
     SceneDescription s = test::scene_with_camera({0, 5, 0}, {0, 0, 0}, 0.5f, side);
     test::add_box(s, Box3(Vec3(-9, -1, -9), Vec3(9, 0, 9)), add_coloured_glass(s, 1.5f, 0));
     test::add_environment(s, Rgb(1.0f));
-    const float r = fresnel_dielectric(1, 1.5f);
+    const float r = fresnel_dielectric(1.0f, 1.5f);
     for (const char* preset : {"classical", "direction", "full"}) {
         const auto measured = means(s, preset, 64);
         for (std::size_t c = 0; c < 3; ++c) {

@@ -513,7 +513,7 @@ TEST(DiffuseTransmission, SharesAreItsColours) {
 TEST(ThinDielectric, LightGoesOnOrIsReflected) {
     const ThinDielectricBsdf glass{1.5f};
     const Vec3 wo = incidences()[0];
-    const float share = glass.reflectance(wo);
+    const float share = glass.reflected_share(wo);
     EXPECT_NEAR(share, 2 * 0.04f / 1.04f, 2e-3f);
     const auto reflected = glass.sample(wo, share - 1e-4f, {0, 0}), passed = glass.sample(wo, share + 1e-4f, {0, 0});
     ASSERT_TRUE(reflected && passed);
