@@ -191,10 +191,20 @@ def test_principled(scene, tmp_path, inputs):
     check(scene, tmp_path, 600)
 
 
-def test_glass(scene, tmp_path):
+@pytest.mark.parametrize(
+    "glass",
+    [
+        {"kind": "BsdfGlass", "color": (1, 1, 1), "distribution": "GGX"},
+        {"kind": "BsdfGlass", "color": (0.9, 0.6, 0.3), "distribution": "GGX"},
+        {"kind": "BsdfPrincipled", "base_color": (0.8, 0.9, 0.5), "transmission_weight": 1, "distribution": "GGX"},
+    ],
+    ids=["white", "coloured", "principled"],
+)
+def test_glass(scene, tmp_path, glass):
     sky(scene, (0.5, 0.7, 1.0))
     floor(scene)
-    mesh(scene, "cube", material("BsdfGlass", color=(1, 1, 1), roughness=0.3, ior=1.45, distribution="GGX"), place=(0, 0, 1), turn=(0.2, 0.3, 0.4), stretch=(0.7, 0.7, 0.7))
+    kind, rest = glass["kind"], {name: value for name, value in glass.items() if name != "kind"}
+    mesh(scene, "cube", material(kind, roughness=0.3, ior=1.45, **rest), place=(0, 0, 1), turn=(0.2, 0.3, 0.4), stretch=(0.7, 0.7, 0.7))
     check(scene, tmp_path, 2000, tolerance=0.015)
 
 

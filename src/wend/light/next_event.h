@@ -116,7 +116,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
 template <DistanceDecision Distance>
 Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk* interior,
              Pcg32& random) {
-    Passage passage{Rgb(way.transmitted), Rgb(1.0f)};
+    Passage passage{way.transmitted, Rgb(1.0f)};
     const MediumId first = way.legs().front().medium;
     for (const SpecularChain::Leg& leg : way.legs()) {
         if (leg.medium != first) {
