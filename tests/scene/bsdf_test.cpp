@@ -47,6 +47,13 @@ PrincipledBsdf principled(float metallic, float alpha, float coat = 0) {
     return b;
 }
 
+DielectricBsdf coloured_glass(float alpha) {
+    DielectricBsdf b{1.5f, alpha, alpha};
+    b.reflectance = Rgb(0.9f, 0.5f, 0.1f);
+    b.transmittance = Rgb(0.2f, 0.4f, 0.8f);
+    return b;
+}
+
 const std::vector<Model>& models() {
     static const std::vector<Model> all = {
         {"lambert", LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}},
@@ -58,6 +65,9 @@ const std::vector<Model>& models() {
         {"dielectric_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.4f}},
         {"dielectric_smooth", DielectricBsdf{1.5f, 0, 0}},
         {"dielectric_odds", DielectricBsdf{1.5f, 0.4f, 0.4f, 6}},
+        {"dielectric_coloured", coloured_glass(0.4f)},
+        {"dielectric_smooth_coloured", coloured_glass(0)},
+        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}},
         {"dielectric_smooth_odds", DielectricBsdf{1.5f, 0, 0, 0.1f}},
         {"transmission", DiffuseTransmissionBsdf{Rgb(0.1f, 0.3f, 0.5f), Rgb(0.6f, 0.4f, 0.5f)}},
         {"thin", ThinDielectricBsdf{1.5f}},
@@ -215,6 +225,27 @@ TEST(Dielectric, SmoothLosesNothingOnAnyPath) {
         const Moments share = energy(bsdf, wo, 2000)[0];
         EXPECT_NEAR(share.mean(), 1, 1e-5);
         EXPECT_LT(share.standard_error(), 1e-6);
+    }
+}
+
+TEST(Dielectric, ColoursAreFactorsOfWhatIsReflectedAndOfWhatPasses) {
+    Pcg32 random(1);
+    for (const float alpha : {0.0f, 0.4f}) {
+        const DielectricBsdf clear{1.5f, alpha, alpha}, coloured = coloured_glass(alpha);
+        for (const Vec3& wo : incidences()) {
+            for (int i = 0; i < 200; ++i) {
+                const float u = random.uniform();
+                const Vec2 u2 = random.uniform2();
+                const auto a = clear.sample(wo, u, u2), b = coloured.sample(wo, u, u2);
+                ASSERT_EQ(a.has_value(), b.has_value());
+                if (a) {
+                    const bool reflects = a->direction.z * wo.z > 0;
+                    EXPECT_EQ(a->direction, b->direction);
+                    EXPECT_EQ(a->density, b->density);
+                    EXPECT_EQ(b->value, (reflects ? coloured.reflectance : coloured.transmittance) * a->value.r);
+                }
+            }
+        }
     }
 }
 
@@ -486,7 +517,7 @@ TEST(DiffuseTransmission, SharesAreItsColours) {
 TEST(ThinDielectric, LightGoesOnOrIsReflected) {
     const ThinDielectricBsdf glass{1.5f};
     const Vec3 wo = incidences()[0];
-    const float share = glass.reflectance(wo);
+    const float share = glass.reflected_share(wo);
     EXPECT_NEAR(share, 2 * 0.04f / 1.04f, 2e-3f);
     const auto reflected = glass.sample(wo, share - 1e-4f, {0, 0}), passed = glass.sample(wo, share + 1e-4f, {0, 0});
     ASSERT_TRUE(reflected && passed);

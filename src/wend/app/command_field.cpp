@@ -17,7 +17,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -97,14 +96,6 @@ const Part& choose_part(const std::array<Part, 2>& parts, const std::string& nam
     return summarize(*parts[0].field).samples >= summarize(*parts[1].field).samples ? parts[0] : parts[1];
 }
 
-/// The records of a sample that lie in a region of the field.
-guide::Records records_in(const guide::Region* region, const guide::Field& field, const guide::RecordSample& sample) {
-    guide::Records found;
-    std::copy_if(sample.records().begin(), sample.records().end(), std::back_inserter(found),
-                 [&](const guide::Record& r) { return field.find(r.position) == region; });
-    return found;
-}
-
 /// The lobes of a region as they are seen from a position: rows of a table, and JSON.
 struct Lobes {
     std::vector<std::vector<std::string>> rows;
@@ -151,7 +142,7 @@ nlohmann::json show_position(const FieldOptions& options, const std::array<Part,
     const guide::VmfMixture incident = region->incident(position);
     std::optional<guide::Records> told;
     if (samples) {
-        told = records_in(region, *part.field, part.field == parts[0].field ? samples->surface : samples->volume);
+        told = records_in(part.field == parts[0].field ? samples->surface : samples->volume, *part.field, region);
     }
     const DirectionMaps maps{radiance_map(incident, region->fluence()),
                              told ? record_map(*told) : std::vector<float>()};

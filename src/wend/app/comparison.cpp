@@ -26,7 +26,7 @@ struct Run {
 
 Run run_once(const Session& session, const RenderSettings& settings, const Reference& reference,
              const std::function<void(const RenderProgress&)>& watch) {
-    Film film = session.new_film();
+    Film film = session.new_film(settings);
     // Pictures on the way are kept at times that double, and measured when the clock has stopped.
     std::vector<std::pair<double, Image>> snapshots;
     double next_snapshot = 0;
@@ -76,7 +76,7 @@ ComparisonWatcher comparison_bars(int seeds, const CommonOptions& common, const 
 std::vector<ComparisonRow> compare_presets(const Session& session, const std::vector<WayOfSampling>& ways,
                                            double seconds, int seeds, const Reference& reference,
                                            const ComparisonWatcher& watcher) {
-    const Film film = session.new_film();
+    const Film film = session.new_film(session.settings());
     if (reference.a.width != film.crop().width() || reference.a.height != film.crop().height()) {
         throw InputError(
             fmt::format("the reference has {} x {} pixels, the picture {} x {}: choose --resolution to match",

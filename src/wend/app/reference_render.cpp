@@ -18,7 +18,7 @@ Reference render_reference(const Session& session, double seconds, const std::fi
         settings.preset = parse_preset("full");
         settings.seconds = reference_effort * seconds;
         settings.seed += seeds_apart + static_cast<std::uint64_t>(half);
-        Film film = session.new_film();
+        Film film = session.new_film(settings);
         watch(half, {});
         const RenderStatistics statistics =
             render(session.scene(), film, settings, [&](const RenderProgress& progress) {

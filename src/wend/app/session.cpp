@@ -1,3 +1,4 @@
+#include <wend/app/extra_layers.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
@@ -52,6 +53,10 @@ PixelRect parse_crop(const std::string& text, const Vec2i& size) {
 
 void SceneOptions::add_to(CLI::App& command) {
     command.add_option("scene", file, "scene file: pbrt-v4, or Mitsuba 3 (.xml)")->required();
+    add_choices_to(command);
+}
+
+void SceneOptions::add_choices_to(CLI::App& command) {
     command.add_option("--resolution", resolution, "size of the picture, WIDTHxHEIGHT (default: the scene's)");
     command.add_option("--crop", crop, "part of the picture to render: X0,X1,Y0,Y1 as fractions");
     command
@@ -108,17 +113,25 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, Loade
     settings_.balance = loaded.balance;
 }
 
+Film Session::new_film(const RenderSettings& settings) const {
+    return {resolution_, crop_, film_layers(settings.layers, scene_)};
+}
+
 nlohmann::json Session::describe(const RenderSettings& settings) const {
-    return {{"scene", scene_file_},
-            {"sampling", to_string(settings.preset)},
-            {"subsurface", to_string(settings.subsurface)},
-            {"resolution", {resolution_.x, resolution_.y}},
-            {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
-            {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-            {"seed", settings.seed},
-            {"threads", settings.threads},
-            {"max_depth", settings.max_depth},
-            {"version", WEND_VERSION}};
+    nlohmann::json described = {{"scene", scene_file_},
+                                {"sampling", to_string(settings.preset)},
+                                {"subsurface", to_string(settings.subsurface)},
+                                {"resolution", {resolution_.x, resolution_.y}},
+                                {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
+                                {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+                                {"seed", settings.seed},
+                                {"threads", settings.threads},
+                                {"max_depth", settings.max_depth},
+                                {"version", WEND_VERSION}};
+    if (!settings.layers.empty()) {
+        described["layers"] = settings.layers;
+    }
+    return described;
 }
 
 Picture Session::picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const {

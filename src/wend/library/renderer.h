@@ -71,6 +71,8 @@ struct Settings {
     std::string subsurface = "auto";    ///< walks inside dense media: "auto", "classical" or the name of a technique
     std::optional<std::uint64_t> seed;  ///< none: the scene's
     int threads = 0;                    ///< 0: all; the picture does not depend on it
+    /// More layers of the film: emission, background, direct, indirect, volume, lights, halves, geometry.
+    std::vector<std::string> layers;
 };
 
 /// How far a render is.

@@ -54,15 +54,22 @@ Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const Texture
     return metal_of(m, textures, p, 1);
 }
 
-Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
-    const Alpha alpha = alpha_at(m.roughness, textures, p);
-    DielectricBsdf b{m.ior, alpha.x, alpha.y};
-    b.slopes = m.roughness.slopes;
-    return b;
+/// 1 where there is no texture.
+Rgb factor_of(TextureId texture, const Textures& textures, const TexturePoint& p) {
+    return texture < 0 ? Rgb(1.0f) : clamp01(textures.evaluate(texture, p));
 }
 
-Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures&, const TexturePoint&) {
-    return ThinDielectricBsdf{m.ior};
+Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const Alpha alpha = alpha_at(m.roughness, textures, p);
+    DielectricBsdf bsdf{m.ior, alpha.x, alpha.y};
+    bsdf.slopes = m.roughness.slopes;
+    bsdf.reflectance = factor_of(m.reflectance, textures, p);
+    bsdf.transmittance = factor_of(m.transmittance, textures, p);
+    return bsdf;
+}
+
+Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
+    return ThinDielectricBsdf{m.ior, factor_of(m.reflectance, textures, p), factor_of(m.transmittance, textures, p)};
 }
 
 /// Different for different points.

@@ -38,6 +38,9 @@ struct DielectricMaterial {
     /// Of the medium inside, where a walk enters it: the albedo that the walk finds there until it enters anew, over
     /// that of the medium; -1: 1.
     TextureId relative_albedo = -1;
+    /// Those of DielectricBsdf; -1: 1.
+    TextureId reflectance = -1;
+    TextureId transmittance = -1;
 };
 
 struct DiffuseTransmissionMaterial {
@@ -48,6 +51,9 @@ struct DiffuseTransmissionMaterial {
 
 struct ThinDielectricMaterial {
     float ior = 1.5f;
+    /// As those of DielectricMaterial.
+    TextureId reflectance = -1;
+    TextureId transmittance = -1;
 };
 
 /// CoatedBsdf by textures.

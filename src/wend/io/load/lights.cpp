@@ -3,6 +3,7 @@
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/sky_picture.h>
+#include <wend/scene/moving_light.h>
 
 #include <fmt/format.h>
 
@@ -357,13 +358,15 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
 
 namespace {
 
-void attach_to_quadric(const AreaLight& light, Presence presence, const Transform& world_from_object,
-                       const Surface& surface, std::vector<Light>& lights) {
-    QuadricLight source = make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)),
-                                             world_from_object, surface.flip_normal, light.radiance, light.two_sided);
+void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surface& surface,
+                       std::vector<Light>& lights) {
+    QuadricLight source =
+        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), at.world_from_object,
+                           surface.flip_normal, light.radiance, light.two_sided);
+    source.motion = at.motion;
     // Exact where the transform keeps shapes similar.
-    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(source.determinant)));
-    source.presence = presence;
+    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(PlacedQuadric(source, 0).area_factor())));
+    source.presence = at.presence;
     source.picture = light.picture;
     lights.push_back(std::move(source));
 }
@@ -378,45 +381,57 @@ void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& sou
     }
 }
 
-/// `shapes`: of how many of pbrt's shapes the mesh consists, of equally many triangles each.
-void attach_to_mesh(const AreaLight& light, Presence presence, std::size_t shapes, const Surface& surface,
-                    std::vector<Light>& lights) {
+/// A triangle of a mesh, which moves as the mesh does.
+TriangleLight lamp_of(const AreaLight& light, const LampPlace& at, const Surface& surface, std::size_t triangle) {
+    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const bool flip = flips(surface, mesh, triangle);
+    TriangleLight source = make_triangle_light(mesh.vertex(triangle, 0), mesh.vertex(triangle, 1),
+                                               mesh.vertex(triangle, 2), flip, light.radiance, light.two_sided);
+    if (at.motion || mesh.is_moving()) {
+        source.motion =
+            std::make_shared<const TriangleMotion>(TriangleMotion{mesh.triangle(triangle, 1), at.motion, flip});
+        const PlacedTriangle placed = placed_at(source, 0);
+        source.normal = placed.normal;
+        source.area = placed.area;
+    }
+    source.presence = at.presence;
+    source.picture = light.picture;
+    copy_uvs(mesh, triangle, source);
+    return source;
+}
+
+void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& surface, std::vector<Light>& lights) {
     const auto& mesh = std::get<TriangleMesh>(surface.shape);
     // Below, the area's inverse and its products leave the range of floats.
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
-    const std::size_t together = shapes > 0 && triangles % shapes == 0 ? triangles / shapes : 1;
+    const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
     for (std::size_t first = 0; first < triangles; first += together) {
         const std::size_t begin = lights.size();
         float area = 0;
         for (std::size_t i = first; i < first + together; ++i) {
-            TriangleLight source = make_triangle_light(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2),
-                                                       flips(surface, mesh, i), light.radiance, light.two_sided);
-            source.presence = presence;
-            source.picture = light.picture;
-            copy_uvs(mesh, i, source);
+            TriangleLight source = lamp_of(light, at, surface, i);
             area += source.area;
             lights.push_back(std::move(source));
         }
         for (std::size_t i = begin; i < lights.size(); ++i) {
             auto& source = std::get<TriangleLight>(lights[i]);
-            source.radiance = source.area > smallest_area ? light.radiance_of(area) : Rgb(0.0f);
+            source.radiance = source.area > smallest_area || source.motion ? light.radiance_of(area) : Rgb(0.0f);
         }
     }
 }
 
 }  // namespace
 
-void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
-            Surface& surface, std::vector<Light>& lights) {
+void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights) {
     if (is_black(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance)) {
         return;
     }
     surface.first_light = static_cast<int>(lights.size());
     if (std::holds_alternative<Quadric>(surface.shape)) {
-        attach_to_quadric(light, presence, world_from_object, surface, lights);
+        attach_to_quadric(light, at, surface, lights);
     } else {
-        attach_to_mesh(light, presence, shapes, surface, lights);
+        attach_to_mesh(light, at, surface, lights);
     }
 }
 

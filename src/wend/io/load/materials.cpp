@@ -77,8 +77,14 @@ private:
                                             non_negative_float(p, "scale", 1)}};
     }
 
+    /// What multiplies what Fresnel's equations say; -1: nothing.
+    TextureId load_factor(const pbrt::MaterialEntity& entity, const char* name) {
+        return textures_.find_colour(entity.parameters, name, SpectrumKind::reflectance).value_or(-1);
+    }
+
     LoadedMaterial load_thin_dielectric(const pbrt::MaterialEntity& entity) {
-        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f)}};
+        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_factor(entity, "reflectance"),
+                                       load_factor(entity, "transmittance")}};
     }
 
     LoadedMaterial load_coated_diffuse(const pbrt::MaterialEntity& entity) {
@@ -213,7 +219,10 @@ private:
     LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) { return {load_metal(entity.parameters, "", 1)}; }
 
     LoadedMaterial load_dielectric(const pbrt::MaterialEntity& entity) {
-        return {DielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")}};
+        DielectricMaterial material{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")};
+        material.reflectance = load_factor(entity, "reflectance");
+        material.transmittance = load_factor(entity, "transmittance");
+        return {material};
     }
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {

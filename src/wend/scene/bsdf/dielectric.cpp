@@ -58,13 +58,13 @@ Rgb DielectricBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const Vec3& m = facet->normal;
     const float f = fresnel_dielectric(dot(wo, m), ior);
     if (facet->reflects) {
-        return Rgb(facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
+        return reflectance * (facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
     }
     const float n = facet->index_ratio;
     const float denominator = sqr(dot(wi, m) + dot(wo, m) / n);
     // The factor 1/n² is that of radiance.
-    return Rgb((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) /
-               (denominator * std::abs(wo.z) * n * n));
+    return transmittance * ((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) /
+                            (denominator * std::abs(wo.z) * n * n));
 }
 
 float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
@@ -106,7 +106,7 @@ std::optional<BsdfSample> DielectricBsdf::reflected(const Vec3& wo, const Vec3& 
     }
     const Vec3 wi = m * (2 * dot(wo, m)) - wo;
     if (is_specular()) {
-        return BsdfSample{wi, Rgb(fresnel_dielectric(dot(wo, m), ior)), 1, true};
+        return BsdfSample{wi, reflectance * fresnel_dielectric(dot(wo, m), ior), 1, true};
     }
     const float p = Microfacets(alpha_x, alpha_y, slopes).visible_density(wo, m) / (4 * abs_dot(wo, m));
     return wo.z * wi.z > 0 && p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
@@ -120,7 +120,8 @@ std::optional<BsdfSample> DielectricBsdf::refracted(const Vec3& wo, const Vec3& 
     }
     const Vec3& wi = refraction->direction;
     if (is_specular()) {
-        return BsdfSample{wi, Rgb((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1, true};
+        return BsdfSample{wi, transmittance * ((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1,
+                          true};
     }
     const float p = refraction_density(wo, wi);
     return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
