@@ -254,8 +254,12 @@ void Materials::set_roughness(const Object& bsdf, const std::string& prefix, Par
 Materials::Leaf Materials::dielectric(const Object& bsdf) {
     Parameters p(bsdf.place());
     p.real("eta", index_of(bsdf, "int_ior", "bk7") / index_of(bsdf, "ext_ior", "air"));
-    require_one(bsdf, "specular_reflectance");
-    require_one(bsdf, "specular_transmittance");
+    for (const auto& [name, parameter] :
+         {std::pair{"specular_reflectance", "reflectance"}, std::pair{"specular_transmittance", "transmittance"}}) {
+        if (bsdf.has(name)) {
+            p.colour(parameter, textures_.colour(bsdf, name, Rgb(1.0f)));
+        }
+    }
     if (bsdf.type() == "thindielectric") {
         return {"thindielectric", std::move(p), false};
     }
