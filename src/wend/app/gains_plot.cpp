@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -56,22 +58,47 @@ std::string strip(const GainDistribution& d, std::span<const Comparison> compari
                      mean, middle - 11, d.geometric_mean);
 }
 
+/// All that the axis must show: gains, the ranges of their runs, and classical sampling.
+std::vector<double> values_of(const std::vector<GainDistribution>& gains) {
+    std::vector<double> values = {1};
+    for (const GainDistribution& d : gains) {
+        for (const SceneGain& one : d.scenes) {
+            for (const double value : {one.gain, one.runs.min, one.runs.max}) {
+                if (value > 0 && std::isfinite(value)) {
+                    values.push_back(value);
+                }
+            }
+        }
+    }
+    return values;
+}
+
+/// With ones, twos and fives over up to four decades; beyond, the scale's own ticks.
+PlotAxis axis_of(const std::vector<GainDistribution>& gains) {
+    PlotAxis axis;
+    axis.scale = PlotAxis::Scale::logarithmic;
+    const std::vector<double> values = values_of(gains);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    if (*high / *low < 1e4) {
+        for (double decade = std::pow(10.0, std::floor(std::log10(*low))); decade <= *high; decade *= 10) {
+            for (const double value : {decade, 2 * decade, 5 * decade}) {
+                if (value >= *low && value <= *high) {
+                    axis.ticks.push_back({value, fmt::format("{:.3g}", value)});
+                }
+            }
+        }
+    }
+    return axis;
+}
+
 }  // namespace
 
 std::string gains_svg(const std::vector<GainDistribution>& gains, std::span<const Comparison> comparisons) {
     const double bottom = top + strip_height * static_cast<double>(gains.size());
-    PlotAxis axis;
-    axis.scale = PlotAxis::Scale::logarithmic;
+    const PlotAxis axis = axis_of(gains);
     PlotScale x(axis, left + 8, right - 8);
-    x.include(1);
-    for (const GainDistribution& d : gains) {
-        for (const SceneGain& one : d.scenes) {
-            for (const double value : {one.gain, one.runs.min, one.runs.max}) {
-                if (x.can_show(value)) {
-                    x.include(value);
-                }
-            }
-        }
+    for (const double value : values_of(gains)) {
+        x.include(value);
     }
     x.finish();
     std::string svg = fmt::format(opening, width, bottom + axis_height);

@@ -35,7 +35,7 @@ const std::string_view scenes_template = R"html(<!doctype html>
 <h2>Worst first</h2>
 <div class="scroll" tabindex="0" role="region" aria-label="Every scene and way of sampling, the worst gain first">
 <table>
-<thead><tr><th scope="col">scene</th><th scope="col">sampling</th><th scope="col">gain</th><th scope="col">by seed</th><th scope="col">relMSE</th><th scope="col">relMSE, trimmed</th><th scope="col">spp</th><th scope="col">seconds</th></tr></thead>
+<thead><tr><th scope="col">scene</th><th class="left" scope="col">sampling</th><th scope="col">gain</th><th scope="col">by seed</th><th scope="col">relMSE</th><th scope="col">relMSE, trimmed</th><th scope="col">spp</th><th scope="col">seconds</th></tr></thead>
 <tbody>
 {{cases}}</tbody>
 </table>
@@ -58,7 +58,7 @@ const std::string_view scenes_style = R"css(
 a { color: var(--accent); }
 .skip { position: absolute; left: -100rem; }
 .skip:focus { left: 1rem; top: 1rem; padding: .4rem .8rem; border-radius: .3rem; background: var(--panel); }
-.left { text-align: left; }
+th.left, td.left { text-align: left; }
 .loss { color: #b5480a; font-weight: 600; }
 @media (prefers-color-scheme: dark) { .loss { color: #f0935a; } }
 section > .plot { max-width: none; margin-top: 1.5rem; }
