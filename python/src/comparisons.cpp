@@ -55,25 +55,29 @@ private:
     Comparison comparison_;
 };
 
-/// Writes a report over several comparisons as the program does.
-void write_report(const std::vector<const PythonComparison*>& comparisons, const std::string& folder) {
+using Comparisons = std::vector<std::pair<std::string, const PythonComparison*>>;
+
+/// Writes a report over several comparisons as the program does, each by its name.
+void write_report(const Comparisons& comparisons, const std::string& folder) {
     const nb::gil_scoped_release release;
     std::vector<std::string> scenes;
-    for (const PythonComparison* one : comparisons) {
-        scenes.push_back(one->comparison().scene);
+    for (const auto& [name, one] : comparisons) {
+        scenes.push_back(name);
     }
     ComparisonReport report(folder, scenes);
     for (std::size_t i = 0; i < comparisons.size(); ++i) {
-        report.add(i, comparisons[i]->comparison());
+        Comparison comparison = comparisons[i].second->comparison();
+        comparison.scene = scenes[i];
+        report.add(i, std::move(comparison));
     }
 }
 
 /// How gains are distributed over the scenes, as the program's JSON has it.
-Rows gains(const std::vector<const PythonComparison*>& comparisons) {
+Rows gains(const Comparisons& comparisons) {
     std::vector<Comparison> all;
-    for (const PythonComparison* one : comparisons) {
+    for (const auto& [name, one] : comparisons) {
         Comparison& numbers = all.emplace_back();
-        numbers.scene = one->comparison().scene;
+        numbers.scene = name;
         for (const ComparisonRow& row : one->comparison().rows) {
             ComparisonRow& copy = numbers.rows.emplace_back();
             copy.way = row.way;
@@ -93,11 +97,12 @@ void tell(const Watcher& watcher, const std::string& name, int number, const Ren
     watcher(name, number, progress.fraction, progress.seconds);
 }
 
-/// `ways` are pairs of names of how to sample, and how inside dense media. Without halves of a reference, one is
-/// rendered first: by so many samples per pixel each, or so many seconds where these are none.
+/// `ways` are pairs of names of how to sample, and how inside dense media. Without halves of a reference, or where they
+/// are of another size and `must_fit` is false, one is rendered first: by so many samples per pixel each, or so many
+/// seconds where these are none.
 PythonComparison compare(const std::shared_ptr<ParsedScene>& scene,
                          const std::vector<std::pair<std::string, std::string>>& ways, double seconds, int seeds,
-                         std::optional<Pixels> a, std::optional<Pixels> b, int reference_samples,
+                         std::optional<Pixels> a, std::optional<Pixels> b, bool must_fit, int reference_samples,
                          double reference_seconds, const Watcher& watcher) {
     ComparisonPlan plan{{}, seconds, seeds};
     for (const auto& [sampling, subsurface] : ways) {
@@ -109,7 +114,9 @@ PythonComparison compare(const std::shared_ptr<ParsedScene>& scene,
     }
     const nb::gil_scoped_release release;
     const Session& session = scene->session();
-    if (!a || !b) {
+    const PixelRect crop = session.new_film().crop();
+    const bool fits = a && b && size_problem(reference, {crop.width(), crop.height()}).empty();
+    if (!a || !b || (!fits && !must_fit)) {
         reference = render_reference(
             session, {reference_samples, reference_seconds}, {},
             [&](int half, const RenderProgress& progress) { tell(watcher, "reference", half, progress); });
@@ -133,8 +140,8 @@ void bind_comparisons(nb::module_& module) {
         .def("errors", &PythonComparison::errors, nb::arg("row"))
         .def("reference", &PythonComparison::reference);
     module.def("compare", &compare, nb::arg("scene"), nb::arg("ways"), nb::arg("seconds"), nb::arg("seeds"),
-               nb::arg("a").none(), nb::arg("b").none(), nb::arg("reference_samples"), nb::arg("reference_seconds"),
-               nb::arg("watcher"));
+               nb::arg("a").none(), nb::arg("b").none(), nb::arg("must_fit"), nb::arg("reference_samples"),
+               nb::arg("reference_seconds"), nb::arg("watcher"));
     module.def("write_report", &write_report, nb::arg("comparisons"), nb::arg("folder"));
     module.def("gains", &gains, nb::arg("comparisons"));
     module.attr("reference_effort") = reference_effort;

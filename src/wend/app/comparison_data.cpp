@@ -168,7 +168,7 @@ nlohmann::json results_json(const Comparison& comparison) {
 std::string rows_csv(std::span<const Comparison> comparisons) {
     std::vector<Cells> table = {{"scene", "sampling", "spp", "seconds", "work", "relmse", "relmse_trimmed",
                                  "error_p9999", "mse", "mape", "flip", "ratio", "relmse_median", "relmse_min",
-                                 "relmse_max", "relmse_mean", "relmse_std_error", "ratio_min", "ratio_max"}};
+                                 "relmse_max", "relmse_mean", "relmse_mean_error", "ratio_min", "ratio_max"}};
     for (const Comparison& comparison : comparisons) {
         for (const ComparisonRow& r : comparison.rows) {
             const Metrics& m = r.metrics;

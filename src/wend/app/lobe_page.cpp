@@ -133,7 +133,7 @@ std::string flight_section(const PixelFlight& flight) {
         "<section>\n<h2>Flight</h2>\n<dl><div><dt>from</dt><dd>{:.4g} {:.4g} {:.4g}</dd></div>\n"
         "<div><dt>towards</dt><dd>{:.4f} {:.4f} {:.4f}</dd></div>\n<div><dt>{}</dt><dd>{}</dd></div>\n"
         "<div><dt>scatters in media on its way</dt><dd>{:.1f} %</dd></div>\n"
-        "<div><dt>of the light that the field expects come from there</dt><dd>{}</dd></div></dl>\n{}</section>\n\n",
+        "<div><dt>of the light expected, from there</dt><dd>{}</dd></div></dl>\n{}</section>\n\n",
         flight.ray.origin.x, flight.ray.origin.y, flight.ray.origin.z, flight.ray.direction.x, flight.ray.direction.y,
         flight.ray.direction.z, flight.surface ? "distance to the surface" : "no surface within",
         number_text(flight.length), 100 * (1 - flight.reaches_end),

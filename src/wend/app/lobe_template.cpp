@@ -82,12 +82,10 @@ const std::string_view lobe_script = R"js(
     const [cl, sl, ch, sh] = [Math.cos(longitude), Math.sin(longitude), Math.cos(height), Math.sin(height)];
     return {out: [ch * cl, ch * sl, sh], right: [-sl, cl, 0], up: [-sh * cl, -sh * sl, ch]};
   };
-  const lobe_density = (lobe, w) => {
-    const k = lobe.kappa;
-    const scale = k > 1e-3 ? k / (2 * Math.PI * (1 - Math.exp(-2 * k))) : 1 / (4 * Math.PI);
-    return scale * Math.exp(k * (dot(lobe.mean, w) - 1));
-  };
-  const radiance = (w) => shown.fluence * shown.lobes.reduce((sum, lobe) => sum + lobe.weight * lobe_density(lobe, w), 0);
+  const peak = (k) => (k > 1e-3 ? k / (2 * Math.PI * (1 - Math.exp(-2 * k))) : 1 / (4 * Math.PI));
+  /// Of a lobe what a loop over pixels needs.
+  const plain = (lobe) => [...lobe.mean, lobe.kappa, shown.fluence * lobe.weight * peak(lobe.kappa)];
+  const part = (l, x, y, z) => l[4] * Math.exp(l[3] * (l[0] * x + l[1] * y + l[2] * z - 1));
 
   const direction_at = (x, y) => {
     const u = (x - size / 2) / radius, v = (size / 2 - y) / radius, rest = 1 - u * u - v * v;
@@ -120,15 +118,26 @@ const std::string_view lobe_script = R"js(
 
   const draw = (coarse) => {
     const step = coarse ? 3 : 1, pixels = context.createImageData(size, size);
+    const lobes = shown.lobes.map(plain), f = frame(), most = colours.length - 1;
+    const stretch = most / Math.log(data.high / data.low);
     for (let y = 0; y < size; y += step) {
       for (let x = 0; x < size; x += step) {
-        const w = direction_at(x + step / 2, y + step / 2);
-        if (!w) continue;
-        const at = Math.log(radiance(w) / data.low) / Math.log(data.high / data.low);
-        const colour = colours[Math.max(0, Math.min(colours.length - 1, Math.round(at * (colours.length - 1))))];
+        const u = (x + step / 2 - size / 2) / radius, v = (size / 2 - y - step / 2) / radius, rest = 1 - u * u - v * v;
+        if (rest < 0) continue;
+        const s = Math.sqrt(rest);
+        const wx = u * f.right[0] + v * f.up[0] + s * f.out[0], wy = u * f.right[1] + v * f.up[1] + s * f.out[1];
+        const wz = u * f.right[2] + v * f.up[2] + s * f.out[2];
+        let radiance = 0;
+        for (const lobe of lobes) radiance += part(lobe, wx, wy, wz);
+        const at = stretch * Math.log(radiance / data.low);
+        const colour = colours[Math.max(0, Math.min(most, Math.round(at)))];
         for (let j = y; j < Math.min(size, y + step); ++j) {
           for (let i = x; i < Math.min(size, x + step); ++i) {
-            pixels.data.set([colour[0], colour[1], colour[2], 255], 4 * (j * size + i));
+            const to = 4 * (j * size + i);
+            pixels.data[to] = colour[0];
+            pixels.data[to + 1] = colour[1];
+            pixels.data[to + 2] = colour[2];
+            pixels.data[to + 3] = 255;
           }
         }
       }
@@ -142,8 +151,8 @@ const std::string_view lobe_script = R"js(
 
   const number = (value) => Number(value).toPrecision(3);
   const read = (w) => {
-    const all = radiance(w);
-    const shares = shown.lobes.map((lobe) => shown.fluence * lobe.weight * lobe_density(lobe, w));
+    const shares = shown.lobes.map((lobe) => part(plain(lobe), ...w));
+    const all = shares.reduce((sum, one) => sum + one, 0);
     const most = shares.indexOf(Math.max(...shares));
     const degrees = (angle) => (angle * 180 / Math.PI).toFixed(1) + "°";
     find("readout").textContent = `radiance ${number(all)}\n` +
