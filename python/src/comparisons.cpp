@@ -97,12 +97,11 @@ void tell(const Watcher& watcher, const std::string& name, int number, const Ren
     watcher(name, number, progress.fraction, progress.seconds);
 }
 
-/// `ways` are pairs of names of how to sample, and how inside dense media. Without halves of a reference, or where they
-/// are of another size and `must_fit` is false, one is rendered first: by so many samples per pixel each, or so many
-/// seconds where these are none.
+/// `ways` are pairs of names of how to sample, and how inside dense media. Without halves of a reference, one is
+/// rendered first: by so many samples per pixel each, or so many seconds where these are none.
 PythonComparison compare(const std::shared_ptr<ParsedScene>& scene,
                          const std::vector<std::pair<std::string, std::string>>& ways, double seconds, int seeds,
-                         std::optional<Pixels> a, std::optional<Pixels> b, bool must_fit, int reference_samples,
+                         std::optional<Pixels> a, std::optional<Pixels> b, int reference_samples,
                          double reference_seconds, const Watcher& watcher) {
     ComparisonPlan plan{{}, seconds, seeds};
     for (const auto& [sampling, subsurface] : ways) {
@@ -114,9 +113,7 @@ PythonComparison compare(const std::shared_ptr<ParsedScene>& scene,
     }
     const nb::gil_scoped_release release;
     const Session& session = scene->session();
-    const PixelRect crop = session.new_film().crop();
-    const bool fits = a && b && size_problem(reference, {crop.width(), crop.height()}).empty();
-    if (!a || !b || (!fits && !must_fit)) {
+    if (!a || !b) {
         reference = render_reference(
             session, {reference_samples, reference_seconds}, {},
             [&](int half, const RenderProgress& progress) { tell(watcher, "reference", half, progress); });
@@ -140,8 +137,8 @@ void bind_comparisons(nb::module_& module) {
         .def("errors", &PythonComparison::errors, nb::arg("row"))
         .def("reference", &PythonComparison::reference);
     module.def("compare", &compare, nb::arg("scene"), nb::arg("ways"), nb::arg("seconds"), nb::arg("seeds"),
-               nb::arg("a").none(), nb::arg("b").none(), nb::arg("must_fit"), nb::arg("reference_samples"),
-               nb::arg("reference_seconds"), nb::arg("watcher"));
+               nb::arg("a").none(), nb::arg("b").none(), nb::arg("reference_samples"), nb::arg("reference_seconds"),
+               nb::arg("watcher"));
     module.def("write_report", &write_report, nb::arg("comparisons"), nb::arg("folder"));
     module.def("gains", &gains, nb::arg("comparisons"));
     module.attr("reference_effort") = reference_effort;

@@ -160,8 +160,8 @@ def compare(
         sampling: what is compared; names as in `Render`.
         subsurface: each with these walks inside dense media.
         seeds: renders of each way, of which the median counts.
-        reference: see `metric`; "render": one is rendered; None: the pair beside the scene's file if it is of the
-            picture's size, or else one is rendered.
+        reference: see `metric`; "render": one is rendered; None: the pair beside the scene's file, or else one is
+            rendered.
         reference_spp: samples per pixel of each half of a rendered reference.
         reference_time: seconds for each half (default: eight times `time`). Either of these asks for a rendered one.
         progress: show bars (tqdm).
@@ -196,7 +196,7 @@ def compare(
     seconds = float(time) * _wend.reference_effort if reference_time is None else float(reference_time)
     try:
         return Comparison(
-            _wend.compare(scene._native, ways, float(time), seeds, a, b, is_given, reference_spp or 0, seconds, watch)
+            _wend.compare(scene._native, ways, float(time), seeds, a, b, reference_spp or 0, seconds, watch)
         )
     finally:
         while bars:

@@ -237,12 +237,15 @@ TEST_F(Compare, TakesAnyResolutionAndRefusesAReferenceOfAnother) {
                       .status,
                   0);
     }
-    const auto smaller = compare({"--sampling", "classical", "--resolution", "7x5"});
-    ASSERT_EQ(smaller.status, 0) << smaller.err;
-    EXPECT_NE(smaller.err.find("room.ref-a.exr has 16 x 12 pixels, the picture 7 x 5: rendering a reference"),
+    const auto beside = compare({"--sampling", "classical", "--resolution", "7x5"});
+    EXPECT_EQ(beside.status, 2);
+    EXPECT_NE(beside.err.find("room.ref-a.exr has 16 x 12 pixels, the picture 7 x 5: choose --resolution 16x12"),
               std::string::npos)
-        << smaller.err;
-    EXPECT_EQ(smaller.json()["reference"]["resolution"], (nlohmann::json{7, 5}));
+        << beside.err;
+    const auto rendered =
+        compare({"--sampling", "classical", "--resolution", "7x5", "--reference", "render", "--reference-spp", "8"});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(rendered.json()["reference"]["resolution"], (nlohmann::json{7, 5}));
     const auto asked = compare({"--sampling", "classical", "--resolution", "7x5", "--reference", folder_.file("room")});
     EXPECT_EQ(asked.status, 2);
     EXPECT_NE(asked.err.find("16 x 12 pixels, the picture 7 x 5: choose --resolution 16x12"), std::string::npos)

@@ -93,27 +93,24 @@ KnownReference make_reference(const CompareOptions& options, const Session& sess
     });
 }
 
-/// The reference that is at hand, if it is of the picture's size, or else a rendered one.
+/// The reference that is at hand, or else a rendered one. Throws InputError where the one at hand is of another size.
 KnownReference judge(const CompareOptions& options, const Session& session, std::optional<KnownReference> at_hand,
                      const std::filesystem::path& folder, const Streams& streams) {
     if (options.wants_rendered_reference()) {
         return make_reference(options, session, "", folder, streams);
     }
-    const std::filesystem::path scene = session.scene_file();
     if (!at_hand) {
+        const std::filesystem::path scene = session.scene_file();
         const std::string missing = what_is_missing(scene.parent_path() / scene.stem());
         return make_reference(options, session, missing + " beside the scene: ", folder, streams);
     }
     const PixelRect crop = session.new_film().crop();
     const std::string problem = size_problem(*at_hand, {crop.width(), crop.height()});
-    if (problem.empty()) {
-        return *std::move(at_hand);
-    }
-    if (options.reads_reference()) {
+    if (!problem.empty()) {
         throw InputError(fmt::format("{}: choose --resolution {}x{}, another reference, or --reference render", problem,
                                      at_hand->size().x, at_hand->size().y));
     }
-    return make_reference(options, session, problem + ": ", folder, streams);
+    return *std::move(at_hand);
 }
 
 /// `folder` is where files go; empty: none are written.
@@ -232,8 +229,8 @@ Action add_compare_command(CLI::App& program) {
     command.add_option("--reference", options->reference,
                        fmt::format("NAME of the pair NAME.ref-a.exr, NAME.ref-b.exr, a picture, a folder with such "
                                    "pairs named as the scenes, or render (default: the pair beside the scene; where "
-                                   "there is none of the picture's size, one is rendered by 'full', each half for {} "
-                                   "times --time, and kept in the folder of --out or --report)",
+                                   "there is none, or with render, one is rendered by 'full', each half for {} times "
+                                   "--time, and kept in the folder of --out or --report)",
                                    reference_effort));
     CLI::Option* samples =
         command.add_option("--reference-spp", options->effort.samples, "samples per pixel of each half: render one")

@@ -31,8 +31,8 @@ struct PixelFlight {
     double end_brings = 0;   ///< radiance at the camera of what the surface is expected to send, emission left out
     std::vector<FlightPiece> pieces;  ///< of all media on the way, the nearest first
 
-    /// Of the light that the field expects, the share that is scattered on the way: how likely a flight in proportion to
-    /// it scatters. None where the field expects no light.
+    /// Of the light that the field expects, the share that is scattered on the way: how likely a flight in proportion
+    /// to it scatters. None where the field expects no light.
     std::optional<double> guided_collides() const;
 };
 
