@@ -44,6 +44,12 @@ TEST_F(Compare, RendersAReferenceWhereThereIsNoneAndKeepsIt) {
     ASSERT_EQ(second.status, 0) << second.err;
     EXPECT_EQ(second.err.find("two halves"), std::string::npos) << second.err;
     EXPECT_TRUE(second.json()["rows"][0]["relmse"].is_number());
+
+    const auto of_folder = compare({"--sampling", "classical", "--reference", folder_.file("report")});
+    EXPECT_EQ(of_folder.json()["reference"]["files"], second.json()["reference"]["files"]);
+    std::filesystem::create_directory(folder_.path() / "report" / "room");
+    const auto still = compare({"--sampling", "classical", "--reference", folder_.file("report/room")});
+    EXPECT_EQ(still.json()["reference"]["files"], second.json()["reference"]["files"]) << "the pair before the folder";
 }
 
 TEST_F(Compare, LeavesNoReferenceWhereThereIsNoFolder) {

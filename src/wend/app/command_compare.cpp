@@ -69,10 +69,12 @@ std::vector<WayOfSampling> ways_to_compare(const CompareOptions& options) {
     return ways;
 }
 
-/// What the scene's reference is called that is given by name: a folder has one for each scene.
+/// What the scene's reference is called that is given by name: a folder has one for each scene. For one scene a pair of
+/// that very name comes first.
 std::filesystem::path given_reference(const CompareOptions& options, const std::filesystem::path& scene) {
     const std::filesystem::path name = options.reference;
-    return std::filesystem::is_directory(name) ? name / scene.stem() : name;
+    const bool is_pair = options.scenes.size() == 1 && std::filesystem::exists(reference_files(name).a);
+    return std::filesystem::is_directory(name) && !is_pair ? name / scene.stem() : name;
 }
 
 /// Renders what the comparison judges by, for this reason; it is kept where there is a folder.
