@@ -12,7 +12,7 @@
 namespace wend {
 namespace {
 
-constexpr double width = 720, left = 12, right = 708, strip_height = 74, top = 8, axis_height = 48;
+constexpr double width = 560, left = 12, right = 548, strip_height = 74, top = 8, axis_height = 48;
 
 constexpr const char* opening =
     R"(<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" color="#767676" role="group" aria-label="Gains over classical sampling, a dot for each scene">

@@ -120,7 +120,7 @@ select {
   min-width: 0; max-width: 15rem; padding: .45rem .6rem; border: 1px solid var(--rule); border-radius: .4rem;
   background: var(--panel); color: var(--ink); font: inherit;
 }
-fieldset { display: flex; margin: 0; padding: 0; border: 1px solid var(--rule); border-radius: .4rem; }
+fieldset { display: flex; flex-wrap: wrap; min-width: 0; max-width: 100%; margin: 0; padding: 0; border: 1px solid var(--rule); border-radius: .4rem; }
 legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 fieldset input { position: absolute; opacity: 0; }
 fieldset span { display: block; padding: .45rem .8rem; border-radius: .35rem; color: var(--quiet); font-size: .875rem; cursor: pointer; }
@@ -180,7 +180,7 @@ dt { color: var(--quiet); }
 dd { margin: 0; overflow-wrap: anywhere; text-align: right; font-variant-numeric: tabular-nums; }
 
 @media (max-width: 40rem) {
-  .controls { display: grid; grid-template-columns: 1fr 1fr; }
+  .controls { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
   .controls > label { flex-direction: column; gap: .2rem; align-items: stretch; }
   .controls fieldset { grid-row: 2; grid-column: 1 / -1; justify-self: center; }
   select { max-width: none; }
