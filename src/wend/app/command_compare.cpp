@@ -216,7 +216,7 @@ Action add_compare_command(CLI::App& program) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App& command = *program.add_subcommand("compare", "compare ways of sampling in equal time");
     command.add_option("scene", options->scenes, "pbrt-v4 scene files")->required();
-    options->scene.add_settings_to(command);
+    options->scene.add_choices_to(command);
     command.add_option("--time", options->seconds, "seconds for each render, training included")
         ->check(seconds_problem)
         ->capture_default_str();

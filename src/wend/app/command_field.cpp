@@ -20,7 +20,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -125,14 +124,6 @@ const FieldPart& choose_part(const std::array<FieldPart, 2>& parts, const std::s
     return summarize(*parts[0].field).samples >= summarize(*parts[1].field).samples ? parts[0] : parts[1];
 }
 
-/// The records of a sample that lie in a region of the field.
-guide::Records records_in(const guide::Region* region, const guide::Field& field, const guide::RecordSample& sample) {
-    guide::Records found;
-    std::copy_if(sample.records().begin(), sample.records().end(), std::back_inserter(found),
-                 [&](const guide::Record& r) { return field.find(r.position) == region; });
-    return found;
-}
-
 /// What is shown of a file: the places, and how they came about.
 struct Look {
     LobePage page;
@@ -177,7 +168,7 @@ Look look_at_position(const FieldOptions& options, const Parts& parts, const std
     if (samples) {
         const bool surface = part.field == parts[0].field;
         const guide::Records told =
-            records_in(one.place.region, *part.field, surface ? samples->surface : samples->volume);
+            records_in(surface ? samples->surface : samples->volume, *part.field, one.place.region);
         one.panels.push_back({fmt::format("what {} records of the cell saw", told.size()), record_map(told), {}});
         look.json["records"] = told.size();
         look.text +=

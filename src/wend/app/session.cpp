@@ -52,10 +52,10 @@ PixelRect parse_crop(const std::string& text, const Vec2i& size) {
 
 void SceneOptions::add_to(CLI::App& command) {
     command.add_option("scene", file, "pbrt-v4 scene file")->required();
-    add_settings_to(command);
+    add_choices_to(command);
 }
 
-void SceneOptions::add_settings_to(CLI::App& command) {
+void SceneOptions::add_choices_to(CLI::App& command) {
     command.add_option("--resolution", resolution, "size of the picture, WIDTHxHEIGHT (default: the scene's)");
     command.add_option("--crop", crop, "part of the picture to render: X0,X1,Y0,Y1 as fractions");
     command
