@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders the pictures of the gallery: each scene classically and with every decision guided, in equal time.
+"""Renders the pictures of the gallery: each scene classically and guided, in equal time.
 
 They go to docs/site/gallery, with what was rendered and how in gallery.json; the reference beside each scene is put there as
 well. Both renders of a scene run at once, so that they share the processors evenly whatever else runs. PYTHONPATH has to have
@@ -80,9 +80,12 @@ def save_reference(scene: str) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", type=Path, help="wend")
-    parser.add_argument("scenes", nargs="*", choices=[[], *SCENES], metavar="scene", help="default: all")
+    parser.add_argument("scenes", nargs="*", metavar="scene", help=f"of {', '.join(SCENES)} (default: all)")
     parser.add_argument("--time", type=int, default=40, help="seconds for each pair (default: 40)")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
+    unknown = sorted(set(options.scenes) - set(SCENES))
+    if unknown:
+        parser.error(f"not in the gallery: {', '.join(unknown)}; it has {', '.join(SCENES)}")
     PICTURES.mkdir(exist_ok=True)
     record = json.loads(RECORD.read_text()) if RECORD.exists() else {}
     for scene in options.scenes or SCENES:

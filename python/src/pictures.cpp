@@ -99,17 +99,18 @@ void bind_pictures(nb::module_& module) {
         .def_prop_ro("full_size", [](const Picture& p) { return std::pair(p.full_size.x, p.full_size.y); })
         .def(
             "save",
-            [](const Picture& picture, const std::string& file, bool half) {
+            [](const Picture& picture, const std::string& file, bool half, const std::string& layer_names,
+               bool half_layers, bool alpha) {
                 const nb::gil_scoped_release release;
                 if (half) {
                     require_exr_extension(file);
                     write_colours(file, picture);
                 } else {
                     require_known_picture_extension(file);
-                    write_picture(file, picture);
+                    write_picture(file, picture, {parse_layer_names(layer_names), alpha, half_layers});
                 }
             },
-            nb::arg("file"), nb::arg("half") = false)
+            nb::arg("file"), nb::arg("half"), nb::arg("layer_names"), nb::arg("half_layers"), nb::arg("alpha"))
         .def("png", [](const Picture& picture) {
             const std::string bytes = png_bytes(picture.image);
             return nb::bytes(bytes.data(), bytes.size());

@@ -60,13 +60,15 @@ void bind_renders(nb::module_& module) {
             "__init__",
             [](OwnedRender* self, std::shared_ptr<ParsedScene> scene, int samples, double seconds, double noise,
                std::vector<int> passes, const std::string& sampling, const std::string& subsurface,
-               FieldsPointer fields, bool keeps_fields, std::optional<std::uint64_t> seed, int threads) {
-                new (self) OwnedRender(std::move(scene), {samples, seconds, noise, std::move(passes), sampling,
-                                                          subsurface, std::move(fields), keeps_fields, seed, threads});
+               FieldsPointer fields, bool keeps_fields, std::optional<std::uint64_t> seed, int threads,
+               std::vector<std::string> layers) {
+                new (self)
+                    OwnedRender(std::move(scene), {samples, seconds, noise, std::move(passes), sampling, subsurface,
+                                                   std::move(fields), keeps_fields, seed, threads, std::move(layers)});
             },
             nb::arg("scene"), nb::arg("spp"), nb::arg("seconds"), nb::arg("noise"), nb::arg("passes"),
             nb::arg("sampling"), nb::arg("subsurface"), nb::arg("fields").none(), nb::arg("keeps_fields"),
-            nb::arg("seed").none(), nb::arg("threads"))
+            nb::arg("seed").none(), nb::arg("threads"), nb::arg("layers"))
         .def("step", &OwnedRender::step, nb::arg("seconds"), others_run)
         .def_prop_ro("is_within_pass", &OwnedRender::is_within_pass, others_run)
         .def_prop_ro("is_stopped", &OwnedRender::is_stopped, others_run)

@@ -64,17 +64,30 @@ class Film:
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
         return np.array(self.image, dtype=dtype, copy=True if copy is None and dtype is not None else copy)
 
-    def save(self, path: str | os.PathLike[str], *, half: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        half: bool = False,
+        layer_names: str = "wend",
+        exr: str = "float",
+        alpha: bool = False,
+    ) -> None:
         """Write it: .exr with layers and metadata, .png or .jpg in sRGB.
 
         Args:
             path: the file; it appears whole or not at all.
             half: the colours alone in half floats (.exr), as references are kept.
+            layer_names: how an .exr calls its channels: "wend", "pbrt" or "blender". `read` takes all of them.
+            exr: "half": colours of an .exr in half floats, and what is no colour in floats.
+            alpha: write the layer `alpha` as channel A of an .exr.
 
         Raises:
-            InputError: for another extension.
+            InputError: for another extension, or a value that there is not.
         """
-        self._native.save(os.fspath(path), half)
+        if exr not in ("float", "half"):
+            raise InputError(f"exr: expected float or half, not {exr!r}")
+        self._native.save(os.fspath(path), half, layer_names, exr == "half", alpha)
 
     def _repr_png_(self) -> bytes:
         return self._native.png()
@@ -87,6 +100,9 @@ class Film:
 
 def read(path: str | os.PathLike[str]) -> Film:
     """Read a picture file: OpenEXR with its layers and metadata, or the colours of PNG, JPEG, HDR, PFM and others.
+
+    Layers of files that pbrt or Blender (multilayer, the first view layer) wrote have Wend's names where they mean the
+    same.
 
     Raises:
         InputError: for a file that is missing or broken.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from . import _wend
@@ -35,6 +35,8 @@ class Render:
         fields: what an earlier render of the scene learned.
         seed: of the random numbers; None: the scene's.
         threads: 0: all.
+        layers: more layers of the film: "emission", "background", "direct", "indirect", "volume", "lights", "halves",
+            "geometry" (docs/pictures.md).
         keep_fields: whether `fields` is wanted at the end: then the last pass teaches them, too.
 
     Raises:
@@ -54,6 +56,7 @@ class Render:
         fields: Fields | None = None,
         seed: int | None = None,
         threads: int = 0,
+        layers: Iterable[str] = (),
         keep_fields: bool = True,
     ) -> None:
         if sum(x is not None for x in (spp, time, passes)) > 1:
@@ -74,6 +77,7 @@ class Render:
             keep_fields and sampling != "classical",
             seed,
             threads,
+            list(layers),
         )
         self._ended = False
 
@@ -169,6 +173,7 @@ def render(
     fields: Fields | None = None,
     seed: int | None = None,
     threads: int = 0,
+    layers: Iterable[str] = (),
     progress: bool = True,
 ) -> Film:
     """Render a scene, or a scene file. The arguments are those of `Render`; `progress` shows a bar (tqdm).
@@ -188,5 +193,6 @@ def render(
         fields=fields,
         seed=seed,
         threads=threads,
+        layers=layers,
         keep_fields=False,
     ).run(progress=progress)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from pxr import UsdLux  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._film import Film, read
+from ._scene_reader import Places
 from ._sky import equal_area
 
 Matrix = npt.NDArray[np.float64]
@@ -19,8 +20,8 @@ Matrix = npt.NDArray[np.float64]
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
-def add(reader: Any, prim: Any, world: Matrix) -> bool:
-    """Whether there is a light then."""
+def add(reader: Any, prim: Any, world: Places) -> bool:
+    """Whether there is a light then. `world` is where it is when the shutter opens and when it closes."""
     kinds = {
         "DistantLight": _distant,
         "DomeLight": _dome,
@@ -68,12 +69,14 @@ def _value(reader: Any, prim: Any, name: str) -> float:
     return float(prim.GetAttribute(f"inputs:{name}").Get(reader.time))
 
 
-def _flip(reader: Any, world: Matrix) -> None:
-    """Their lights shine along -z; pbrt's shine along z."""
-    reader.builder.add("Transform", _TURNED @ world)
+def _stand(reader: Any, prim: Any, world: Places, turned: bool = False) -> None:
+    """Puts a light without a size. Their lights shine along -z; pbrt's, if turned, along z."""
+    if not np.allclose(world[0], world[1], rtol=1e-12, atol=0):
+        reader.warn(prim, "a light without a size stays where it is when the shutter opens")
+    reader.builder.add("Transform", _TURNED @ world[0] if turned else world[0])
 
 
-def _distant(reader: Any, prim: Any, world: Matrix) -> None:
+def _distant(reader: Any, prim: Any, world: Places) -> None:
     light = UsdLux.LightAPI(prim)
     half = math.radians(_value(reader, prim, "angle")) / 2
     irradiance = emission(reader, prim)
@@ -81,16 +84,16 @@ def _distant(reader: Any, prim: Any, world: Matrix) -> None:
         irradiance = irradiance * math.pi * math.sin(min(half, math.pi / 2)) ** 2
     if half > math.radians(1):
         reader.warn(prim, "a distant light is taken as a point in the sky: its shadows are hard")
-    _flip(reader, world)
+    _stand(reader, prim, world, turned=True)
     reader.builder.add("LightSource", "distant", {"rgb L": irradiance, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)})
 
 
-def _dome(reader: Any, prim: Any, world: Matrix) -> None:
+def _dome(reader: Any, prim: Any, world: Places) -> None:
     radiance = emission(reader, prim)
     dome = UsdLux.DomeLight_1(prim) if str(prim.GetTypeName()) == "DomeLight_1" else UsdLux.DomeLight(prim)
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
-    reader.builder.add("Transform", world)
+    _stand(reader, prim, world)
     if not texture or not texture.path:
         reader.builder.add("LightSource", "infinite", {"rgb L": radiance})
         return
@@ -102,9 +105,9 @@ def _dome(reader: Any, prim: Any, world: Matrix) -> None:
     reader.builder.add("LightSource", "infinite", {"string filename": file})
 
 
-def _sphere(reader: Any, prim: Any, world: Matrix) -> None:
+def _sphere(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
-    scale = _scales(world)
+    scale = _scales(world[0])
     area = 4 * math.pi * radius**2 * float(np.cbrt(np.prod(scale))) ** 2
     as_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
     radiance = _radiance(reader, prim, area)
@@ -113,10 +116,10 @@ def _sphere(reader: Any, prim: Any, world: Matrix) -> None:
         # From afar a sphere has this intensity. A cone makes a spot of it.
         intensity = radiance * (area / 4)
         if cone is None:
-            reader.builder.add("Transform", world)
+            _stand(reader, prim, world)
             reader.builder.add("LightSource", "point", {"rgb I": intensity})
             return
-        _flip(reader, world)
+        _stand(reader, prim, world, turned=True)
         reader.builder.add(
             "LightSource",
             "spot",
@@ -146,20 +149,20 @@ def _scales(world: Matrix) -> npt.NDArray[np.float64]:
 
 
 def _shine(
-    reader: Any, prim: Any, world: Matrix, radiance: npt.NDArray[np.float64], kind: str, parameters: dict[str, Any]
+    reader: Any, prim: Any, world: Places, radiance: npt.NDArray[np.float64], kind: str, parameters: dict[str, Any]
 ) -> None:
     if prim.GetTypeName() != "SphereLight" and _cone(reader, prim)[0] is not None:
         reader.warn(prim, "the cone of a light that is not a sphere is left out")
-    reader.builder.add("Transform", world)
+    reader.put(world)
     reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance})
     # Lights reflect nothing.
     reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
     reader.builder.add("Shape", kind, parameters)
 
 
-def _rect(reader: Any, prim: Any, world: Matrix) -> None:
+def _rect(reader: Any, prim: Any, world: Places) -> None:
     x, y = _value(reader, prim, "width") / 2, _value(reader, prim, "height") / 2
-    across, up = world[0, :3] * 2 * x, world[1, :3] * 2 * y
+    across, up = world[0, 0, :3] * 2 * x, world[0, 1, :3] * 2 * y
     if UsdLux.RectLight(prim).GetTextureFileAttr().Get(reader.time):
         reader.warn(prim, "the picture of a rectangular light is left out")
     radiance = _radiance(reader, prim, float(np.linalg.norm(np.cross(across, up))))
@@ -168,16 +171,16 @@ def _rect(reader: Any, prim: Any, world: Matrix) -> None:
     _shine(reader, prim, world, radiance, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
 
 
-def _disk(reader: Any, prim: Any, world: Matrix) -> None:
+def _disk(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
-    area = math.pi * radius**2 * float(np.linalg.norm(np.cross(world[0, :3], world[1, :3])))
+    area = math.pi * radius**2 * float(np.linalg.norm(np.cross(world[0, 0, :3], world[0, 1, :3])))
     radiance = _radiance(reader, prim, area)
     _shine(reader, prim, _TURNED @ world, radiance, "disk", {"float radius": radius})
 
 
-def _cylinder(reader: Any, prim: Any, world: Matrix) -> None:
+def _cylinder(reader: Any, prim: Any, world: Places) -> None:
     radius, length = _value(reader, prim, "radius"), _value(reader, prim, "length")
-    x, y, z = _scales(world)
+    x, y, z = _scales(world[0])
     radiance = _radiance(reader, prim, 2 * math.pi * radius * math.sqrt(y * z) * length * x)
     # Theirs is along x, pbrt's along z.
     turn = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1.0]])

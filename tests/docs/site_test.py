@@ -123,7 +123,9 @@ class Texts(Folder):
     def test_comments_of_headers(self):
         self.write("a.h", "// One.\n// Two.\n#pragma once\n// Three.\n")
         self.write("b.h", "/**\n * One.\n * Two. */\n")
+        self.write("c.h", "#pragma once\n/// One.\n/// Two.\nstruct C;\n/// Three.\n")
         self.assertEqual(interfaces.header_comment(self.root / "a.h"), "One. Two.")
+        self.assertEqual(interfaces.header_comment(self.root / "c.h"), "One. Two.")
         self.assertEqual(interfaces.header_comment(self.root / "b.h").strip(), "One. Two.")
 
 

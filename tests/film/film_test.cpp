@@ -29,8 +29,8 @@ TEST(Film, AveragesItsSamples) {
     Film film({4, 3}, {{0, 0}, {4, 3}});
     film.add({1, 2}, sample_of({1, 2, 3}));
     film.add({1, 2}, sample_of({3, 2, 1}));
-    film.add_features({1, 2}, {Rgb(0.5f), {0, 0, 1}, 4, 0.5f});
-    film.add_features({1, 2}, {Rgb(0.1f), {0, 1, 0}, 2, 0});
+    film.add_features({1, 2}, {Rgb(0.5f), {0, 0, 1}, 4, 0.5f, 1});
+    film.add_features({1, 2}, {Rgb(0.1f), {0, 1, 0}, 2, 0, 0.25f});
     film.begin_stage();
     const Picture picture = film.picture();
     EXPECT_EQ(picture.image.at(1, 2), Rgb(2));
@@ -40,6 +40,7 @@ TEST(Film, AveragesItsSamples) {
     EXPECT_FLOAT_EQ(layer(picture, "normal").values[3 * i + 2], 0.5f);
     EXPECT_FLOAT_EQ(layer(picture, "depth").values[i], 3);
     EXPECT_FLOAT_EQ(layer(picture, "scatter").values[i], 0.25f);
+    EXPECT_FLOAT_EQ(layer(picture, "alpha").values[i], 0.625f);
     EXPECT_EQ(layer(picture, "samples").values[i], 2);
     EXPECT_EQ(layer(picture, "samples").values[0], 0);
 }

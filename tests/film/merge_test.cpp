@@ -225,6 +225,37 @@ TEST(Merge, LayersAreMeansOverSamples) {
     EXPECT_EQ(merged.empty, 0u);
 }
 
+TEST(Merge, PartsAddUpToTheMergedPicture) {
+    // Of unlike noise, so that samples do not count alike.
+    Pcg32 random(5);
+    std::vector<Picture> pictures;
+    for (const Noise noise : {ordinary, rare}) {
+        Picture& picture = pictures.emplace_back(noisy(16, 32, noise, random));
+        Layer direct{"direct", {"R", "G", "B"}, {}}, light{"light_key", {"R", "G", "B"}, {}};
+        for (std::size_t i = 0; i < 3 * picture.image.pixels.size(); ++i) {
+            const float part = random.uniform() * picture.image.pixels[i / 3].r;
+            direct.values.push_back(part);
+            light.values.push_back(picture.image.pixels[i / 3].r - part);
+        }
+        picture.layers.push_back(std::move(direct));
+        picture.layers.push_back(std::move(light));
+    }
+    const Picture merged = merge_pictures(2, [&](std::size_t k) { return pictures[k]; }).picture;
+    const auto values = [](const Picture& picture, const char* name) {
+        return std::find_if(picture.layers.begin(), picture.layers.end(),
+                            [&](const Layer& l) { return l.name == name; })
+            ->values;
+    };
+    double by_samples = 0;
+    for (std::size_t i = 0; i < 3 * merged.image.pixels.size(); ++i) {
+        const float beauty = merged.image.pixels[i / 3].r;
+        EXPECT_NEAR(values(merged, "direct")[i] + values(merged, "light_key")[i], beauty, 4 * 0x1p-24f * beauty);
+        const float mean = 0.5f * (values(pictures[0], "direct")[i] + values(pictures[1], "direct")[i]);
+        by_samples = std::max(by_samples, static_cast<double>(std::abs(values(merged, "direct")[i] - mean)));
+    }
+    EXPECT_GT(by_samples, 0.1) << "means over samples would do as well";
+}
+
 TEST(Merge, PicturesCountNothingWhereTheyHaveNoSamples) {
     Picture a = even(4, 1, 16, 0.5f), b = even(4, 3, 16, 0.5f);
     for (const auto& [picture, pixel] : {std::pair{&a, 0}, {&b, 1}, {&a, 3}, {&b, 3}}) {

@@ -37,8 +37,9 @@ SceneDescription table_top() {
     return s;
 }
 
+/// With all that a film may hold.
 Film new_film() {
-    return Film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    return Film({resolution, resolution}, {{0, 0}, {resolution, resolution}}, {{"direct", "indirect"}, true, true});
 }
 
 RenderSettings settings_of(const char* preset, int threads) {
@@ -50,6 +51,10 @@ RenderSettings settings_of(const char* preset, int threads) {
     settings.seed = 5;
     settings.threads = threads;
     settings.max_depth = 30;
+    settings.parts.count = 2;
+    settings.parts.by_path[static_cast<std::size_t>(PathPart::direct)] = 0;
+    settings.parts.by_path[static_cast<std::size_t>(PathPart::indirect)] = 1;
+    settings.parts.is_at_infinity.assign(16, false);  // none of the lamps
     return settings;
 }
 

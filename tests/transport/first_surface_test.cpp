@@ -40,12 +40,14 @@ TEST(FirstSurface, MediaHideNothingAndTellTheirOpacity) {
         SceneDescription s = slab(grid);
         EXPECT_NEAR(seen(s).opacity, -std::expm1(-0.8f), 1e-4f);
         EXPECT_EQ(seen(s).depth, 0) << "nothing but sky";
+        EXPECT_EQ(seen(s).alpha, seen(s).opacity) << "the sky is seen through it";
         add_wall(s, 3, test::add_diffuse(s, {0.5f, 0.25f, 0.125f}));
         const FilmFeatures behind = seen(s);
         EXPECT_NEAR(behind.depth, 8, 1e-4f);
         EXPECT_EQ(behind.albedo, Rgb(0.5f, 0.25f, 0.125f));
         EXPECT_NEAR(behind.normal.z, -1, 1e-6f);
         EXPECT_NEAR(behind.opacity, -std::expm1(-0.8f), 1e-4f);
+        EXPECT_EQ(behind.alpha, 1);
         add_wall(s, -1, test::add_diffuse(s, Rgb(0.5f)));
         EXPECT_EQ(seen(s).opacity, 0) << "a wall before the fog";
         EXPECT_NEAR(seen(s).depth, 4, 1e-4f);
@@ -54,6 +56,9 @@ TEST(FirstSurface, MediaHideNothingAndTellTheirOpacity) {
 
 TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
     SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    add_wall(s, -100, test::add_diffuse(s, Rgb(0.5f)));
+    EXPECT_EQ(seen(s).alpha, 0) << "there is nothing before the camera";
+    s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
     ConductorMaterial mirror;
     mirror.reflectance = s.textures.add_constant(Rgb(0.9f, 0.6f, 0.3f));
     mirror.roughness.u = mirror.roughness.v = s.textures.add_constant(Rgb(0.0f));
@@ -61,6 +66,7 @@ TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
     add_wall(s, 0, static_cast<int>(s.materials.size()) - 1);
     EXPECT_NEAR(seen(s).depth, 5, 1e-4f) << "the mirror's";
     EXPECT_EQ(seen(s).albedo, Rgb(0.0f)) << "it shows nothing";
+    EXPECT_EQ(seen(s).alpha, 1) << "the mirror's";
     add_wall(s, -7, test::add_diffuse(s, Rgb(0.5f)));
     const FilmFeatures reflected = seen(s);
     EXPECT_NEAR(reflected.depth, 5, 1e-4f);
@@ -95,7 +101,7 @@ std::vector<float> layer(const Scene& scene, const char* preset, std::uint64_t s
 
 TEST(FirstSurfaceSlow, LayersAreTheSameForEveryPreset) {
     const Scene scene(room());
-    for (const std::string name : {"albedo", "normal", "depth", "scatter"}) {
+    for (const std::string name : {"albedo", "normal", "depth", "scatter", "alpha"}) {
         const std::vector<float> classical = layer(scene, "classical", 1, name);
         for (const char* preset : {"full", "distance+direction", "roulette+splitting"}) {
             // The rays are the same, and so is what they show.

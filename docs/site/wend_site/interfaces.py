@@ -1,5 +1,6 @@
 """Pages of the interfaces for C++ and C, of what Doxygen reads in the promised headers."""
 
+import re
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from collections import defaultdict
@@ -10,6 +11,7 @@ from .options import SPECIAL
 
 # The folder of headers for C; all others are for C++.
 C_FOLDER = "wend/capi"
+SENTENCE_END = re.compile(r"(?<=\w)\. +(?=[A-Z])")
 
 CPP_HEAD = """# C++
 
@@ -98,16 +100,18 @@ def header_page(layout: Layout, header: Path) -> str:
 
 
 def header_comment(path: Path) -> str:
-    """The comment that a header begins with."""
+    """The comment that a header begins with; where there is none, the first of what it declares."""
     text = path.read_text()
     if text.startswith("/*"):
         lines = text[2 : text.index("*/")].strip("*").split("\n")
         return " ".join(line.strip(" *") for line in lines)
+    if not text.startswith("//"):
+        text = text[max(text.find("\n///") + 1, 0) :]
     lines = []
     for line in text.split("\n"):
         if not line.startswith("//"):
             break
-        lines.append(line.removeprefix("//").strip())
+        lines.append(line.lstrip("/").strip())
     return " ".join(lines)
 
 
@@ -120,6 +124,6 @@ def table(layout: Layout, headers: list[Path], folder: str) -> list[str]:
     """What each header is about, in its own first sentence."""
     lines = ["| header | about |", "| --- | --- |"]
     for header in headers:
-        about = SPECIAL.sub(r"\\\1", header_comment(layout.root / "src" / header).split(". ")[0].rstrip("."))
+        about = SPECIAL.sub(r"\\\1", SENTENCE_END.split(header_comment(layout.root / "src" / header))[0].rstrip("."))
         lines.append(f"| [{header.name}]({folder}{header.stem}.md) | {about} |")
     return lines

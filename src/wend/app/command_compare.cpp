@@ -106,7 +106,7 @@ KnownReference judge(const CompareOptions& options, const Session& session, std:
         const std::string missing = what_is_missing(scene.parent_path() / scene.stem());
         return make_reference(options, session, missing + " beside the scene: ", folder, streams);
     }
-    const PixelRect crop = session.new_film().crop();
+    const PixelRect crop = session.new_film(session.settings()).crop();
     const std::string problem = size_problem(*at_hand, {crop.width(), crop.height()});
     if (!problem.empty()) {
         throw InputError(fmt::format("{}: choose --resolution {}x{}, another reference, or --reference render", problem,

@@ -1,5 +1,6 @@
 #include <wend/app/commands.h>
 #include <wend/app/denoiser.h>
+#include <wend/app/picture_options.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/image_file.h>
@@ -14,6 +15,7 @@ namespace {
 
 struct DenoiseOptions {
     CommonOptions common;
+    PictureOptions picture;
     std::string input, output, library;
 };
 
@@ -26,7 +28,7 @@ void denoise(const DenoiseOptions& options, const Streams& streams) {
         throw InputError(Place{options.input}, "the picture has been denoised already");
     }
     const Picture result = denoised(picture, denoiser);
-    write_picture(options.output, result);
+    write_picture(options.output, result, options.picture.format());
     options.common.write_json(
         streams,
         {{"input", options.input}, {"output", options.output}, {"denoised", result.metadata.at("wend:denoised")}});
@@ -45,6 +47,7 @@ Action add_denoise_command(CLI::App& program) {
         ->required();
     command.add_option("--oidn", options->library,
                        "the library's file or folder (default: what WEND_OIDN names, or the system's)");
+    options->picture.add_to(command);
     options->common.add_to(command);
     return [options](const Streams& streams) { denoise(*options, streams); };
 }

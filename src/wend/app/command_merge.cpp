@@ -1,5 +1,6 @@
 #include <wend/app/commands.h>
 #include <wend/app/merged_renders.h>
+#include <wend/app/picture_options.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/image_file.h>
@@ -17,6 +18,7 @@ namespace {
 
 struct MergeOptions {
     CommonOptions common;
+    PictureOptions picture;
     std::string output;
     std::vector<std::string> inputs;
 };
@@ -69,7 +71,7 @@ void merge_files(const MergeOptions& options, const Streams& streams) {
             return picture;
         });
     require_no_other_render(options.output, origins);
-    write_picture(options.output, merged.picture);
+    write_picture(options.output, merged.picture, options.picture.format());
     note_result(options, streams, origins, merged);
     options.common.write_json(streams, {{"inputs", options.inputs},
                                         {"spp", origins.samples()},
@@ -87,6 +89,7 @@ Action add_merge_command(CLI::App& program) {
     command.add_option("inputs", options->inputs, "pictures of 'wend render' (.exr), at least two")
         ->required()
         ->expected(2, CLI::detail::expected_max_vector_size);
+    options->picture.add_to(command);
     options->common.add_to(command);
     return [options](const Streams& streams) { merge_files(*options, streams); };
 }

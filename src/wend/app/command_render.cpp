@@ -1,9 +1,11 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison_data.h>
 #include <wend/app/denoiser.h>
+#include <wend/app/extra_layers.h>
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
+#include <wend/app/picture_options.h>
 #include <wend/app/session.h>
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
@@ -29,6 +31,7 @@ struct RenderOptions {
     CommonOptions common;
     SceneOptions scene;
     WatchOptions watch;
+    PictureOptions picture;
     std::string output;
     int samples = 0;
     double seconds = 0;
@@ -41,6 +44,8 @@ struct RenderOptions {
     std::optional<std::string> passes;
     std::string load_field, save_field, save_records;
     bool half = false;
+    bool record_time = false;
+    std::string layers;
     std::string frames;
     bool carry_field = false;
 };
@@ -71,6 +76,10 @@ std::vector<int> parse_passes(const std::string& text) {
         throw InputError(fmt::format("--passes {}: more than {} samples per pixel", text, most_samples));
     }
     return passes;
+}
+
+std::vector<std::string> layers_of(const RenderOptions& options) {
+    return options.layers.empty() ? std::vector<std::string>() : split_list(options.layers);
 }
 
 /// Throws InputError for what is wrong whatever the scene.
@@ -113,6 +122,7 @@ void check(const RenderOptions& options, const Preset& preset) {
             require_writable(file);
         }
     }
+    check_extra_layers(layers_of(options));
     options.watch.check();
 }
 
@@ -199,6 +209,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     RenderSettings settings = session.settings();
     settings.preset = plan.preset;
     settings.subsurface = plan.subsurface;
+    ask_for_layers(layers_of(options), session.scene(), settings);
     settings.fields = std::move(fields);
     if (options.samples > 0) {
         settings.samples = options.samples;
@@ -215,15 +226,25 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
         settings.on_records = [&](std::span<const guide::PathRecords> told) { records.add(told); };
     }
 
-    Film film = session.new_film();
+    Film film = session.new_film(settings);
     const InterruptGuard interrupt;
     settings.stop = &interrupt.flag();
     const auto denoiser = options.denoise && is_first_of(ranks)
                               ? std::make_unique<Denoiser>(options.denoiser, options.common.threads)
                               : nullptr;
     const auto write = [&](const RenderStatistics& statistics) {
-        const Picture picture = session.picture(film, settings, statistics);
-        (options.half ? write_colours : write_picture)(output, denoiser ? denoised(picture, *denoiser) : picture);
+        Picture picture = session.picture(film, settings, statistics);
+        if (options.record_time) {
+            picture.metadata["wend:seconds"] = fmt::format("{:.3f}", statistics.seconds);
+        }
+        if (denoiser) {
+            picture = denoised(picture, *denoiser);
+        }
+        if (options.half) {
+            write_colours(output, picture);
+        } else {
+            write_picture(output, picture, options.picture.format());
+        }
     };
     const RenderStatistics statistics =
         watched_render(session, film, settings, options.watch, options.common, streams, write);
@@ -335,7 +356,7 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
 
 Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
+    CLI::App& command = *program.add_subcommand("render", "render a scene");
     options->scene.add_to(command);
     CLI::Option* output = command.add_option(
         "-o,--output", options->output,
@@ -344,6 +365,14 @@ Action add_render_command(CLI::App& program) {
         .add_flag("--half", options->half,
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")
         ->needs(output);
+    options->picture.add_to(command);
+    command.add_option("--layers", options->layers,
+                       "more layers of the picture, separated by commas: " + extra_layer_names());
+    for (const char* name : {"--layer-names", "--exr", "--alpha", "--layers"}) {
+        command.get_option("--half")->excludes(command.get_option(name));
+    }
+    command.add_flag("--record-time", options->record_time,
+                     "write into an .exr how many seconds the render took: the same picture is then another file");
     CLI::Option* denoise =
         command.add_flag("--denoise", options->denoise,
                          "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");

@@ -146,7 +146,7 @@ Action add_view_command(CLI::App& program) {
     const auto options = std::make_shared<ViewOptions>();
     CLI::App& command = *program.add_subcommand(
         "view", "render a scene and watch it in a browser of this machine, or look at finished pictures");
-    command.add_option("files", options->files, "a pbrt-v4 scene file, or pictures (.exr)")->required();
+    command.add_option("files", options->files, "a scene file (pbrt-v4, or Mitsuba 3's .xml), or pictures (.exr)")->required();
     command
         .add_option("--sampling", options->sampling,
                     "as that of 'wend render'; several, joined by commas, are rendered side by side in equal time")

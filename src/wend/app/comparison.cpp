@@ -54,7 +54,7 @@ std::vector<Snapshot> render_with_snapshots(const Session& session, Film& film, 
 
 Run run_once(const Session& session, const RenderSettings& settings, const Reference& reference,
              const std::function<void(const RenderProgress&)>& watch) {
-    Film film = session.new_film();
+    Film film = session.new_film(settings);
     RenderStatistics statistics;
     std::vector<Snapshot> snapshots = render_with_snapshots(session, film, settings, watch, statistics);
     const double work = static_cast<double>(statistics.counts.segments);
@@ -165,7 +165,7 @@ ComparisonWatcher comparison_bars(int seeds, const CommonOptions& common, const 
 
 Comparison compare_presets(const Session& session, const ComparisonPlan& plan, KnownReference reference,
                            const ComparisonWatcher& watcher) {
-    const PixelRect crop = session.new_film().crop();
+    const PixelRect crop = session.new_film(session.settings()).crop();
     const std::string problem = size_problem(reference, {crop.width(), crop.height()});
     if (!problem.empty()) {
         throw InputError(problem + ": choose a resolution to match, or have a reference rendered");

@@ -1,4 +1,5 @@
 #include <wend/app/checkpoint.h>
+#include <wend/app/extra_layers.h>
 #include <wend/app/owned_render.h>
 #include <wend/core/error.h>
 
@@ -29,10 +30,18 @@ void check(const RenderChoices& choices) {
     require(choices.threads >= 0, "threads: expected 0, for all, or more");
 }
 
+RenderSettings settings_for(const Session& session, const RenderChoices& choices) {
+    RenderSettings settings = session.settings();
+    ask_for_layers(choices.layers, session.scene(), settings);
+    return settings;
+}
+
 }  // namespace
 
 OwnedRender::OwnedRender(std::shared_ptr<const ParsedScene> scene, const RenderChoices& choices)
-    : scene_(std::move(scene)), settings_(scene_->session().settings()), film_(scene_->session().new_film()) {
+    : scene_(std::move(scene)),
+      settings_(settings_for(scene_->session(), choices)),
+      film_(scene_->session().new_film(settings_)) {
     check(choices);
     settings_.preset = parse_preset(choices.sampling);
     settings_.subsurface = parse_subsurface(choices.subsurface);

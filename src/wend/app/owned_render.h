@@ -28,6 +28,7 @@ struct RenderChoices {
     bool keeps_fields = false;
     std::optional<std::uint64_t> seed;
     int threads = 0;
+    std::vector<std::string> layers;  ///< those of `wend render --layers`
 };
 
 /// All calls but set_stop() wait for a step that is under way.

@@ -26,7 +26,7 @@ KnownReference render_reference(const Session& session, const ReferenceEffort& e
         settings.samples = effort.samples;
         settings.seconds = effort.samples > 0 ? 0 : effort.seconds;
         settings.seed += seeds_apart + static_cast<std::uint64_t>(half);
-        Film film = session.new_film();
+        Film film = session.new_film(settings);
         watch(half, {});
         const RenderStatistics statistics =
             render(session.scene(), film, settings, [&](const RenderProgress& progress) {

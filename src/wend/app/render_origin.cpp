@@ -104,6 +104,7 @@ RenderOrigin render_origin(const std::string& file, const Picture& picture) {
             metadata.optional("scene_digest"),
             metadata.seeds(),
             metadata.number<std::uint64_t>("spp"),
+            metadata.optional("seconds") ? std::optional(metadata.number<double>("seconds")) : std::nullopt,
             fmt::format("{}x{}", picture.full_size.x, picture.full_size.y),
             fmt::format("pixels {} to {} by {} to {}", from.x, to.x, from.y, to.y),
             metadata.object("settings")};
@@ -146,6 +147,7 @@ void RenderOrigins::add(const RenderOrigin& next) {
         throw InputError(Place{next.file}, "there are too many samples to count");
     }
     samples_ += next.samples;
+    seconds_ = seconds_ && next.seconds ? std::optional(*seconds_ + *next.seconds) : std::nullopt;
     if (!first_) {
         first_ = next;
     }
@@ -167,6 +169,9 @@ std::map<std::string, std::string> RenderOrigins::metadata() const {
                                                    {"wend:seed", std::move(seeds)},
                                                    {"wend:version", WEND_VERSION},
                                                    {"wend:spp", std::to_string(samples_)}};
+    if (seconds_) {
+        metadata["wend:seconds"] = fmt::format("{}", *seconds_);
+    }
     if (first_with_digest_) {
         metadata["wend:scene_digest"] = *first_with_digest_->digest;
     }

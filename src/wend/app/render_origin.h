@@ -22,6 +22,7 @@ struct RenderOrigin {
     std::optional<std::string> digest;  ///< of the scene's content, where it was kept
     std::vector<std::uint64_t> seeds;   ///< more than one if the picture was merged
     std::uint64_t samples = 0;          ///< per pixel
+    std::optional<double> seconds;      ///< that it took, where they were kept
     std::string resolution, crop;       ///< of the picture, as text
     nlohmann::json settings;            ///< an object
 };
@@ -42,8 +43,8 @@ public:
     bool has_seed(std::uint64_t seed) const { return file_of_seed_.contains(seed); }
     std::size_t seeds() const { return seeds_.size(); }
 
-    /// What the picture that is merged of them keeps: sums, all seeds, and the first one's scene and settings. At least
-    /// one was added.
+    /// What the picture that is merged of them keeps: sums (of seconds where all say theirs), all seeds, and the first
+    /// one's scene and settings. At least one was added.
     std::map<std::string, std::string> metadata() const;
 
 private:
@@ -53,6 +54,7 @@ private:
     std::map<std::uint64_t, std::string> file_of_seed_;
     std::vector<std::uint64_t> seeds_;
     std::uint64_t samples_ = 0;
+    std::optional<double> seconds_ = 0;  ///< none once there is one that does not say
 };
 
 }  // namespace wend

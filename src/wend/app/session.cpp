@@ -1,8 +1,9 @@
+#include <wend/app/extra_layers.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
-#include <wend/io/pbrt/parser.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/version.h>
 
 #include <fmt/format.h>
@@ -51,7 +52,7 @@ PixelRect parse_crop(const std::string& text, const Vec2i& size) {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
-    command.add_option("scene", file, "pbrt-v4 scene file")->required();
+    command.add_option("scene", file, "scene file: pbrt-v4, or Mitsuba 3 (.xml)")->required();
     add_choices_to(command);
 }
 
@@ -79,7 +80,7 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, pbrt::parse_file(options.file), {}) {
+    : Session(options, common, parse_scene(options.file), {}) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }
@@ -112,17 +113,25 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, Loade
     settings_.balance = loaded.balance;
 }
 
+Film Session::new_film(const RenderSettings& settings) const {
+    return {resolution_, crop_, film_layers(settings.layers, scene_)};
+}
+
 nlohmann::json Session::describe(const RenderSettings& settings) const {
-    return {{"scene", scene_file_},
-            {"sampling", to_string(settings.preset)},
-            {"subsurface", to_string(settings.subsurface)},
-            {"resolution", {resolution_.x, resolution_.y}},
-            {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
-            {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-            {"seed", settings.seed},
-            {"threads", settings.threads},
-            {"max_depth", settings.max_depth},
-            {"version", WEND_VERSION}};
+    nlohmann::json described = {{"scene", scene_file_},
+                                {"sampling", to_string(settings.preset)},
+                                {"subsurface", to_string(settings.subsurface)},
+                                {"resolution", {resolution_.x, resolution_.y}},
+                                {"crop", {crop_.min.x, crop_.max.x, crop_.min.y, crop_.max.y}},
+                                {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+                                {"seed", settings.seed},
+                                {"threads", settings.threads},
+                                {"max_depth", settings.max_depth},
+                                {"version", WEND_VERSION}};
+    if (!settings.layers.empty()) {
+        described["layers"] = settings.layers;
+    }
+    return described;
 }
 
 Picture Session::picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const {

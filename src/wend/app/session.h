@@ -41,7 +41,8 @@ public:
 
     const Scene& scene() const { return scene_; }
     const RenderSettings& settings() const { return settings_; }
-    Film new_film() const { return {resolution_, crop_}; }
+    /// With layers for which these settings ask.
+    Film new_film(const RenderSettings& settings) const;
     const std::string& film_file() const { return film_file_; }
     const std::string& scene_file() const { return scene_file_; }
     const Vec2i& resolution() const { return resolution_; }

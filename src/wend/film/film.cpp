@@ -1,3 +1,4 @@
+#include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/decision/pixel_estimate.h>
 #include <wend/film/chess_board.h>
@@ -30,8 +31,14 @@ std::size_t checked_size(const Vec2i& full, const PixelRect& crop) {
 
 }  // namespace
 
-Film::Film(const Vec2i& full_size, const PixelRect& crop)
-    : full_size_(full_size), crop_(crop), pixels_(checked_size(full_size, crop)) {
+Film::Film(const Vec2i& full_size, const PixelRect& crop, FilmLayers layers)
+    : full_size_(full_size),
+      crop_(crop),
+      layers_(std::move(layers)),
+      pixels_(checked_size(full_size, crop)),
+      parts_(pixels_.size(), layers_.parts.size() + (layers_.halves ? 2 : 0)),
+      geometry_(layers_.geometry ? pixels_.size() : 0),
+      coverage_(layers_.objects ? pixels_.size() : 0) {
 }
 
 void Film::add(const Vec2i& pixel, const FilmSample& sample) {
@@ -45,6 +52,22 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
     p.guided += sample.guided ? 1 : 0;
     p.segments += sample.segments;
     p.branches += sample.branches;
+    if (sample.is_of_half_a && layers_.halves) {
+        add_to_half(index_of(pixel), sample.radiance);
+    }
+}
+
+void Film::add_parts(const Vec2i& pixel, std::span<const std::array<double, 3>> parts) {
+    WEND_EXPECT(parts.size() == layers_.parts.size());
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        parts_.add(index_of(pixel), part, parts[part]);
+    }
+}
+
+void Film::add_to_half(std::size_t index, const Rgb& radiance) {
+    const std::size_t sum = layers_.parts.size();
+    parts_.add(index, sum, {double{radiance.r}, double{radiance.g}, double{radiance.b}});
+    parts_.add(index, sum + 1, {1, 1, 1});
 }
 
 void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
@@ -55,11 +78,29 @@ void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
     }
     p.depth += features.depth;
     p.opacity += features.opacity;
+    p.alpha += features.alpha;
     ++p.featured;
+    if (layers_.geometry) {
+        Geometry& sum = geometry_[index_of(pixel)];
+        for (int c = 0; c < 3; ++c) {
+            sum.position[c] += features.position[c];
+            sum.face_normal[c] += features.face_normal[c];
+        }
+    }
 }
 
-void Film::reject(const Vec2i& pixel) {
+void Film::add_coverage(const Vec2i& pixel, std::span<const Coverage> seen) {
+    WEND_EXPECT(layers_.objects);
+    for (const Coverage& object : seen) {
+        coverage_[index_of(pixel)].add(object);
+    }
+}
+
+void Film::reject(const Vec2i& pixel, bool is_of_half_a) {
     ++at(pixel).count;
+    if (is_of_half_a && layers_.halves) {
+        add_to_half(index_of(pixel), Rgb(0.0f));
+    }
 }
 
 double Film::Pixel::variance(int c) const {
@@ -161,6 +202,7 @@ void Film::begin_stage() {
             p.earlier_sum[c] += weight * std::exchange(p.sum[c], 0);
             p.squares[c] = 0;
         }
+        parts_.end_stage(i, weight);
         p.earlier_weight += weight * p.count;
         p.earlier_count += std::exchange(p.count, 0);
     }
@@ -181,49 +223,6 @@ Image Film::beauty(const Halves& weights) const {
         }
     }
     return image;
-}
-
-Picture Film::picture() const {
-    const Halves weights = stage_weights();
-    Picture picture;
-    picture.image = beauty(weights);
-    picture.offset = crop_.min;
-    picture.full_size = full_size_;
-    Layer albedo{"albedo", {"R", "G", "B"}, {}};
-    Layer normal{"normal", {"X", "Y", "Z"}, {}};
-    Layer depth{"depth", {"Z"}, {}};
-    Layer samples{"samples", {"N"}, {}};
-    Layer variance{"variance", {"R", "G", "B"}, {}};
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Pixel& p = pixels_[i];
-        const auto n = static_cast<float>(std::max(p.featured, 1u));
-        for (int c = 0; c < 3; ++c) {
-            albedo.values.push_back(p.albedo[c] / n);
-            normal.values.push_back(p.normal[c] / n);
-            variance.values.push_back(static_cast<float>(p.spread(c, weights[half_of(i)])));
-        }
-        depth.values.push_back(p.depth / n);
-        samples.values.push_back(static_cast<float>(p.samples()));
-    }
-    picture.layers = walk_layers();
-    picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
-                                                   std::move(samples), std::move(variance)});
-    return picture;
-}
-
-std::vector<Layer> Film::walk_layers() const {
-    Layer scatter{"scatter", {"P"}, {}};
-    Layer segments{"segments", {"N"}, {}};
-    Layer branches{"branches", {"N"}, {}};
-    Layer guided{"guided", {"P"}, {}};
-    for (const Pixel& p : pixels_) {
-        const double scale = p.samples() > 0 ? 1.0 / p.samples() : 0.0;
-        scatter.values.push_back(p.opacity / static_cast<float>(std::max(p.featured, 1u)));
-        guided.values.push_back(static_cast<float>(p.guided * scale));
-        segments.values.push_back(static_cast<float>(static_cast<double>(p.segments) * scale));
-        branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));
-    }
-    return {std::move(scatter), std::move(segments), std::move(branches), std::move(guided)};
 }
 
 std::vector<PixelNoise> Film::noise() const {

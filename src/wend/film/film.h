@@ -2,10 +2,15 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
+#include <wend/film/cryptomatte.h>
+#include <wend/film/film_layers.h>
+#include <wend/film/part_sums.h>
 #include <wend/film/picture.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace wend {
@@ -16,6 +21,7 @@ struct FilmSample {
     bool guided = false;         ///< whether any decision was
     std::uint32_t segments = 0;  ///< flights to a collision, surface or interface, of all branches
     std::uint32_t branches = 1;  ///< 1 and one more for each copy that splitting made
+    bool is_of_half_a = false;   ///< FilmLayers::halves
 };
 
 /// What a camera ray shows of the scene, which does not hang on how paths are drawn.
@@ -24,6 +30,9 @@ struct FilmFeatures {
     Vec3 normal{0, 0, 0};
     float depth = 0;    ///< distance to the first surface, media left out; 0 where there is none
     float opacity = 0;  ///< of media before it: an estimate of 1 - transmittance
+    float alpha = 0;    ///< 1 where there is a surface, else the opacity of all media on the straight way
+    /// Of the first surface, in the world: where it is, and its geometric normal; 0 where there is none.
+    Vec3 position{0, 0, 0}, face_normal{0, 0, 0};
 };
 
 /// A rectangle of pixels, the upper end exclusive.
@@ -54,24 +63,34 @@ struct PixelNoise {
 class Film {
 public:
     /// Throws InputError if the crop window is empty, outside the picture, or larger than max_pixels.
-    Film(const Vec2i& full_size, const PixelRect& crop);
+    Film(const Vec2i& full_size, const PixelRect& crop, FilmLayers layers = {});
 
     const Vec2i& full_size() const { return full_size_; }
     const PixelRect& crop() const { return crop_; }
+    const FilmLayers& layers() const { return layers_; }
 
     /// Adds a finite sample; `pixel` is in coordinates of the full picture.
     void add(const Vec2i& pixel, const FilmSample& sample);
+    /// Adds the parts of a sample that was added, as many as FilmLayers::parts.
+    void add_parts(const Vec2i& pixel, std::span<const std::array<double, 3>> parts);
     /// Adds what one of its rays shows.
     void add_features(const Vec2i& pixel, const FilmFeatures& features);
+    /// Adds which objects one of its rays shows, how much each: for FilmLayers::objects.
+    void add_coverage(const Vec2i& pixel, std::span<const Coverage> seen);
     /// Counts a sample that was not a number: it adds nothing, but is not forgotten.
-    void reject(const Vec2i& pixel);
+    void reject(const Vec2i& pixel, bool is_of_half_a = false);
 
     /// Ends a stage: samples from here on are drawn in another way.
     void begin_stage();
 
     Image beauty() const;
-    /// Beauty and the layers albedo, normal and depth of what its rays show, samples, variance (of the pixel's mean,
-    /// from the scatter of its samples; with stratified samples an overestimate), and walk_layers().
+    /// Beauty and the layers albedo, normal, depth and alpha of what its rays show, samples, variance (of the pixel's
+    /// mean, from the scatter of its samples; with stratified samples an overestimate), walk_layers(), and what was
+    /// asked for of FilmLayers.
+    ///
+    /// The halves are means over the samples of each half, moved together as far as these differ in what their samples
+    /// count: the mean of both is the beauty, both have its expectation, and they are not correlated, so that a quarter
+    /// of their squared difference estimates the beauty's variance.
     Picture picture() const;
     /// `scatter`, the opacity of media before the first surface, by its rays; and what walks did, over the samples of
     /// all stages alike: `segments`, the mean length of walks, `branches`, the mean
@@ -88,15 +107,18 @@ public:
     static void archive(Archive& bytes, Self& film) {
         bytes.same(film.full_size_);
         bytes.same(film.crop_);
+        bytes.same(film.parts_.parts());
+        bytes.same(film.geometry_.size());
+        bytes.same(film.coverage_.size());
         bytes(film.earlier_weights_, film.first_variances_);
-        bytes.raw(film.pixels_.data(), film.pixels_.size());
+        archive_pixels(bytes, film, 0, film.pixels_.size());
     }
 
     /// The pixels of a part of the crop window alone.
     template <class Archive, class Self>
     static void archive_part(Archive& bytes, Self& film, const PixelRect& part) {
         for (int y = part.min.y; y < part.max.y; ++y) {
-            bytes.raw(&film.pixels_[film.index_of({part.min.x, y})], static_cast<std::size_t>(part.width()));
+            archive_pixels(bytes, film, film.index_of({part.min.x, y}), static_cast<std::size_t>(part.width()));
         }
     }
 
@@ -118,6 +140,7 @@ private:
         float normal[3] = {0, 0, 0};
         float depth = 0;
         float opacity = 0;
+        float alpha = 0;
         std::uint32_t featured = 0;
         // Of all samples.
         std::uint32_t guided = 0;
@@ -134,9 +157,32 @@ private:
         double mean(int c, double weight) const;
         double spread(int c, double weight) const;
     };
+    /// Sums of what rays show.
+    struct Geometry {
+        float position[3] = {0, 0, 0};
+        float face_normal[3] = {0, 0, 0};
+    };
     /// By half of the pixels.
     using Halves = std::array<double, 2>;
 
+    template <class Archive, class Self>
+    static void archive_pixels(Archive& bytes, Self& film, std::size_t first, std::size_t count) {
+        bytes.raw(film.pixels_.data() + first, count);
+        PartSums::archive(bytes, film.parts_, first, count);
+        if (!film.geometry_.empty()) {
+            bytes.raw(film.geometry_.data() + first, count);
+        }
+        for (std::size_t i = first; i < first + count && !film.coverage_.empty(); ++i) {
+            bytes(film.coverage_[i]);
+        }
+    }
+
+    /// Adds to what makes the halves: the samples of half a, and how many they are.
+    void add_to_half(std::size_t index, const Rgb& radiance);
+    std::vector<Layer> part_layers(const Halves& weights) const;
+    std::vector<Layer> half_layers(const Halves& weights) const;
+    std::vector<Layer> geometry_layers() const;
+    std::vector<Layer> object_layers() const;
     std::size_t half_of(std::size_t index) const;
     /// What the pixels of one half are, as they alone tell it.
     std::vector<float> estimates_of_half(const Halves& weights, std::size_t half) const;
@@ -159,7 +205,11 @@ private:
 
     Vec2i full_size_;
     PixelRect crop_;
+    FilmLayers layers_;
     std::vector<Pixel> pixels_;
+    PartSums parts_;                  ///< those of `layers_`, and behind them what add_to_half() adds to
+    std::vector<Geometry> geometry_;  ///< none where it was not asked for
+    std::vector<PixelCoverage> coverage_;
     /// Of the stage before this one; none as long as this is the first.
     Halves earlier_weights_{0, 0};
     Halves first_variances_{0, 0};

@@ -2,6 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/decision/pixel_estimate.h>
 #include <wend/film/chess_board.h>
+#include <wend/film/film_layers.h>
 #include <wend/film/merge.h>
 #include <wend/stats/moments.h>
 
@@ -226,8 +227,56 @@ struct Sums {
 };
 
 bool is_mean_over_samples(const Layer& layer) {
-    return layer.name != "variance" && layer.name != "samples";
+    return layer.name != "variance" && layer.name != "samples" && !counts_as_beauty(layer.name);
 }
+
+/// The same layer of another picture. Throws InputError where the file has changed since the first look at it.
+const Layer& same_layer(const Picture& picture, const Layer& layer) {
+    const Layer* const other = find_layer(picture.layers, layer.name);
+    if (!other || other->channels != layer.channels) {
+        throw InputError("the layer '" + layer.name + "' is not what it was: the file has changed");
+    }
+    return *other;
+}
+
+/// Means of the layers that count as the beauty does.
+class PartMeans {
+public:
+    explicit PartMeans(std::vector<Layer>& layers) {
+        for (Layer& layer : layers) {
+            if (counts_as_beauty(layer.name)) {
+                parts_.push_back({&layer, std::vector<double>(layer.values.size())});
+            }
+        }
+    }
+
+    /// `weight` of a picture's pixels, and of those before with it.
+    void add(const Picture& picture, const std::vector<double>& weights, const std::vector<Sums>& sums) {
+        for (Part& part : parts_) {
+            const Layer& other = same_layer(picture, *part.layer);
+            const std::size_t channels = other.channels.size();
+            for (std::size_t k = 0; k < part.means.size(); ++k) {
+                if (const double w = weights[k / channels]; w > 0) {
+                    part.means[k] +=
+                        (static_cast<double>(other.values[k]) - part.means[k]) * w / sums[k / channels].weight;
+                }
+            }
+        }
+    }
+    void put() const {
+        for (const Part& part : parts_) {
+            std::transform(part.means.begin(), part.means.end(), part.layer->values.begin(),
+                           [](double mean) { return static_cast<float>(mean); });
+        }
+    }
+
+private:
+    struct Part {
+        Layer* layer;
+        std::vector<double> means;
+    };
+    std::vector<Part> parts_;
+};
 
 /// Adds a picture's part to the layers that are means over samples.
 void add_layers(std::vector<Layer>& layers, const Picture& picture, const Estimate& estimate,
@@ -236,16 +285,13 @@ void add_layers(std::vector<Layer>& layers, const Picture& picture, const Estima
         if (!is_mean_over_samples(layer)) {
             continue;
         }
-        const Layer* const other = find_layer(picture.layers, layer.name);
-        if (!other || other->channels != layer.channels) {
-            throw InputError("the layer '" + layer.name + "' is not what it was: the file has changed");
-        }
+        const Layer& other = same_layer(picture, layer);
         const std::size_t channels = layer.channels.size();
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double n = estimate.samples(i);
             for (std::size_t c = 0; n > 0 && c < channels; ++c) {
                 layer.values[i * channels + c] +=
-                    static_cast<float>(static_cast<double>(other->values[i * channels + c]) * (n / samples[i]));
+                    static_cast<float>(static_cast<double>(other.values[i * channels + c]) * (n / samples[i]));
             }
         }
     }
@@ -345,20 +391,25 @@ MergedPictures merge_pictures(std::size_t count, const std::function<Picture(std
         layer.values.resize(samples.size() * layer.channels.size());
     }
     std::vector<Sums> sums(samples.size());
+    PartMeans parts(merged.layers);
     std::vector<Halves> weights(count, Halves{0, 0});
+    std::vector<double> pixel_weights(samples.size());
     pictures.for_each(merged, [&](std::size_t k, const Picture& picture) {
         const Estimate estimate(picture);
         for (std::size_t i = 0; i < sums.size(); ++i) {
-            if (const double n = estimate.samples(i); n > 0) {
-                const std::size_t half = chess_half(i, picture.image.width);
-                const double weight = n * worth[half][k];
-                sums[i].add(estimate, i, weight);
-                weights[k][half] += weight;
+            const double n = estimate.samples(i);
+            const std::size_t half = chess_half(i, picture.image.width);
+            pixel_weights[i] = n > 0 ? n * worth[half][k] : 0.0;
+            if (n > 0) {
+                sums[i].add(estimate, i, pixel_weights[i]);
+                weights[k][half] += pixel_weights[i];
             }
         }
+        parts.add(picture, pixel_weights, sums);
         add_layers(merged.layers, picture, estimate, samples);
     });
     put(sums, samples, merged);
+    parts.put();
     return {std::move(merged), shares_of(weights), std::move(overview.left_out),
             static_cast<std::size_t>(std::count(samples.begin(), samples.end(), 0.0))};
 }

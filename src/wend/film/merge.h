@@ -29,8 +29,9 @@ struct MergedPictures {
 /// count.
 ///
 /// The layer `variance` is that of the merged pixel, Σ w² v / (Σ w)². Pictures with one sample in a pixel do not know
-/// theirs: others speak for them, or if there are none, the scatter of these samples. `samples` are summed, and all
-/// other layers are means over samples. A picture without samples in a pixel counts nothing there.
+/// theirs: others speak for them, or if there are none, the scatter of these samples. `samples` are summed. Parts of
+/// the beauty and its halves (counts_as_beauty()) are weighted as it is, so that they still add up to it; all other
+/// layers are means over samples. A picture without samples in a pixel counts nothing there.
 ///
 /// `read` is called with 0 to count - 1 in order, three times over, so that only one of the pictures has to be in
 /// memory beside the sums. Throws InputError where a picture lacks `variance` (R, G, B) or `samples` (N), has numbers

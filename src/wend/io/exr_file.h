@@ -16,7 +16,7 @@ ImageWithOpacity read_exr_image(const std::filesystem::path& file);
 Picture read_exr(const std::filesystem::path& file);
 
 /// Writes to exactly this file. Throws std::runtime_error when that fails.
-void write_exr(const std::filesystem::path& file, const Picture& picture);
+void write_exr(const std::filesystem::path& file, const Picture& picture, const PictureFormat& format);
 
 /// The same for the colours and the metadata alone; see write_colours.
 void write_exr_colours(const std::filesystem::path& file, const Picture& picture);

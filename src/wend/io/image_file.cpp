@@ -112,12 +112,13 @@ std::string png_bytes(const Image& image) {
     return encode_png(image);
 }
 
-void write_picture(const std::filesystem::path& file, const Picture& picture) {
+void write_picture(const std::filesystem::path& file, const Picture& picture, const PictureFormat& format) {
     WEND_EXPECT(!picture.image.pixels.empty());
     require_known_picture_extension(file);
     switch (*kind_of(file)) {
         case PictureKind::exr:
-            write_atomically(file, [&](const std::filesystem::path& temporary) { write_exr(temporary, picture); });
+            write_atomically(file,
+                             [&](const std::filesystem::path& temporary) { write_exr(temporary, picture, format); });
             break;
         case PictureKind::png:
             write_atomically(file, encode_png(picture.image));

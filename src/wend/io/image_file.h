@@ -3,6 +3,7 @@
 #pragma once
 
 #include <wend/film/picture.h>
+#include <wend/io/picture_format.h>
 
 #include <filesystem>
 #include <string>
@@ -33,16 +34,18 @@ ImageWithOpacity read_image_with_opacity(const std::filesystem::path& file,
 /// Whether a file begins as PNG files do; false where it cannot be read.
 bool is_png(const std::filesystem::path& file);
 
-/// The whole of an EXR file: beauty, layers and metadata, as write_picture left them. Channels without a layer's name
-/// (other than the beauty's) are in a layer named "". Throws InputError as read_image does, and for files that are not
-/// EXR.
+/// The whole of an EXR file: beauty, layers and metadata, as write_picture left them, in whatever format that was; of
+/// pbrt's and Blender's files as well (of one view layer, the first). Channels without a layer's name (other than the
+/// beauty's) are in a layer named "", or in that of their part; parts of another size are left out. Throws InputError
+/// as read_image does, and for files that are not EXR.
 Picture read_picture(const std::filesystem::path& file);
 
-/// Writes by extension (a device without one takes OpenEXR): .exr (32-bit float, all layers as `layer.channel`,
-/// metadata as string attributes), .png and .jpg (beauty in sRGB, clamped to [0,1]). The file appears whole or not at
+/// Writes by extension (a device without one takes OpenEXR): .exr (all layers as `layer.channel`, metadata as string
+/// attributes; samples, seed and seconds as numbers, too, under names that others know: `samplesPerPixel`, `seed`,
+/// `renderTimeSeconds`), .png and .jpg (beauty in sRGB, clamped to [0,1]). The file appears whole or not at
 /// all: it is written beside and renamed. Throws InputError for an unknown extension, std::runtime_error when the disk
 /// refuses.
-void write_picture(const std::filesystem::path& file, const Picture& picture);
+void write_picture(const std::filesystem::path& file, const Picture& picture, const PictureFormat& format = {});
 
 /// Writes the colours and the metadata alone, as references are kept: OpenEXR in half floats, or in 32-bit floats where
 /// a colour is too large for them. The file appears whole or not at all. Throws InputError for any extension but .exr,

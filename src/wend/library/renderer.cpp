@@ -95,7 +95,7 @@ Render::Render(const Scene& scene, const Settings& settings)
     : render_(std::make_unique<OwnedRender>(
           scene.scene_,
           RenderChoices{settings.samples, settings.seconds, settings.noise, settings.passes, settings.sampling,
-                        settings.subsurface, nullptr, false, settings.seed, settings.threads})) {
+                        settings.subsurface, nullptr, false, settings.seed, settings.threads, settings.layers})) {
 }
 
 Render::Render(Render&& other) noexcept = default;

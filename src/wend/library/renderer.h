@@ -36,7 +36,8 @@ struct SceneOverrides {
 /// it.
 class WEND_API Scene {
 public:
-    /// Of a pbrt-v4 file. Throws InputError for whatever is wrong in it, with file, line and column.
+    /// Of a pbrt-v4 file, or of Mitsuba 3 (`.xml`). Throws InputError for whatever is wrong in it, with file, line and
+    /// column.
     static Scene load(const std::filesystem::path& file, const SceneOverrides& overrides = {});
     /// Of a text in that format, which refers to files in the folder; `name` is what messages call it.
     static Scene of_text(const std::string& text, const std::filesystem::path& folder, const std::string& name,
@@ -70,6 +71,8 @@ struct Settings {
     std::string subsurface = "auto";    ///< walks inside dense media: "auto", "classical" or the name of a technique
     std::optional<std::uint64_t> seed;  ///< none: the scene's
     int threads = 0;                    ///< 0: all; the picture does not depend on it
+    /// More layers of the film: emission, background, direct, indirect, volume, lights, halves, geometry.
+    std::vector<std::string> layers;
 };
 
 /// How far a render is.

@@ -67,11 +67,18 @@ public:
 
     /// From beyond the scene, as seen from where the walk has turned last.
     EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction) const {
+        return beyond(last, from, direction, [](int, const Rgb&) {});
+    }
+    /// The same; `each` is told what comes from each light.
+    template <class Each>
+    EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction, const Each& each) const {
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {
             const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], from, direction);
             if (!is_black(emitted)) {
-                arriving.add(emitted, weight(light, last, direction, {}, {}));
+                const float w = weight(light, last, direction, {}, {});
+                arriving.add(emitted, w);
+                each(light, emitted * w);
             }
         }
         return arriving;
@@ -103,7 +110,7 @@ private:
 
     float density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
         return light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position, direction, hit,
-                             normal);
+                             normal, last.time);
     }
 
     /// Of the first direction of a refracted way that ends with `direction`: 0 where connections do not find it.

@@ -20,8 +20,8 @@ struct SpecularChain {
     };
 
     Vec3 direction;  ///< of its first leg, unit length
-    /// Of radiance, by the boundaries: Fresnel's transmittances over the squared ratios of indices.
-    float transmitted = 1;
+    /// Of radiance, by the boundaries: their transmittances over the squared ratios of indices.
+    Rgb transmitted{1.0f};
     /// Density of the first direction over that of the straight one to the same point, where points on lights are
     /// drawn.
     float density_ratio = 1;

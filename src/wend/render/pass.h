@@ -109,6 +109,7 @@ public:
         // Segments between two looks at the clock.
         constexpr std::uint64_t few = 256;
         const double mean = mean_estimate(tile.pixels);
+        LightParts parts(settings_.parts);
         std::uint64_t looked = tile.counts.segments;
         for (; tile.pixels_done < tile.pixel_count(); ++tile.pixels_done) {
             const Vec2i pixel = tile.pixel(tile.pixels_done);
@@ -121,7 +122,7 @@ public:
                     rest_.look();
                     looked = tile.counts.segments;
                 }
-                if (rest_.is_due() || !sample(pixel, expected, tile, records)) {
+                if (rest_.is_due() || !sample(pixel, expected, tile, records, parts)) {
                     return;
                 }
             }
@@ -135,7 +136,7 @@ private:
     static constexpr int most_features = 15;
 
     /// The next sample of a pixel, if it is one of this kind; false if it was dropped.
-    bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records) const {
+    bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records, LightParts& parts) const {
         const int index = first_of(pixel) + tile.samples_done;
         const auto number = static_cast<std::uint64_t>(pixel.y) * static_cast<std::uint64_t>(film_.full_size().x) +
                             static_cast<std::uint64_t>(pixel.x);
@@ -153,8 +154,9 @@ private:
         const bool is_traced = ray.weight > 0;
         WalkResult result;
         if (is_traced) {
-            result = tracer_.trace(ray, expects_ ? expected / ray.weight : 0, sampler,
-                                   learners_.recorders(records, is_recorded));
+            result =
+                tracer_.trace(ray, expects_ ? expected / ray.weight : 0, sampler,
+                              learners_.recorders(records, is_recorded), settings_.parts.is_empty() ? nullptr : &parts);
             result.sample.radiance *= ray.weight;
         }
         if (rest_.drops_walks()) {
@@ -169,7 +171,7 @@ private:
         tile.counts.segments += result.sample.segments;
         if (!counts) {
             ++tile.counts.rejected;
-            film_.reject(pixel);
+            film_.reject(pixel, is_of_half_a(number, index));
             return true;
         }
         tile.of_pixel.add(
@@ -177,13 +179,41 @@ private:
             cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
         result.sample.guided = is_guided_;
         result.sample.radiance = settings_.balance * (result.sample.radiance * (place.weight * settings_.exposure));
+        result.sample.is_of_half_a = is_of_half_a(number, index);
         film_.add(pixel, result.sample);
+        if (is_traced && !settings_.parts.is_empty()) {
+            add_parts(pixel, parts, static_cast<double>(ray.weight * place.weight * settings_.exposure));
+        }
         if (is_traced && index < most_features) {
             constexpr std::uint64_t purpose = 0x66656174;
             Pcg32 random(hash_of(settings_.seed, number, index, purpose));
-            film_.add_features(pixel, first_surface(scene_, ray, random));
+            SeenObjects seen{settings_.objects};
+            film_.add_features(pixel,
+                               first_surface(scene_, ray, random, settings_.objects.is_empty() ? nullptr : &seen));
+            if (!settings_.objects.is_empty()) {
+                film_.add_coverage(pixel, seen.parts);
+            }
         }
         return true;
+    }
+
+    void add_parts(const Vec2i& pixel, const LightParts& parts, double scale) const {
+        std::vector<LightParts::Sum> scaled = parts.sums();
+        for (LightParts::Sum& sum : scaled) {
+            for (double& value : sum) {
+                value *= scale;
+            }
+            sum = settings_.balance * sum;
+        }
+        film_.add_parts(pixel, scaled);
+    }
+
+    /// One of each two samples, at random: what low-discrepancy sequences have in a half of the domain may be exactly
+    /// the even ones.
+    bool is_of_half_a(std::uint64_t pixel, int index) const {
+        constexpr std::uint64_t purpose = 0x68616c66;
+        return film_.layers().halves &&
+               ((hash_of(settings_.seed, pixel, index / 2, purpose) ^ static_cast<std::uint64_t>(index)) & 1) != 0;
     }
 
     /// What makes errors of a pixel relative to it, given the mean of its tile. What is known of it is what few walks

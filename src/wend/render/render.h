@@ -10,6 +10,7 @@
 #include <wend/render/preset.h>
 #include <wend/render/ranks.h>
 #include <wend/sampling/sampler.h>
+#include <wend/transport/first_surface.h>
 #include <wend/transport/path_tracer.h>
 #include <wend/transport/subsurface_guides.h>
 
@@ -19,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace wend {
@@ -53,6 +55,10 @@ struct RenderSettings {
     Filter filter = Filter::box();
     float exposure = 1;    ///< multiplies all radiances
     ColourMatrix balance;  ///< multiplies them as well, once they are on the film; not singular
+    /// Which parts of the beauty the film gets, as many as its FilmLayers::parts.
+    PartsPlan parts;
+    ObjectIds objects;                ///< not empty: the film gets which of them it shows (FilmLayers::objects)
+    std::vector<std::string> layers;  ///< that were asked for, by name, for those who describe the render
     /// Not null: once true, walks are dropped where they are. They are walked again if the render goes on.
     const std::atomic<bool>* stop = nullptr;
     /// Not null: this is one of several processes that render the same picture together, and all of them get it. They

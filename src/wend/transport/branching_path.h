@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/light/emitter_hit.h>
+#include <wend/transport/light_parts.h>
 #include <wend/transport/path_state.h>
 #include <wend/transport/walk_events.h>
 
@@ -16,14 +17,20 @@ namespace wend {
 template <class Recorders>
 class BranchingPath {
 public:
-    explicit BranchingPath(Recorders recorders) : recorder_(std::move(recorders)) {}
+    /// `parts` may be null.
+    BranchingPath(Recorders recorders, LightParts* parts) : recorder_(std::move(recorders)), parts_(parts) {}
 
     /// The branch at hand.
     PathState now;
 
     const Rgb& radiance() const { return radiance_; }
 
-    void start() { recorder_.start(); }
+    void start() {
+        recorder_.start();
+        if (parts_) {
+            parts_->start();
+        }
+    }
     void finish() { recorder_.finish(); }
     template <class Event>
     void record(const Event& event) {
@@ -60,6 +67,13 @@ public:
         record(walk_events::Contributed{mean_value(light), now.technique, found});
     }
 
+    /// Sorts light, before its weight is counted, that the path brings in one of the ways above, or is a part of that.
+    void sort(const Rgb& radiance, const LightOrigin& origin) {
+        if (parts_) {
+            parts_->add(now.weight.throughput * radiance, now.counts, origin);
+        }
+    }
+
     struct Branch {
         PathState state;
         typename Recorders::Branch recorded;
@@ -85,6 +99,7 @@ private:
     static constexpr int max_pending = 64;
 
     Recorders recorder_;
+    LightParts* parts_;
     std::vector<Branch> pending_;
     Rgb radiance_;
 };

@@ -6,8 +6,17 @@
 #include <optional>
 
 namespace wend {
+namespace {
 
-FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& random) {
+void add(SeenObjects& objects, std::uint32_t id, float part) {
+    if (part > 0) {
+        objects.parts.push_back({id, part});
+    }
+}
+
+}  // namespace
+
+FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& random, SeenObjects* objects) {
     constexpr int most_specular = 16;
     FilmFeatures seen;
     TracedRay ray(camera_ray);
@@ -19,7 +28,11 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
         const std::optional<Hit> hit = scene.intersect(ray);
         if (is_straight && medium.id != vacuum) {
             const float length = hit ? hit->distance : longest_segment;
+            const float before = mean_value(passed);
             passed *= estimate_transmittance(scene.medium(medium.id), ray, length, random);
+            if (objects) {
+                add(*objects, objects->ids.of_media[static_cast<std::size_t>(medium.id)], before - mean_value(passed));
+            }
         }
         if (!hit) {
             // Behind a mirror that shows nothing but the sky there is the mirror.
@@ -31,6 +44,14 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
             medium = scene.medium_beyond(*hit, ray.direction, medium);
             ray.pass(*hit);
             continue;
+        }
+        seen.alpha = 1;
+        if (is_straight) {
+            seen.position = hit->position;
+            seen.face_normal = hit->normal;
+            if (objects) {
+                add(*objects, objects->ids.of_surfaces[scene.surface_index(*hit)], mean_value(passed));
+            }
         }
         const SurfaceScattering f(scene.bsdf(*hit), hit->shading, ray.direction);
         std::optional<DirectionSample> s;
@@ -48,6 +69,9 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
         ray = ray.leave(*hit, s->direction);
     }
     seen.opacity = 1 - mean_value(passed);
+    if (seen.alpha == 0) {
+        seen.alpha = seen.opacity;
+    }
     return seen;
 }
 

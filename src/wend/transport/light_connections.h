@@ -134,6 +134,7 @@ public:
                 const Connection found = look(*chosen, path_.now.connections(there), boundary, around, there);
                 path_.bring(path_.now.weight.throughput * found.contribution(),
                             {.from_collision = found.from_collision});
+                path_.sort(found.contribution(), {chosen->index});
                 brought += arriving * found.contribution();
             }
         }
@@ -144,7 +145,7 @@ public:
 private:
     /// `u` in [0,1) chooses the light, and `u2` a point of it.
     std::optional<ChosenSample> choose(const Vertex& v, float u, const Vec2& u2) const {
-        return choose_light(scene_, lights_, v.receiver(), u, u2, sampler_.random());
+        return choose_light(scene_, lights_, v.receiver(), u, u2, sampler_.random(), path_.now.ray.time);
     }
 
     /// Counts what a connection has found; as many as `times` were made, as a mean.
@@ -157,6 +158,7 @@ private:
         path_.gather(brought, {.towards = found.towards ? &*found.towards : nullptr,
                                .by_connections = found.by_connections,
                                .from_collision = found.from_collision});
+        path_.sort(brought, {chosen.index});
         path_.record(walk_events::Connected{v, chosen.index, chosen.probability, times, found.to_light, found.distance,
                                             mean_value(found.fluence), brought});
     }

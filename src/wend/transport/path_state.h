@@ -29,6 +29,7 @@ struct PathCounts {
     int vertices = 0;
     int uncounted = 0;  ///< of those, the ones that do not count towards the largest depth
     int interfaces = 0;
+    bool begins_in_medium = false;  ///< whether the first vertex is in one
 
     /// How many vertices more, that count, are not too many.
     int vertices_left(int max_depth) const { return max_depth - (vertices - uncounted); }

@@ -68,8 +68,9 @@ public:
           stop_(stop) {}
 
     /// Radiance arriving along the ray, of which `expected` is an estimate for decisions on survival; 0 where there is
-    /// none.
-    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const Recorders& recorders = Recorders()) const;
+    /// none. `parts` takes what it consists of, and may be null.
+    WalkResult trace(const Ray& ray, float expected, Sampler& sampler, const Recorders& recorders = Recorders(),
+                     LightParts* parts = nullptr) const;
 
 private:
     class Walk;
@@ -86,12 +87,12 @@ private:
 template <class Decisions, class Recorders>
 class PathTracer<Decisions, Recorders>::Walk {
 public:
-    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const Recorders& recorders)
+    Walk(const PathTracer& tracer, float expected, Sampler& sampler, const Recorders& recorders, LightParts* parts)
         : tracer_(tracer),
           scene_(tracer.scene_),
           d_(tracer.decisions_),
           sampler_(sampler),
-          path_(recorders),
+          path_(recorders, parts),
           emitters_(scene_, tracer.lights_),
           connections_(scene_, tracer.lights_, tracer.reflections_, d_, tracer.max_depth_, sampler, path_),
           expected_(expected) {}
@@ -131,6 +132,7 @@ private:
             const Flight flight = fly(medium, ahead, drawn);
             if (!is_black(flight.emitted)) {
                 path_.glow(flight.emitted, path_.now.travelled + mean_value(flight.emitted) / flight.glow);
+                path_.sort(flight.emitted, {.medium = path_.now.medium.id});
             }
             path_.weigh(flight.weight);
             path_.now.weight.density_ratio *= flight.density_ratio;
@@ -143,13 +145,16 @@ private:
             }
         }
         if (!ahead) {
-            path_.meet(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction));
+            path_.meet(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction,
+                                        [&](int light, const Rgb& radiance) { path_.sort(radiance, {light}); }));
             return false;
         }
         const Hit& hit = ahead.hit();
         path_.now.travelled += hit.distance;
         if (hit.light >= 0) {
-            path_.meet(emitters_.at(hit, path_.now.last, path_.now.ray.direction));
+            const EmitterHit found = emitters_.at(hit, path_.now.last, path_.now.ray.direction);
+            path_.meet(found);
+            path_.sort(found.radiance, {hit.light});
         }
         if (scene_.is_interface(hit)) {
             const MediumId from =
@@ -248,6 +253,7 @@ private:
             }
         }
         path_.record(walk_events::Arrived{path_.now.travelled});
+        path_.now.counts.begins_in_medium |= path_.now.counts.vertices == 0;
         if (!count_vertex()) {
             return false;
         }
@@ -451,8 +457,8 @@ private:
 
 template <class Decisions, class Recorders>
 WalkResult PathTracer<Decisions, Recorders>::trace(const Ray& ray, float expected, Sampler& sampler,
-                                                   const Recorders& recorders) const {
-    return Walk(*this, expected, sampler, recorders).run(ray);
+                                                   const Recorders& recorders, LightParts* parts) const {
+    return Walk(*this, expected, sampler, recorders, parts).run(ray);
 }
 
 }  // namespace wend

@@ -5,13 +5,14 @@
 #include <wend/io/load/load_scene.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/shapes.h>
-#include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <utility>
@@ -54,16 +55,22 @@ public:
         for (const pbrt::TextureEntity& texture : description_.textures) {
             textures_.add(texture);
         }
+        scene_.names.of_media = medium_names();
         for (const pbrt::MediumEntity& medium : description_.media) {
+            const int group = light_group(medium);
             scene_.media.push_back(load_medium(context_, medium));
+            LightGroups::set(scene_.light_groups.of_media, scene_.media.size() - 1, scene_.media.size(), group);
         }
         add_materials();
         for (const pbrt::LightEntity& light : description_.lights) {
+            const int group = light_group(light);
             if (auto loaded = load_light(context_, textures_, light)) {
                 scene_.lights.push_back(std::move(*loaded));
+                group_lights_from(scene_.lights.size() - 1, group);
             }
         }
         for (const pbrt::Entity& light : description_.area_lights) {
+            area_light_groups_.push_back(light_group(light));
             area_lights_.push_back(load_area_light(context_, textures_, light));
         }
         scene_.objects.resize(description_.objects.size());
@@ -136,6 +143,7 @@ private:
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
         const std::size_t patches = patches_of(entity);
+        const ObjectNames::Name name = name_of(entity);
         std::optional<Shape> shape = load_shape(context_, entity, entity.area_light || interior != exterior);
         if (!shape) {
             return;
@@ -166,6 +174,19 @@ private:
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
         places_.push_back(entity.place);
+        scene_.names.of_surfaces.push_back(name);
+    }
+
+    /// What the scene calls a shape, or else where it is.
+    ObjectNames::Name name_of(const pbrt::ShapeEntity& entity) {
+        const bool has_name = entity.parameters.has("name");
+        const std::string text = has_name ? entity.parameters.get_string("name", "")
+                                          : std::filesystem::path(entity.place.file).filename().string();
+        const auto [found, is_new] = texts_.try_emplace(text, static_cast<int>(scene_.names.texts.size()));
+        if (is_new) {
+            scene_.names.texts.push_back(text);
+        }
+        return {found->second, has_name ? 0 : entity.place.line};
     }
 
     /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last
@@ -196,7 +217,33 @@ private:
         const Presence presence = surface.alpha < 0          ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
-        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+        const std::size_t first = scene_.lights.size();
+        attach(area_lights_[*entity.area_light], {presence, patches, entity.world_from_object, entity.motion}, surface,
+               scene_.lights);
+        group_lights_from(first, area_light_groups_[*entity.area_light]);
+    }
+
+    /// The group that what shines is said to be in, to be asked for before it is loaded. Throws InputError for names
+    /// that layers cannot have.
+    int light_group(const pbrt::Entity& entity) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        if (!p.has("lightgroup")) {
+            return LightGroups::none;
+        }
+        const std::string name = p.get_string("lightgroup", "");
+        const auto is_plain = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+        };
+        if (name.empty() || name == LightGroups::rest || !std::all_of(name.begin(), name.end(), is_plain)) {
+            throw InputError(p.place_of("lightgroup"),
+                             fmt::format("a light group's name is of letters, digits, '_' and '-', and not \"{}\": "
+                                         "\"{}\" cannot be one",
+                                         LightGroups::rest, name));
+        }
+        return scene_.light_groups.index_of(name);
+    }
+    void group_lights_from(std::size_t first, int group) {
+        LightGroups::set(scene_.light_groups.of_lights, first, scene_.lights.size(), group);
     }
 
     /// Those of materials have none.
@@ -221,7 +268,9 @@ private:
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
     std::vector<AreaLight> area_lights_;
+    std::vector<int> area_light_groups_;
     std::vector<Place> places_;  ///< of the scene's surfaces
+    std::map<std::string, int> texts_;
     std::vector<Box3> object_boxes_;
     std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
     std::map<std::pair<std::size_t, const Motion*>, std::size_t> group_objects_;
@@ -230,7 +279,7 @@ private:
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides) {
-    return load_scene(pbrt::parse_file(file), overrides);
+    return load_scene(parse_scene(file), overrides);
 }
 
 LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {

@@ -77,14 +77,21 @@ private:
                                             non_negative_float(p, "scale", 1)}};
     }
 
+    /// What multiplies what Fresnel's equations say; -1: nothing.
+    TextureId load_factor(const pbrt::MaterialEntity& entity, const char* name) {
+        return textures_.find_colour(entity.parameters, name, SpectrumKind::reflectance).value_or(-1);
+    }
+
     LoadedMaterial load_thin_dielectric(const pbrt::MaterialEntity& entity) {
-        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f)}};
+        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_factor(entity, "reflectance"),
+                                       load_factor(entity, "transmittance")}};
     }
 
     LoadedMaterial load_coated_diffuse(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
         CoatedMaterial material = load_coat(p, "");
         material.base = DiffuseMaterial{textures_.colour(p, "reflectance", Rgb(0.5f))};
+        material.is_linear = p.get_bool("linear", false);
         return {material};
     }
 
@@ -198,7 +205,11 @@ private:
             if (displacement) {
                 context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
             }
-            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
+            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"),
+                                                  is_from_top(p, "normalmaporigin") ? "raw" : "linear", entity.place);
+            if (is_from_top(p, "normalmaporigin")) {
+                detail.normal_map = std::make_shared<const Image>(upside_down(*detail.normal_map));
+            }
         } else if (displacement && textures_.varies(*displacement)) {
             detail.displacement = *displacement;
         }
@@ -208,7 +219,10 @@ private:
     LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) { return {load_metal(entity.parameters, "", 1)}; }
 
     LoadedMaterial load_dielectric(const pbrt::MaterialEntity& entity) {
-        return {DielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")}};
+        DielectricMaterial material{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")};
+        material.reflectance = load_factor(entity, "reflectance");
+        material.transmittance = load_factor(entity, "transmittance");
+        return {material};
     }
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
@@ -315,7 +329,18 @@ private:
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
         const TextureId both = textures_.real(p, prefix + "roughness", 0);
         return {textures_.find_real(p, prefix + "uroughness").value_or(both),
-                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true)};
+                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true),
+                load_slopes(p)};
+    }
+
+    /// "facets", beyond pbrt.
+    static FacetSlopes load_slopes(const pbrt::ParameterSet& p) {
+        const std::string name = p.get_string("facets", "ggx");
+        if (name != "ggx" && name != "beckmann") {
+            throw InputError(p.place_of("facets"),
+                             fmt::format("the facets \"{}\" are unknown; known are ggx, beckmann", name));
+        }
+        return name == "ggx" ? FacetSlopes::ggx : FacetSlopes::beckmann;
     }
 
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.

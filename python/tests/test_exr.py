@@ -1,0 +1,102 @@
+"""OpenEXR files as others read and write them, by the package OpenEXR."""
+
+from __future__ import annotations
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import wend
+
+OpenEXR = pytest.importorskip("OpenEXR", reason="the package OpenEXR is not installed")
+
+SPHERE = """
+LookAt 0 0 -5  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+Sampler "independent" "integer pixelsamples" 8
+WorldBegin
+LightSource "infinite" "rgb L" [1 1 1]
+Material "diffuse" "rgb reflectance" [0.5 0.2 0.1]
+Shape "sphere" "float radius" 0.8
+"""
+
+
+@pytest.fixture(scope="module")
+def film(tmp_path_factory: pytest.TempPathFactory) -> wend.Film:
+    file = tmp_path_factory.mktemp("exr") / "sphere.pbrt"
+    file.write_text(SPHERE)
+    return wend.render(str(file), sampling="classical", seed=3, progress=False)
+
+
+def channels(path: pathlib.Path) -> dict[str, np.ndarray]:
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return {name: channel.pixels for name, channel in file.channels().items()}
+
+
+def test_others_find_alpha_and_numbers(film: wend.Film, tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "a.exr"
+    film.save(path, alpha=True)
+    read = channels(path)
+    np.testing.assert_array_equal(np.dstack([read[c] for c in "RGB"]), film.image)
+    np.testing.assert_array_equal(read["A"], film["alpha"])
+    assert read["A"][0, 0] == 0 and read["A"][6, 8] == 1
+    np.testing.assert_array_equal(read["depth.Z"], film["depth"])
+    header = OpenEXR.File(str(path)).header()
+    assert header["samplesPerPixel"] == 8 and header["seed"] == 3
+    assert header["wend:seed"] == "3"
+    film.save(path)
+    assert "A" not in channels(path) and "alpha.A" in channels(path)
+
+
+@pytest.mark.parametrize("names", ["wend", "pbrt", "blender"])
+def test_all_names_are_read_again(film: wend.Film, tmp_path: pathlib.Path, names: str) -> None:
+    path = tmp_path / "a.exr"
+    film.save(path, layer_names=names)
+    again = wend.read(path)
+    assert sorted(again) == sorted(film)
+    for layer in film:
+        np.testing.assert_array_equal(again[layer], film[layer], err_msg=layer)
+
+
+def test_names_are_those_of_others(film: wend.Film, tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "a.exr"
+    film.save(path, layer_names="pbrt")
+    read = channels(path)
+    np.testing.assert_array_equal(read["Ns.Z"], film["normal"][:, :, 2])
+    np.testing.assert_array_equal(read["Albedo.R"], film["albedo"][:, :, 0])
+    np.testing.assert_array_equal(read["Variance.G"], film["variance"][:, :, 1] * 8)
+    film.save(path, layer_names="blender")
+    read = channels(path)
+    np.testing.assert_array_equal(read["ViewLayer.Combined.G"], film.image[:, :, 1])
+    np.testing.assert_array_equal(read["ViewLayer.Depth.Z"], film["depth"])
+
+
+def test_colours_may_be_half_floats(film: wend.Film, tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "a.exr"
+    film.save(path, exr="half")
+    read = channels(path)
+    assert read["R"].dtype == np.float16 and read["albedo.B"].dtype == np.float16
+    assert read["depth.Z"].dtype == np.float32 and read["variance.R"].dtype == np.float32
+    np.testing.assert_array_equal(read["depth.Z"], film["depth"])
+    with pytest.raises(wend.InputError, match="expected float or half"):
+        film.save(path, exr="double")
+    with pytest.raises(wend.InputError, match="expected wend, pbrt or blender"):
+        film.save(path, layer_names="maya")
+
+
+def test_parts_of_blenders_files_are_layers(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "b.exr"
+    colour = np.arange(24, dtype=np.float32).reshape(2, 3, 4)
+    parts = [
+        OpenEXR.Part({}, {f"ViewLayer.Combined.{c}": colour[:, :, i].copy() for i, c in enumerate("RGBA")},
+                     name="ViewLayer.Combined"),
+        OpenEXR.Part({}, {"ViewLayer.Depth.Z": colour[:, :, 1].copy()}, name="ViewLayer.Depth"),
+    ]
+    OpenEXR.File(parts).write(str(path))
+    film = wend.read(path)
+    np.testing.assert_array_equal(film.image, colour[:, :, :3])
+    np.testing.assert_array_equal(film["alpha"], colour[:, :, 3])
+    np.testing.assert_array_equal(film["depth"], colour[:, :, 1])
+

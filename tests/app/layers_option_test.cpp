@@ -1,0 +1,148 @@
+// `wend render --layers`: what it adds, what it leaves as it is, and what goes with it.
+#include "program_support.h"
+
+#include <wend/io/image_file.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+using test::run_wend;
+
+const Layer* find(const Picture& picture, const std::string& name) {
+    const auto found =
+        std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });
+    return found == picture.layers.end() ? nullptr : &*found;
+}
+
+class LayersOption : public testing::Test {
+protected:
+    test::ProgramResult render(const std::string& name, std::vector<std::string> more,
+                               const std::string& spp = "15") const {
+        more.insert(more.begin(), {"render", scene_, "-o", folder_.file(name), "--quiet", "--spp", spp});
+        return run_wend(more);
+    }
+    Picture rendered(const std::string& name, const std::vector<std::string>& more) const {
+        const auto result = render(name, more);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return read_picture(folder_.file(name));
+    }
+
+    test::ScratchFolder folder_;
+    std::string scene_ = folder_.write("room.pbrt", test::small_scene(R"(
+AttributeBegin
+  LightSource "point" "point3 from" [ 0 1.5 1 ] "rgb I" [ 1 0 0 ] "string lightgroup" "key"
+  AreaLightSource "diffuse" "rgb L" [ 0 3 0 ] "string lightgroup" "rim-2"
+  Translate -0.5 0.5 0
+  Shape "sphere" "float radius" [ 0.1 ]
+AttributeEnd
+)"));
+};
+
+void expect_sum(const Picture& picture, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < 3 * picture.image.pixels.size(); ++i) {
+        float sum = 0;
+        for (const std::string& name : names) {
+            sum += find(picture, name)->values[i];
+        }
+        const float beauty = picture.image.pixels[i / 3][static_cast<int>(i % 3)];
+        ASSERT_NEAR(sum, beauty, 1e-5f * beauty) << i;
+    }
+}
+
+TEST_F(LayersOption, PartsAddUpAndThePictureStays) {
+    const Picture plain = rendered("plain.exr", {});
+    const Picture all =
+        rendered("all.exr", {"--layers", "emission,background,direct,indirect,volume,lights,halves,geometry"});
+    EXPECT_EQ(all.image.pixels, plain.image.pixels);
+    for (const Layer& layer : plain.layers) {
+        EXPECT_EQ(find(all, layer.name)->values, layer.values) << layer.name;
+    }
+    EXPECT_EQ(find(plain, "direct"), nullptr);
+    expect_sum(all, {"emission", "background", "direct", "indirect", "volume"});
+    expect_sum(all, {"light_key", "light_rim-2", "light_rest"});
+    // The key light is red, and the rim green.
+    const auto& key = find(all, "light_key")->values;
+    const auto& rim = find(all, "light_rim-2")->values;
+    for (std::size_t i = 0; i < key.size(); i += 3) {
+        EXPECT_TRUE(key[i] > 0 && key[i + 1] == 0 && rim[i] == 0) << i;
+    }
+    const Picture some = rendered("some.exr", {"--layers", "volume"});
+    EXPECT_EQ(find(some, "volume")->values, find(all, "volume")->values);
+    EXPECT_EQ(find(some, "direct"), nullptr);
+}
+
+TEST_F(LayersOption, CheckpointsKeepThem) {
+    const std::vector<std::string> layers = {"--layers", "direct,indirect,volume,emission,lights,halves"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), layers.begin(), layers.end());
+        return more;
+    };
+    rendered("whole.exr", with({}));
+    const std::string checkpoint = folder_.file("c");
+    ASSERT_EQ(render("part.exr", with({"--checkpoint", checkpoint}), "7").status, 0);
+    ASSERT_EQ(render("resumed.exr", with({"--resume", checkpoint})).status, 0);
+    EXPECT_EQ(test::read_text(folder_.file("resumed.exr")), test::read_text(folder_.file("whole.exr")));
+    const auto other = render("other.exr", {"--resume", checkpoint, "--layers", "direct"});
+    EXPECT_EQ(other.status, 2);
+    EXPECT_NE(other.err.find("layers was"), std::string::npos) << other.err;
+    EXPECT_EQ(render("other.exr", {"--resume", checkpoint}).status, 2);
+}
+
+TEST_F(LayersOption, MergedPicturesAddUpToo) {
+    const std::vector<std::string> layers = {"--layers", "direct,indirect,volume,emission,halves", "--seed"};
+    std::vector<std::string> inputs;
+    for (const char* seed : {"1", "2"}) {
+        std::vector<std::string> more = layers;
+        more.emplace_back(seed);
+        rendered(std::string(seed) + ".exr", more);
+        inputs.push_back(folder_.file(std::string(seed) + ".exr"));
+    }
+    ASSERT_EQ(run_wend({"merge", folder_.file("m.exr"), inputs[0], inputs[1], "--quiet"}).status, 0);
+    const Picture merged = read_picture(folder_.file("m.exr"));
+    expect_sum(merged, {"direct", "indirect", "volume", "emission"});
+    for (std::size_t i = 0; i < 3 * merged.image.pixels.size(); ++i) {
+        const float a = find(merged, "half_a")->values[i], b = find(merged, "half_b")->values[i];
+        const float beauty = merged.image.pixels[i / 3][static_cast<int>(i % 3)];
+        ASSERT_NEAR(0.5f * (a + b), beauty, 1e-6f * (std::abs(a) + std::abs(b)));
+    }
+}
+
+TEST_F(LayersOption, OtherNamesAreThoseOfOthers) {
+    const std::vector<std::string> layers = {"--layers", "emission,background,lights,geometry"};
+    const Picture plain = rendered("plain.exr", layers);
+    for (const char* names : {"pbrt", "blender"}) {
+        std::vector<std::string> more = layers;
+        more.insert(more.end(), {"--layer-names", names});
+        const Picture named = rendered("named.exr", more);
+        ASSERT_EQ(named.layers.size(), plain.layers.size());
+        for (const Layer& layer : plain.layers) {
+            ASSERT_TRUE(find(named, layer.name)) << names << ' ' << layer.name;
+            if (layer.name != "variance") {  // which 15 samples do not scale exactly
+                EXPECT_EQ(find(named, layer.name)->values, layer.values) << names << ' ' << layer.name;
+            }
+        }
+    }
+}
+
+TEST_F(LayersOption, WhatThereIsNotIsRefused) {
+    const auto unknown = render("a.exr", {"--layers", "direct,diffuse"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("'diffuse'"), std::string::npos) << unknown.err;
+    EXPECT_NE(unknown.err.find("emission, background, direct"), std::string::npos) << unknown.err;
+    for (const char* name : {"a.b", "", "rest", "two words"}) {
+        const std::string scene = folder_.write(
+            "bad.pbrt",
+            test::small_scene(std::string("LightSource \"point\" \"string lightgroup\" \"") + name + "\"\n"));
+        const auto bad = run_wend({"render", scene, "-o", folder_.file("a.exr"), "--quiet"});
+        EXPECT_EQ(bad.status, 2) << name;
+        EXPECT_NE(bad.err.find("bad.pbrt:26:"), std::string::npos) << bad.err;
+    }
+}
+
+}  // namespace
+}  // namespace wend
