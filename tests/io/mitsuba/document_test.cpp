@@ -30,7 +30,7 @@ TEST(MitsubaDocument, PlacesAreThoseOfTheFileThatIsIncluded) {
     const Place place = scene.shapes[0].place;
     EXPECT_EQ(place.file, files.path("part.xml").string());
     EXPECT_EQ(place.line, 3);
-    EXPECT_EQ(place.column, 4);
+    EXPECT_EQ(place.column, 3);
     EXPECT_EQ(scene.files.size(), 2u);
 }
 

@@ -55,7 +55,7 @@ TEST(MitsubaReader, UnknownPluginsStopWithThoseThatThereAre) {
 
 TEST(MitsubaReader, WhatWendLacksIsNamed) {
     EXPECT_PRED2(contains, warnings_of(read_text("<emitter type=\"sunsky\"/>")),
-                 "scene.xml:3:2: warning: <emitter type=\"sunsky\"> is not implemented: it is left out");
+                 "scene.xml:3:1: warning: <emitter type=\"sunsky\"> is not implemented: it is left out");
     EXPECT_PRED2(contains, warnings_of(read_text("<shape type=\"sdfgrid\"/>")), "it is left out");
     const auto scene = read_text("<shape type=\"sphere\"><bsdf type=\"hair\"/></shape>");
     EXPECT_PRED2(contains, warnings_of(scene), "<bsdf type=\"hair\"> is not implemented: a diffuse one");

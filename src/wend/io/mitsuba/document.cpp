@@ -90,7 +90,7 @@ private:
     }
 
     pbrt::Location place_of(const pugi::xml_node& node) const {
-        const auto [line, column] = open_.back()->text->line_and_column(node.offset_debug());
+        const auto [line, column] = open_.back()->text->line_and_column(node.offset_debug() - 1);
         return {open_.back()->source, line, column};
     }
 
