@@ -180,8 +180,11 @@ private:
     /// What the scene calls a shape, or else where it is.
     ObjectNames::Name name_of(const pbrt::ShapeEntity& entity) {
         const bool has_name = entity.parameters.has("name");
-        const std::string text = has_name ? entity.parameters.get_string("name", "")
-                                          : std::filesystem::path(entity.place.file).filename().string();
+        const std::string text =
+            has_name ? entity.parameters.get_string("name", "")
+                     : std::filesystem::path(entity.place.file ? entity.place.file->name : std::string())
+                           .filename()
+                           .string();
         const auto [found, is_new] = texts_.try_emplace(text, static_cast<int>(scene_.names.texts.size()));
         if (is_new) {
             scene_.names.texts.push_back(text);
