@@ -1,6 +1,8 @@
 # Makes a C++ source of text files: cmake -D OUTPUT=FILE -D NAME=VARIABLE -D FILES=A:B:C -P EmbedFiles.cmake
 # The variable is a list of wend::ServedFile in namespace wend; the first file is the page itself.
 
+cmake_minimum_required(VERSION 3.18)
+
 string(REPLACE ":" ";" files "${FILES}")
 set(entries "")
 set(name_of_first TRUE)

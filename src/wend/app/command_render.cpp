@@ -1,5 +1,5 @@
 #include <wend/app/commands.h>
-#include <wend/app/comparison.h>
+#include <wend/app/comparison_data.h>
 #include <wend/app/denoiser.h>
 #include <wend/app/extra_layers.h>
 #include <wend/app/frames.h>

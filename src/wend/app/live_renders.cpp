@@ -30,7 +30,7 @@ RenderSettings settings_of(const Session& session, const std::string& sampling, 
 struct LiveRenders::One {
     One(const Session& session, Board& board, std::size_t index, std::string name, const std::atomic<bool>& stop)
         : sampling(std::move(name)),
-          film(session.new_film()),
+          film(session.new_film(session.settings())),
           view(board, index, sampling),
           settings(settings_of(session, sampling, view, stop)),
           render(session.scene(), film, settings) {}

@@ -1,5 +1,10 @@
+#include <wend/app/manifest.h>
 #include <wend/app/merged_renders.h>
 #include <wend/core/error.h>
+#include <wend/film/cryptomatte.h>
+
+#include <algorithm>
+#include <map>
 
 namespace wend {
 
@@ -7,11 +12,13 @@ MergedRenders merge_renders(std::size_t count, const std::function<std::string(s
                             const std::function<Picture(std::size_t)>& read) {
     MergedRenders result;
     std::size_t current = 0, known = 0;
+    std::map<std::string, std::string> manifest;
     const auto read_once_more = [&](std::size_t k) {
         current = k;
         Picture picture = read(k);
         if (k == known) {
             result.origins.add(render_origin(name(k), picture));
+            add_manifest(picture.metadata, manifest);
             ++known;
         }
         return picture;
@@ -22,7 +29,11 @@ MergedRenders merge_renders(std::size_t count, const std::function<std::string(s
         const std::string what = error.what();
         throw what.starts_with(name(current)) ? error : InputError(Place{name(current)}, what);
     }
-    result.merged.picture.metadata = result.origins.metadata();
+    Picture& picture = result.merged.picture;
+    picture.metadata = result.origins.metadata();
+    if (std::any_of(picture.layers.begin(), picture.layers.end(), is_cryptomatte)) {
+        add_manifest(manifest, picture.metadata);
+    }
     return result;
 }
 

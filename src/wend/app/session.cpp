@@ -1,4 +1,5 @@
 #include <wend/app/extra_layers.h>
+#include <wend/app/manifest.h>
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
@@ -146,6 +147,7 @@ Picture Session::picture(const Film& film, const RenderSettings& settings, const
                         {"wend:seed", std::to_string(settings.seed)},
                         {"wend:version", WEND_VERSION},
                         {"wend:spp", std::to_string(statistics.samples)}};
+    add_manifest(scene_, settings.objects, picture);
     return picture;
 }
 

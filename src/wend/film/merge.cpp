@@ -2,8 +2,10 @@
 #include <wend/core/error.h>
 #include <wend/decision/pixel_estimate.h>
 #include <wend/film/chess_board.h>
+#include <wend/film/cryptomatte.h>
 #include <wend/film/film_layers.h>
 #include <wend/film/merge.h>
+#include <wend/film/merged_layers.h>
 #include <wend/stats/moments.h>
 
 #include <algorithm>
@@ -17,11 +19,6 @@ namespace wend {
 namespace {
 
 using Halves = std::array<double, 2>;
-
-const Layer* find_layer(const std::vector<Layer>& layers, const std::string& name) {
-    const auto found = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
-    return found == layers.end() ? nullptr : &*found;
-}
 
 const Layer& required_layer(const Picture& picture, const std::string& name, const std::vector<std::string>& channels) {
     const Layer* const layer = find_layer(picture.layers, name);
@@ -227,56 +224,9 @@ struct Sums {
 };
 
 bool is_mean_over_samples(const Layer& layer) {
-    return layer.name != "variance" && layer.name != "samples" && !counts_as_beauty(layer.name);
+    return layer.name != "variance" && layer.name != "samples" && !counts_as_beauty(layer.name) &&
+           !is_cryptomatte(layer);
 }
-
-/// The same layer of another picture. Throws InputError where the file has changed since the first look at it.
-const Layer& same_layer(const Picture& picture, const Layer& layer) {
-    const Layer* const other = find_layer(picture.layers, layer.name);
-    if (!other || other->channels != layer.channels) {
-        throw InputError("the layer '" + layer.name + "' is not what it was: the file has changed");
-    }
-    return *other;
-}
-
-/// Means of the layers that count as the beauty does.
-class PartMeans {
-public:
-    explicit PartMeans(std::vector<Layer>& layers) {
-        for (Layer& layer : layers) {
-            if (counts_as_beauty(layer.name)) {
-                parts_.push_back({&layer, std::vector<double>(layer.values.size())});
-            }
-        }
-    }
-
-    /// `weight` of a picture's pixels, and of those before with it.
-    void add(const Picture& picture, const std::vector<double>& weights, const std::vector<Sums>& sums) {
-        for (Part& part : parts_) {
-            const Layer& other = same_layer(picture, *part.layer);
-            const std::size_t channels = other.channels.size();
-            for (std::size_t k = 0; k < part.means.size(); ++k) {
-                if (const double w = weights[k / channels]; w > 0) {
-                    part.means[k] +=
-                        (static_cast<double>(other.values[k]) - part.means[k]) * w / sums[k / channels].weight;
-                }
-            }
-        }
-    }
-    void put() const {
-        for (const Part& part : parts_) {
-            std::transform(part.means.begin(), part.means.end(), part.layer->values.begin(),
-                           [](double mean) { return static_cast<float>(mean); });
-        }
-    }
-
-private:
-    struct Part {
-        Layer* layer;
-        std::vector<double> means;
-    };
-    std::vector<Part> parts_;
-};
 
 /// Adds a picture's part to the layers that are means over samples.
 void add_layers(std::vector<Layer>& layers, const Picture& picture, const Estimate& estimate,
@@ -392,8 +342,10 @@ MergedPictures merge_pictures(std::size_t count, const std::function<Picture(std
     }
     std::vector<Sums> sums(samples.size());
     PartMeans parts(merged.layers);
+    MergedObjects objects(merged.layers);
     std::vector<Halves> weights(count, Halves{0, 0});
-    std::vector<double> pixel_weights(samples.size());
+    std::vector<double> pixel_weights(samples.size()), pixel_totals(samples.size());
+    std::vector<float> pixel_shares(samples.size());
     pictures.for_each(merged, [&](std::size_t k, const Picture& picture) {
         const Estimate estimate(picture);
         for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -404,12 +356,16 @@ MergedPictures merge_pictures(std::size_t count, const std::function<Picture(std
                 sums[i].add(estimate, i, pixel_weights[i]);
                 weights[k][half] += pixel_weights[i];
             }
+            pixel_totals[i] = sums[i].weight;
+            pixel_shares[i] = n > 0 ? static_cast<float>(n / samples[i]) : 0.0f;
         }
-        parts.add(picture, pixel_weights, sums);
+        parts.add(picture, pixel_weights, pixel_totals);
+        objects.add(picture, pixel_shares);
         add_layers(merged.layers, picture, estimate, samples);
     });
     put(sums, samples, merged);
     parts.put();
+    objects.put();
     return {std::move(merged), shares_of(weights), std::move(overview.left_out),
             static_cast<std::size_t>(std::count(samples.begin(), samples.end(), 0.0))};
 }

@@ -85,7 +85,7 @@ void insert_numbers(Imf::Header& header, const std::map<std::string, std::string
 }
 
 /// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
-void write_frame(const std::filesystem::path& file, const Picture& picture, LayerNames names,
+void write_frame(const std::filesystem::path& file, const Picture& picture, const PictureFormat& format,
                  const Imf::FrameBuffer& frame) {
     const Imath::Box2i window = data_window(picture);
     const Vec2i full_size = picture.full_size == Vec2i(0, 0) ? window.max + Vec2i(1) : picture.full_size;
@@ -95,11 +95,8 @@ void write_frame(const std::filesystem::path& file, const Picture& picture, Laye
         header.compression() = Imf::ZIP_COMPRESSION;
         // Noise hardly gets smaller by trying harder.
         header.zipCompressionLevel() = 2;
-        for (const auto& [name, value] : picture.metadata) {
+        for (const auto& [name, value] : metadata_in_file(picture, format)) {
             header.insert(name, Imf::StringAttribute(value));
-        }
-        if (names != LayerNames::wend) {
-            header.insert("wend:layer_names", Imf::StringAttribute(to_string(names)));
         }
         insert_numbers(header, picture.metadata);
         // Colours are those of Rec. 709, which is what the library takes for granted; others like to be told.
@@ -181,13 +178,13 @@ void write_exr(const std::filesystem::path& file, const Picture& picture, const 
                        format.half && is_colour(layer));
         }
     }
-    write_frame(file, picture, format.names, slices.frame());
+    write_frame(file, picture, format, slices.frame());
 }
 
 void write_exr_colours(const std::filesystem::path& file, const Picture& picture) {
     Slices slices(data_window(picture));
     add_beauty(slices, picture, LayerNames::wend, true);
-    write_frame(file, picture, LayerNames::wend, slices.frame());
+    write_frame(file, picture, {}, slices.frame());
 }
 
 }  // namespace wend

@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/film/cryptomatte.h>
 #include <wend/io/layer_names.h>
 
 #include <algorithm>
@@ -76,6 +77,24 @@ void take_back_noise(std::vector<Layer>& layers) {
     }
 }
 
+/// The metadata of Cryptomatte's layers of one name, under the key of another.
+void rename_cryptomatte(std::map<std::string, std::string>& metadata, const std::string& from, const std::string& to) {
+    const auto key_of = [](const std::string& name) {
+        return "cryptomatte/" + hexadecimal(murmur_hash(name)).substr(0, 7) + '/';
+    };
+    const auto name = metadata.find(key_of(from) + "name");
+    if (from == to || name == metadata.end()) {
+        return;
+    }
+    name->second = to;
+    for (const char* what : {"name", "hash", "conversion", "manifest"}) {
+        if (auto text = metadata.extract(key_of(from) + what)) {
+            text.key() = key_of(to) + what;
+            metadata.insert(std::move(text));
+        }
+    }
+}
+
 }  // namespace
 
 LayerNames parse_layer_names(const std::string& name) {
@@ -105,6 +124,15 @@ std::string layer_in_file(const std::string& layer, const PictureFormat& format)
     }
     return format.names == LayerNames::pbrt ? std::string(translated(pbrt_names, layer, &Name::of_wend, &Name::in_file))
                                             : layer;
+}
+
+std::map<std::string, std::string> metadata_in_file(const Picture& picture, const PictureFormat& format) {
+    std::map<std::string, std::string> metadata = picture.metadata;
+    if (format.names != LayerNames::wend) {
+        metadata[scheme_text] = to_string(format.names);
+    }
+    rename_cryptomatte(metadata, cryptomatte_name, layer_in_file(cryptomatte_name, format));
+    return metadata;
 }
 
 std::vector<Layer> noise_of_pbrt(const Picture& picture) {
@@ -163,6 +191,7 @@ void FileLayerNames::translate(Picture& picture) const {
         take_back_noise(picture.layers);
     }
     picture.metadata.erase(scheme_text);
+    rename_cryptomatte(picture.metadata, view_ + cryptomatte_name, cryptomatte_name);
 }
 
 }  // namespace wend

@@ -16,6 +16,9 @@ std::string beauty_layer(LayerNames names);
 /// What a layer is called in a file; empty where its channels have no layer's name.
 std::string layer_in_file(const std::string& layer, const PictureFormat& format);
 
+/// Metadata as a file has them: those of Cryptomatte say what their layer is called.
+std::map<std::string, std::string> metadata_in_file(const Picture& picture, const PictureFormat& format);
+
 /// The noise of a picture as pbrt has it, under its names: the variance of one sample, and the same over the mean.
 /// Empty where the picture lacks the layers `variance` and `samples`.
 std::vector<Layer> noise_of_pbrt(const Picture& picture);

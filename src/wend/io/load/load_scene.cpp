@@ -55,7 +55,6 @@ public:
         for (const pbrt::TextureEntity& texture : description_.textures) {
             textures_.add(texture);
         }
-        scene_.names.of_media = medium_names();
         for (const pbrt::MediumEntity& medium : description_.media) {
             const int group = light_group(medium);
             scene_.media.push_back(load_medium(context_, medium));
@@ -85,7 +84,8 @@ public:
         for (const pbrt::ObjectInstance& instance : description_.instances) {
             add_instance(instance);
         }
-        warn_of_boundaries(context_, scene_, places_, medium_names(), description_.camera.place);
+        scene_.names.of_media = medium_names();
+        warn_of_boundaries(context_, scene_, places_, scene_.names.of_media, description_.camera.place);
     }
 
 private:
@@ -180,13 +180,14 @@ private:
     /// What the scene calls a shape, or else where it is.
     ObjectNames::Name name_of(const pbrt::ShapeEntity& entity) {
         const bool has_name = entity.parameters.has("name");
-        const std::string text = has_name ? entity.parameters.get_string("name", "")
-                                          : std::filesystem::path(entity.place.file).filename().string();
+        const Place place = entity.place;
+        const std::string text =
+            has_name ? entity.parameters.get_string("name", "") : std::filesystem::path(place.file).filename().string();
         const auto [found, is_new] = texts_.try_emplace(text, static_cast<int>(scene_.names.texts.size()));
         if (is_new) {
             scene_.names.texts.push_back(text);
         }
-        return {found->second, has_name ? 0 : entity.place.line};
+        return {found->second, has_name ? 0 : place.line};
     }
 
     /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last

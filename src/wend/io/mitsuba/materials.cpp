@@ -254,9 +254,10 @@ void Materials::set_roughness(const Object& bsdf, const std::string& prefix, Par
 Materials::Leaf Materials::dielectric(const Object& bsdf) {
     Parameters p(bsdf.place());
     p.real("eta", index_of(bsdf, "int_ior", "bk7") / index_of(bsdf, "ext_ior", "air"));
-    for (const char* of : {"reflectance", "transmittance"}) {
-        if (const std::string name = std::string("specular_") + of; bsdf.has(name)) {
-            p.colour(of, textures_.colour(bsdf, name, Rgb(1.0f)));
+    for (const auto& [name, parameter] :
+         {std::pair{"specular_reflectance", "reflectance"}, std::pair{"specular_transmittance", "transmittance"}}) {
+        if (bsdf.has(name)) {
+            p.colour(parameter, textures_.colour(bsdf, name, Rgb(1.0f)));
         }
     }
     if (bsdf.type() == "thindielectric") {

@@ -14,10 +14,12 @@ namespace {
 
 /// A square with the normal z.
 TriangleMeshData rectangle() {
-    return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
-            {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
-            {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-            {0, 1, 2, 2, 3, 0}};
+    TriangleMeshData mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.indices = {0, 1, 2, 2, 3, 0};
+    return mesh;
 }
 
 /// Six squares, each with all of a texture.

@@ -120,6 +120,9 @@ void Shapes::add_object(const Object& shape) {
     }
     const Element* emitter = shape.nested_one("emitter");
     const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr);
+    if (shape.element().has("id")) {
+        p.text("name", std::string(shape.element().attribute("id")));
+    }
     if (look.alpha) {
         p.real("alpha", *look.alpha);
     }
