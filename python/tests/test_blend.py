@@ -160,10 +160,11 @@ def test_spot_lamp(scene, tmp_path):
     check(scene, tmp_path, 400)
 
 
-def test_sun(scene, tmp_path):
+@pytest.mark.parametrize("angle", [0, 0.6])
+def test_sun(scene, tmp_path, angle):
     floor(scene)
     mesh(scene, "cube", material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), place=(0, 0, 0.5), turn=(0, 0, 0.5), stretch=(0.5, 0.7, 0.5))
-    lamp(scene, "SUN", 3, (0, 0, 5), (0.6, 0.3, 0.2), angle=0)
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.6, 0.3, 0.2), angle=angle)
     check(scene, tmp_path, 256)
 
 

@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,9 @@ from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, UsdVol, Vt  # noqa: E402
 
 import wend.usd  # noqa: E402
 from usd_stage import Stage, coverage, middle  # noqa: E402
+
+
+SMALL_VOLUME = Path(__file__).resolve().parents[2] / "fuzz" / "corpus" / "vdb" / "zip.vdb"
 
 
 @pytest.fixture
@@ -272,6 +276,53 @@ def test_instances_are_where_they_are_put(stage):
     assert image[40, 20] < 0.9 and image[20, 60] < 0.9 and image[40, 40] > 0.9
 
 
+def cards(stage, path, positions, target):
+    """An instancer that copies a black card of 2 x 2, or another prim."""
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, path)
+    if target is None:
+        cube = UsdGeom.Cube.Define(stage.stage, f"{path}/cube")
+        cube.CreateSizeAttr(1)
+        cube.CreateDisplayColorAttr([(0, 0, 0)])
+        UsdGeom.XformCommonAPI(cube).SetScale(Gf.Vec3f(2, 2, 0.01))
+        target = cube.GetPath()
+    instancer.CreatePrototypesRel().AddTarget(target)
+    instancer.CreateProtoIndicesAttr([0] * len(positions))
+    instancer.CreatePositionsAttr(positions)
+    return instancer
+
+
+def test_instancers_within_instancers_multiply(stage):
+    # A prototype with a card of its own and an instancer of two more, which is copied twice.
+    outer = UsdGeom.PointInstancer.Define(stage.stage, "/outer")
+    group = UsdGeom.Xform.Define(stage.stage, "/outer/group")
+    own = UsdGeom.Cube.Define(stage.stage, "/outer/group/own")
+    own.CreateSizeAttr(2)
+    own.CreateDisplayColorAttr([(0, 0, 0)])
+    UsdGeom.XformCommonAPI(own).SetScale(Gf.Vec3f(1, 1, 0.001))
+    inner = cards(stage, "/outer/group/inner", [(0, 3, 0), (0, 6, 0)], None)
+    UsdGeom.XformCommonAPI(inner).SetTranslate(Gf.Vec3d(1, 0, 0))
+    outer.CreatePrototypesRel().AddTarget(group.GetPath())
+    outer.CreateProtoIndicesAttr([0, 0])
+    outer.CreatePositionsAttr([(-5, -4, -10), (2, -4, -10)])
+    assert stage.read().text().count("ObjectInstance") == 6
+    assert coverage(stage) == pytest.approx(6 * 4 / 400, rel=0.02)
+    image = stage.image(size=(80, 80))[:, :, 0]
+
+    def is_dark(x, y):
+        return image[round(40 - 4 * y), round(40 + 4 * x)] < 0.5
+
+    assert is_dark(-5, -4) and is_dark(-4, -1) and is_dark(-4, 2) and is_dark(3, -1) and is_dark(3, 2)
+    assert not is_dark(-6.5, 2) and not is_dark(0, -1)
+
+
+def test_an_instancer_that_copies_itself_is_named(stage):
+    cards(stage, "/a", [(0, 0, -10)], "/group")
+    UsdGeom.Xform.Define(stage.stage, "/group")
+    cards(stage, "/group/again", [(1, 0, 0)], "/group")
+    with pytest.warns(wend.SceneWarning, match="what copies itself is left out"):
+        stage.read()
+
+
 @pytest.mark.parametrize("basis", ["linear", "bspline", "catmullRom", "bezier"])
 def test_curves_have_their_width(stage, basis):
     curves = UsdGeom.BasisCurves.Define(stage.stage, "/hair")
@@ -305,6 +356,30 @@ def test_volumes_are_named_with_their_files(stage):
     with pytest.warns(wend.SceneWarning, match="/smoke: warning: a volume scatters"):
         text = stage.read().text()
     assert '"string filename" [ "smoke.vdb" ]' in text and '"string gridname" [ "d" ]' in text
+
+
+def test_a_volume_without_an_extent_has_that_of_its_grid(stage):
+    volume = UsdVol.Volume.Define(stage.stage, "/smoke")
+    field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")
+    field.CreateFilePathAttr(str(SMALL_VOLUME))
+    field.CreateFieldNameAttr("density")
+    volume.CreateFieldRelationship("density", field.GetPath())
+    text = stage.read().text()
+    points = np.array(text.split('"point3 P" [')[1].split("]")[0].split(), dtype=float).reshape(-1, 3)
+    # Voxels from 0 to 7 across, which fade within another on each side.
+    assert points.min(axis=0)[1:] == pytest.approx((-1, -1)) and points.max(axis=0)[1:] == pytest.approx((8, 8))
+    # It is as if the box had been given, and larger ones are the same.
+    stage.camera.AddTranslateOp().Set(Gf.Vec3d(2, 3, 12))
+    stage.camera.GetFocalLengthAttr().Set(60)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    seen = stage.image(size=(8, 8), spp=256)
+    assert seen.mean() < 0.97
+    volume.CreateExtentAttr([(-9, -9, -9), (200, 11, 11)])
+    assert 1 - stage.image(size=(8, 8), spp=256).mean() == pytest.approx(1 - seen.mean(), rel=0.1)
+    volume.GetExtentAttr().Clear()
+    field.CreateFilePathAttr("absent.vdb")
+    with pytest.raises(wend.InputError, match="absent.vdb"):
+        stage.read()
 
 
 def test_what_is_wrong_is_named(stage, tmp_path):

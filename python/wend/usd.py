@@ -11,10 +11,12 @@ import math
 import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from . import _wend
 from ._builder import SceneBuilder
 from ._errors import InputError
 from ._scene_reader import Places, SceneReader
@@ -70,6 +72,19 @@ def read(
     return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp)
 
 
+#: Instances within instances multiply.
+_MOST_NESTED = 2**20
+
+
+@dataclass
+class Prototype:
+    """What an instancer copies: an object, and what it copies itself, with where to."""
+
+    name: str | None  #: None: it has no shapes of its own
+    inner: list[tuple[Prototype, Places]]
+    is_made: bool
+
+
 class _Reader(SceneReader):
     def __init__(
         self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None, refinement: Refinement
@@ -81,7 +96,8 @@ class _Reader(SceneReader):
         #: when the shutter opens and when it closes; the time twice where nothing is blurred
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
-        self.objects: set[str] = set()
+        self.prototypes: dict[str, Prototype] = {}
+        self.nested = 0
         self.has_light = False
 
     def warn(self, prim: Any, text: str) -> None:
@@ -136,10 +152,7 @@ class _Reader(SceneReader):
         elif prim.IsA(UsdVol.Volume):
             self.add_volume(prim, world, in_object)
         elif prim.IsA(UsdGeom.PointInstancer):
-            if in_object:
-                self.warn(prim, "an instancer inside what an instancer copies is left out")
-            else:
-                self.add_instances(prim, world)
+            self.add_instances(prim, world)
         elif prim.IsA(UsdGeom.Gprim):
             mesh = primitive_mesh(prim, self.time)
             if mesh is None:
@@ -167,28 +180,58 @@ class _Reader(SceneReader):
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
     def add_instances(self, prim: Any, world: Places) -> None:
+        for prototype, places in self.instances(prim, world):
+            self.place(prim, prototype, places)
+
+    def instances(self, prim: Any, world: Places) -> Iterator[tuple[Prototype, Places]]:
+        """What an instancer copies, and where to."""
         instancer = UsdGeom.PointInstancer(prim)
-        names = []
-        for target in instancer.GetPrototypesRel().GetForwardedTargets():
-            key = str(target)
-            if key not in self.objects:
-                self.objects.add(key)
-                root = self.stage.GetPrimAtPath(target)
-                from_root = np.linalg.inv(self.world(root))
-                with self.builder.block("Object", key):
-                    for part in self.prims(root):
-                        self.add_prim(part, self.world(part) @ from_root, in_object=True)
-            names.append(key)
+        prototypes = [self.prototype(target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
         for i, places in zip(shown, zip(start, end)):
-            if not 0 <= indices[i] < len(names):
-                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
+            if not 0 <= indices[i] < len(prototypes):
+                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(prototypes)}")
+            yield prototypes[indices[i]], np.array(places) @ world
+
+    def prototype(self, path: Any) -> Prototype:
+        """Made once. Of one that is within itself nothing is there."""
+        key = str(path)
+        if key in self.prototypes:
+            if not self.prototypes[key].is_made:
+                self.warn(self.stage.GetPrimAtPath(path), "what copies itself is left out")
+                return Prototype(None, [], True)
+            return self.prototypes[key]
+        made = self.prototypes[key] = Prototype(None, [], False)
+        root = self.stage.GetPrimAtPath(path)
+        from_root = np.linalg.inv(self.world(root))
+        parts = list(self.prims(root))
+        # An object holds no instances: what an instancer within copies is placed where all of it is.
+        for part in parts:
+            if part.IsA(UsdGeom.PointInstancer):
+                made.inner += self.instances(part, self.world(part) @ from_root)
+        empty = len(self.builder) + 2
+        with self.builder.block("Object", key):
+            for part in parts:
+                if not part.IsA(UsdGeom.PointInstancer):
+                    self.add_prim(part, self.world(part) @ from_root, in_object=True)
+        made.name = key if len(self.builder) > empty else None
+        made.is_made = True
+        return made
+
+    def place(self, prim: Any, prototype: Prototype, places: Places) -> None:
+        if prototype.name is not None:
             with self.builder.block():
-                self.put(np.array(places) @ world)
-                self.builder.add("ObjectInstance", names[indices[i]])
+                self.put(places)
+                self.builder.add("ObjectInstance", prototype.name)
+        for inner, within in prototype.inner:
+            self.nested += 1
+            if self.nested > _MOST_NESTED:
+                self.warn(prim, f"of instances within instances no more than {_MOST_NESTED} are there")
+                return
+            self.place(prim, inner, within @ places)
 
     def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
@@ -198,10 +241,12 @@ class _Reader(SceneReader):
             return
         asset = UsdVol.OpenVDBAsset(field)
         path = asset.GetFilePathAttr().Get(self.time)
-        extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time)
-        if not path or not extent:
-            self.warn(prim, "a volume without a file or an extent is left out")
+        if not path:
+            self.warn(prim, "a volume without a file is left out")
             return
+        file = path.resolvedPath or path.path
+        grid = asset.GetFieldNameAttr().Get(self.time) or "density"
+        extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
         colour = materials.display_colour(prim, self.time)
         name = str(prim.GetPath())
         with self.builder.block():
@@ -211,8 +256,8 @@ class _Reader(SceneReader):
                 name,
                 {
                     "string type": "nanovdb",
-                    "string filename": path.resolvedPath or path.path,
-                    "string gridname": asset.GetFieldNameAttr().Get(self.time) or "density",
+                    "string filename": file,
+                    "string gridname": grid,
                     "rgb sigma_s": colour,
                     "rgb sigma_a": np.maximum(1 - np.asarray(colour), 0),
                 },

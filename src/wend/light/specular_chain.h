@@ -58,7 +58,8 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
 /// what a portal sends from place to place.
 inline bool is_seen_through_boundaries(const Light& light) {
     const bool is_lamp = std::holds_alternative<TriangleLight>(light) || std::holds_alternative<QuadricLight>(light);
-    return (is_lamp && presence_of(light) == Presence::solid) || std::holds_alternative<ImageInfiniteLight>(light);
+    return (is_lamp && presence_of(light) == Presence::solid) || std::holds_alternative<ImageInfiniteLight>(light) ||
+           std::holds_alternative<SkyDiskLight>(light);
 }
 
 }  // namespace wend

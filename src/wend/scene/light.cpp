@@ -126,6 +126,14 @@ std::optional<LightSample> sample(const PortalInfiniteLight& l, const Vec3& p, c
 std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&, Pcg32&) {
     return LightSample{l.direction, infinity, l.radiance, 1, true};
 }
+std::optional<LightSample> sample(const SkyDiskLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
+    const Vec3 w = Frame::from_z(l.direction).to_world(to_cone(u, l.one_minus_cosine));
+    return LightSample{w, infinity, l.radiance, cone_density(l.one_minus_cosine), false};
+}
+/// Of small disks, cosines would not tell.
+bool is_within(const SkyDiskLight& l, const Vec3& direction) {
+    return length_squared(direction - l.direction) <= 2 * l.one_minus_cosine;
+}
 std::optional<LightSample> sample(const UniformInfiniteLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
     return LightSample{to_sphere(u), infinity, l.radiance, inv_4pi, false};
 }
@@ -214,6 +222,9 @@ float light_density(const Light& light, const Vec3& p, const Vec3& direction, co
     if (std::holds_alternative<UniformInfiniteLight>(light)) {
         return inv_4pi;
     }
+    if (const auto* disk = std::get_if<SkyDiskLight>(&light)) {
+        return is_within(*disk, direction) ? cone_density(disk->one_minus_cosine) : 0.0f;
+    }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->density(direction);
     }
@@ -267,6 +278,9 @@ Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& directio
     if (const auto* uniform = std::get_if<UniformInfiniteLight>(&light)) {
         return uniform->radiance;
     }
+    if (const auto* disk = std::get_if<SkyDiskLight>(&light)) {
+        return is_within(*disk, direction) ? disk->radiance : Rgb(0.0f);
+    }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->radiance(direction);
     }
@@ -278,7 +292,8 @@ Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& directio
 
 bool is_at_infinity(const Light& light) {
     return std::holds_alternative<UniformInfiniteLight>(light) || std::holds_alternative<ImageInfiniteLight>(light) ||
-           std::holds_alternative<DistantLight>(light) || std::holds_alternative<PortalInfiniteLight>(light);
+           std::holds_alternative<DistantLight>(light) || std::holds_alternative<PortalInfiniteLight>(light) ||
+           std::holds_alternative<SkyDiskLight>(light);
 }
 
 Presence presence_of(const Light& light) {
@@ -297,6 +312,7 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const PointLight& l) const { return 4 * pi * mean(l.intensity); }
         float operator()(const DistantLight& l) const { return disk * mean(l.radiance); }
         float operator()(const UniformInfiniteLight& l) const { return 4 * pi * disk * mean(l.radiance); }
+        float operator()(const SkyDiskLight& l) const { return 2 * pi * l.one_minus_cosine * disk * mean(l.radiance); }
         float operator()(const ImageInfiniteLight& l) const { return 4 * pi * disk * mean(l.mean_radiance()); }
         float operator()(const TriangleLight& l) const {
             return (l.two_sided ? 2 : 1) * pi * l.area * mean_radiance(l);

@@ -44,6 +44,13 @@ struct DistantLight {
     Rgb radiance;
 };
 
+/// The same radiance from a disc of the sky around a direction, as of the sun.
+struct SkyDiskLight {
+    Vec3 direction;  ///< towards the middle, unit length
+    Rgb radiance;
+    float one_minus_cosine;  ///< of half the angle across, above 0
+};
+
 /// The same radiance from everywhere.
 struct UniformInfiniteLight {
     Rgb radiance;
@@ -131,7 +138,7 @@ struct PortalInfiniteLight {
 
 using Light =
     std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight,
-                 MediumLight, SpotLight, GoniometricLight, ProjectionLight, PortalInfiniteLight>;
+                 MediumLight, SpotLight, GoniometricLight, ProjectionLight, PortalInfiniteLight, SkyDiskLight>;
 
 /// A connection from `p` to the light as it stands at a time (Ray::time); none where it cannot shine. `u` places it on
 /// the light, `random` in its depth.

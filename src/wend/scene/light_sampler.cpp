@@ -113,6 +113,7 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
         }
         Bounds operator()(const DistantLight&) const { return {}; }
         Bounds operator()(const UniformInfiniteLight&) const { return {}; }
+        Bounds operator()(const SkyDiskLight&) const { return {}; }
         Bounds operator()(const ImageInfiniteLight&) const { return {}; }
         Bounds operator()(const PortalInfiniteLight&) const { return {}; }
 

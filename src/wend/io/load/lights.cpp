@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace wend {
 namespace {
@@ -174,7 +175,9 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
     return projector;
 }
 
-DistantLight load_distant(LoadContext& context, const pbrt::LightEntity& light) {
+/// A direction, or a disk of the sky where it has an angle: then what is given is the irradiance on a facing surface as
+/// well.
+Light load_distant(LoadContext& context, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     const Vec3 from = p.get_point3("from", {0, 0, 0});
     const Vec3 to = p.get_point3("to", {0, 0, 1});
@@ -186,7 +189,20 @@ DistantLight load_distant(LoadContext& context, const pbrt::LightEntity& light) 
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
         radiance *= illuminance;
     }
-    return {normalize(direction), radiance};
+    const float angle = p.get_float("angle", 0);
+    if (!(angle >= 0 && angle <= 180)) {
+        throw InputError(p.place_of("angle"),
+                         fmt::format("\"angle\" must lie between 0 and 180 degrees, not {}", angle));
+    }
+    const double half = double{angle} / 2 * std::numbers::pi / 180;
+    const double sine = std::sin(half), one_minus_cosine = 2 * std::pow(std::sin(half / 2), 2);
+    // Below, single precision does not tell one direction of the disk from another.
+    constexpr double smallest_half = 1e-5;
+    if (half < smallest_half) {
+        return DistantLight{normalize(direction), radiance};
+    }
+    return SkyDiskLight{normalize(direction), radiance / static_cast<float>(std::numbers::pi * sine * sine),
+                        static_cast<float>(one_minus_cosine)};
 }
 
 /// What pbrt takes for the illuminance that a picture of the sky puts on a plane whose normal is the light's z: half of
@@ -278,6 +294,7 @@ bool is_dark(const Light& light) {
         bool operator()(const ImageInfiniteLight& l) const { return is_black(l.mean_radiance()); }
         bool operator()(const DistantLight& l) const { return is_black(l.radiance); }
         bool operator()(const UniformInfiniteLight& l) const { return is_black(l.radiance); }
+        bool operator()(const SkyDiskLight& l) const { return is_black(l.radiance); }
         bool operator()(const TriangleLight& l) const { return is_black(l.radiance); }
         bool operator()(const QuadricLight& l) const { return is_black(l.radiance); }
         bool operator()(const SpotLight& l) const { return is_black(l.intensity); }
