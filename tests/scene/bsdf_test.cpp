@@ -85,7 +85,10 @@ const std::vector<Model>& models() {
         {"conductor_beckmann",
          ConductorBsdf{Rgb(0.2f, 0.9f, 1.5f), Rgb(3.9f, 2.4f, 1.9f), 0.5f, 0.25f, FacetSlopes::beckmann}},
         {"dielectric_beckmann", DielectricBsdf{1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
-        {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}}};
+        {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_coloured", coloured_glass(0.4f)},
+        {"dielectric_smooth_coloured", coloured_glass(0)},
+        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}}};
     return all;
 }
 
@@ -272,8 +275,6 @@ TEST(Dielectric, OddsChangeHowOftenLightIsReflectedAndNothingElse) {
                 }
                 const auto error = [](const Moments& a, const Moments& b) {
                     return 1e-5 + 4.5 * std::hypot(a.standard_error(), b.standard_error());
-                    {"dielectric_coloured", coloured_glass(0.4f)}, {"dielectric_smooth_coloured", coloured_glass(0)},
-                        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}},
                 };
                 EXPECT_NEAR(weight.mean(), plain_weight.mean(), error(weight, plain_weight));
                 EXPECT_NEAR(kept.mean(), plainly_kept.mean(), error(kept, plainly_kept));
