@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pathlib
 
 import numpy as np
@@ -100,3 +101,26 @@ def test_parts_of_blenders_files_are_layers(tmp_path: pathlib.Path) -> None:
     np.testing.assert_array_equal(film["alpha"], colour[:, :, 3])
     np.testing.assert_array_equal(film["depth"], colour[:, :, 1])
 
+
+
+def test_objects_are_found_by_their_names(tmp_path: pathlib.Path) -> None:
+    scene = wend.loads(SPHERE.replace('Shape "sphere"', 'Shape "sphere" "string name" "ball"'))
+    film = wend.render(scene, sampling="classical", seed=3, layers=["cryptomatte", "direct", "indirect", "background"],
+                       progress=False)
+    np.testing.assert_allclose(film["direct"] + film["indirect"] + film["background"], film.image, rtol=1e-5)
+    path = tmp_path / "a.exr"
+    film.save(path, layer_names="blender", exr="half")
+    header = OpenEXR.File(str(path)).header()
+    key = next(name for name, text in header.items() if text == "ViewLayer.CryptoObject").removesuffix("/name")
+    assert key == "cryptomatte/542cafa"  # as Blender calls it
+    number = int(json.loads(header[f"{key}/manifest"])["ball"], 16)
+    read = channels(path)
+    ids, coverage = (read[f"ViewLayer.CryptoObject00.{c}"] for c in "rg")
+    assert coverage.dtype == np.float32
+    mask = np.where(ids.view(np.uint32) == number, coverage, 0)
+    np.testing.assert_allclose(mask, film["alpha"], atol=1e-6)
+
+
+def test_layers_that_there_are_not(film: wend.Film) -> None:
+    with pytest.raises(wend.InputError, match="there is no 'shadows'"):
+        wend.render(wend.loads(SPHERE), layers=["shadows"], progress=False)

@@ -1,11 +1,13 @@
 // `wend render --layers`: what it adds, what it leaves as it is, and what goes with it.
 #include "program_support.h"
 
+#include <wend/film/cryptomatte.h>
 #include <wend/io/image_file.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace wend {
@@ -109,6 +111,42 @@ TEST_F(LayersOption, MergedPicturesAddUpToo) {
         const float a = find(merged, "half_a")->values[i], b = find(merged, "half_b")->values[i];
         const float beauty = merged.image.pixels[i / 3][static_cast<int>(i % 3)];
         ASSERT_NEAR(0.5f * (a + b), beauty, 1e-6f * (std::abs(a) + std::abs(b)));
+    }
+}
+
+TEST_F(LayersOption, ObjectsHaveTheirNames) {
+    const std::string scene = folder_.write("named.pbrt", test::small_scene(R"(
+Shape "sphere" "string name" "ball" "float radius" [ 0.3 ]
+)"));
+    std::vector<std::string> inputs;
+    for (const char* seed : {"1", "2"}) {
+        inputs.push_back(folder_.file(std::string(seed) + ".exr"));
+        const auto result = run_wend({"render", scene, "-o", inputs.back(), "--quiet", "--spp", "15", "--seed", seed,
+                                      "--layers", "cryptomatte", "--layer-names", *seed == '1' ? "wend" : "blender"});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(result.err, "") << "the parameter is known";
+    }
+    ASSERT_EQ(run_wend({"merge", folder_.file("m.exr"), inputs[0], inputs[1], "--quiet"}).status, 0);
+    for (const std::string& file : {inputs[0], folder_.file("m.exr")}) {
+        const Picture picture = read_picture(file);
+        std::string manifest;
+        for (const auto& [key, text] : picture.metadata) {
+            if (key.starts_with("cryptomatte/") && key.ends_with("/manifest")) {
+                manifest = text;
+            }
+        }
+        const auto names = nlohmann::json::parse(manifest);
+        EXPECT_TRUE(names.contains("ball") && names.contains("fog") && names.contains("named.pbrt:14")) << manifest;
+        const std::string ball = names["ball"];
+        float most = 0;
+        const Layer& layer = *find(picture, "CryptoObject00");
+        const Layer& alpha = *find(picture, "alpha");
+        for (std::size_t i = 0; i < alpha.values.size(); ++i) {
+            const float* v = &layer.values[4 * i];
+            EXPECT_LE(v[1] + v[3], alpha.values[i] * (1 + 1e-5f));
+            most = hexadecimal(std::bit_cast<std::uint32_t>(v[0])) == ball ? std::max(most, v[1]) : most;
+        }
+        EXPECT_GT(most, 0.5f) << "the ball is seen";
     }
 }
 

@@ -1,6 +1,7 @@
 #include <tests/sampling/verdicts.h>
 #include <wend/core/error.h>
 #include <wend/core/random.h>
+#include <wend/film/cryptomatte.h>
 #include <wend/film/film.h>
 #include <wend/film/merge.h>
 
@@ -254,6 +255,34 @@ TEST(Merge, PartsAddUpToTheMergedPicture) {
         by_samples = std::max(by_samples, static_cast<double>(std::abs(values(merged, "direct")[i] - mean)));
     }
     EXPECT_GT(by_samples, 0.1) << "means over samples would do as well";
+}
+
+TEST(Merge, ObjectsAreCountedEachForItself) {
+    const auto with_objects = [](int samples, std::vector<Coverage> seen) {
+        Pcg32 random(7);
+        Picture picture = noisy(1, samples, ordinary, random);
+        PixelCoverage pixel;
+        for (const Coverage& object : seen) {
+            pixel.add(object);
+        }
+        for (Layer& layer : cryptomatte_layers({pixel}, {1})) {
+            picture.layers.push_back(std::move(layer));
+        }
+        return picture;
+    };
+    const std::vector<Picture> pictures = {with_objects(12, {{21, 0.75f}, {22, 0.25f}}), with_objects(4, {{22, 1}})};
+    const Picture merged = merge_pictures(2, [&](std::size_t k) { return pictures[k]; }).picture;
+    PixelCoverage objects;
+    for (const Layer& layer : merged.layers) {
+        if (is_cryptomatte(layer)) {
+            add_coverage(layer, 0, 1, objects);
+        }
+    }
+    ASSERT_EQ(objects.objects().size(), 2u);
+    EXPECT_EQ(objects.objects()[0].id, 21u);
+    EXPECT_FLOAT_EQ(objects.objects()[0].part, 0.75f * 0.75f);
+    EXPECT_EQ(objects.objects()[1].id, 22u);
+    EXPECT_FLOAT_EQ(objects.objects()[1].part, 0.75f * 0.25f + 0.25f);
 }
 
 TEST(Merge, PicturesCountNothingWhereTheyHaveNoSamples) {

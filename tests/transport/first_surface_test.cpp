@@ -54,6 +54,35 @@ TEST(FirstSurface, MediaHideNothingAndTellTheirOpacity) {
     }
 }
 
+TEST(FirstSurface, ObjectsCoverWhatAlphaSays) {
+    SceneDescription s = slab();
+    const auto objects_in = [](const SceneDescription& description) {
+        const Scene scene(description);
+        const ObjectIds ids{{1, 2, 3}, {7}};
+        SeenObjects objects{ids};
+        Pcg32 random(1);
+        const FilmFeatures features = first_surface(scene, scene.camera().middle(), random, &objects);
+        float sum = 0;
+        for (const Coverage& each : objects.parts) {
+            sum += each.part;
+        }
+        EXPECT_NEAR(sum, features.alpha, 1e-6f);
+        return objects.parts;
+    };
+    const float fog = -std::expm1(-0.8f);
+    auto parts = objects_in(s);
+    ASSERT_EQ(parts.size(), 1u) << "the sky is none";
+    EXPECT_EQ(parts[0].id, 7u);
+    EXPECT_NEAR(parts[0].part, fog, 1e-4f);
+    add_wall(s, 3, test::add_diffuse(s, Rgb(0.5f)));
+    parts = objects_in(s);
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts[1].id, 2u) << "the second surface of the scene";
+    EXPECT_NEAR(parts[1].part, 1 - fog, 1e-4f);
+    EXPECT_NEAR(seen(s).position.z, 3, 1e-5f);
+    EXPECT_NEAR(seen(s).face_normal.z, -1, 1e-6f);
+}
+
 TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
     SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
     add_wall(s, -100, test::add_diffuse(s, Rgb(0.5f)));
