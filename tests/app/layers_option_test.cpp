@@ -144,9 +144,10 @@ Shape "sphere" "string name" "ball" "float radius" [ 0.3 ]
         for (std::size_t i = 0; i < alpha.values.size(); ++i) {
             const float* v = &layer.values[4 * i];
             EXPECT_LE(v[1] + v[3], alpha.values[i] * (1 + 1e-5f));
-            most = hexadecimal(std::bit_cast<std::uint32_t>(v[0])) == ball ? std::max(most, v[1]) : most;
+            // Before the ball there is fog, which covers more.
+            most = hexadecimal(std::bit_cast<std::uint32_t>(v[2])) == ball ? std::max(most, v[3]) : most;
         }
-        EXPECT_GT(most, 0.5f) << "the ball is seen";
+        EXPECT_GT(most, 0.05f) << "the ball is seen";
     }
 }
 

@@ -134,8 +134,9 @@ ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parame
 /// Says what a film of pbrt's holds that ours does not, and asks for what only it has.
 void replace_film(LoadContext& context, const pbrt::Entity& film) {
     const pbrt::ParameterSet& p = film.parameters;
-    std::string_view lost = "albedo, normals and variance have other names unless --layer-names pbrt is given, positions are there with "
-                            "--layers geometry, and slopes are not";
+    std::string_view lost =
+        "albedo, normals and variance have other names unless --layer-names pbrt is given, positions are there with "
+        "--layers geometry, and slopes are not";
     if (film.type == "spectral") {
         lost = "the picture has colours, and no layers by wavelength";
         static_cast<void>(p.get_int("nbuckets", 16));
