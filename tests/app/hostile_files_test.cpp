@@ -159,11 +159,11 @@ TEST_F(HostileFiles, SubdivisionIsRefusedBeforeItTakesMemory) {
     const std::string surface =
         "Shape \"loopsubdiv\" \"point3 P\" [ 0 0 3 1 0 3 0 1 3 ] \"integer indices\" [ 0 1 2 ] "
         "\"integer levels\" ";
-    for (const char* levels : {"11", "30", "2147483647"}) {
+    for (const char* levels : {"12", "30", "2147483647"}) {
         expect_refused(render_world(surface + levels + "\n"), "\"levels\" is " + std::string(levels));
     }
     // Each alone would be few enough.
-    expect_refused(render_world(surface + "10\n" + surface + "10\n" + surface + "5\n"), "scene.pbrt:6:");
+    expect_refused(render_world(surface + "11\n" + surface + "10\n" + surface + "11\n"), "scene.pbrt:6:");
 }
 
 TEST_F(HostileFiles, WhatNeverEndsIsGivenUp) {
