@@ -151,7 +151,7 @@ def test_what_cannot_be_subdivided_is_its_control_mesh(stage):
     mesh.CreateFaceVertexCountsAttr([3] * spokes)
     mesh.CreateFaceVertexIndicesAttr([i for k in range(spokes) for i in (0, k + 1, (k + 1) % spokes + 1)])
     mesh.CreateDisplayColorAttr([(0, 0, 0)])
-    with pytest.warns(wend.SceneWarning, match="/fan: warning: a surface with more than 256 edges at a point"):
+    with pytest.warns(wend.SceneWarning, match="/fan: warning: a surface with more than 128 edges at a point"):
         assert '"trianglemesh"' in stage.read().text()
     assert coverage(stage) == pytest.approx(np.pi * 16 / 400, rel=0.01)
 

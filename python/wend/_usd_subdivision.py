@@ -15,7 +15,7 @@ from ._errors import InputError
 Parameters = dict[str, Any]
 
 #: Corners of a face and edges of a point, and triangles of all surfaces together, that the renderer takes.
-MOST_AROUND = 256
+MOST_AROUND = 128
 MOST_TRIANGLES = 2**23
 
 #: Levels of what is copied, whose size in the picture is not known.

@@ -155,12 +155,17 @@ private:
 class FaceSampler {
 public:
     FaceSampler(const ControlMesh& control, const Far::TopologyRefiner& refiner, int levels)
-        : control_(control), factory_(refiner, options(levels)) {}
+        : control_(control), refiner_(refiner), options_(options(levels)) {}
 
-    /// None where there is no surface.
+    /// None where there is no surface. Faces must be asked for in their order.
     std::optional<Bfr::Parameterization> begin(int face) {
-        const bool is_there = control_.uvs.empty() ? factory_.InitVertexSurface(face, &surface_)
-                                                   : factory_.InitSurfaces(face, &surface_, &uv_surface_, nullptr, 1);
+        // It keeps what it has made for one face, some 100 KB where creases are soft, for others like it.
+        constexpr int most_kept = 512;
+        if (face % most_kept == 0) {
+            factory_.emplace(refiner_, options_);
+        }
+        const bool is_there = control_.uvs.empty() ? factory_->InitVertexSurface(face, &surface_)
+                                                   : factory_->InitSurfaces(face, &surface_, &uv_surface_, nullptr, 1);
         if (!is_there) {
             return std::nullopt;
         }
@@ -248,7 +253,9 @@ private:
     }
 
     const ControlMesh& control_;
-    Factory factory_;
+    const Far::TopologyRefiner& refiner_;
+    Factory::Options options_;
+    std::optional<Factory> factory_;
     Bfr::Surface<float> surface_, uv_surface_;
     std::vector<float> patch_, end_patch_, uv_patch_;
     std::vector<Sample> samples_;

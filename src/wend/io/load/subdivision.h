@@ -57,8 +57,8 @@ struct ControlMesh {
 /// any. What moves is on the limit of what the control mesh is at both ends.
 ///
 /// Indices must be within their ranges. Faces with a vertex twice are left out, and creases along what is no edge are
-/// ignored. None if nothing is left. Throws std::invalid_argument for faces of other than 3 to 256 corners, of other
-/// than 3 for Loop's scheme, and vertices of more than 256 edges.
+/// ignored. None if nothing is left. Throws std::invalid_argument for faces of other than 3 to 128 corners, of other
+/// than 3 for Loop's scheme, and vertices of more than 128 edges.
 std::optional<TriangleMeshData> limit_surface(const ControlMesh& control, const SubdivisionRules& rules, int levels);
 
 /// How many triangles limit_surface() makes at most.

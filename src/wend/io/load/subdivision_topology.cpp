@@ -16,7 +16,7 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 /// Corners of a face, and edges of a vertex: what OpenSubdiv does for it grows with the third power.
-constexpr int most_around = 256;
+constexpr int most_around = 128;
 
 Sdc::SchemeType scheme_of(SubdivisionRules::Scheme scheme) {
     switch (scheme) {
