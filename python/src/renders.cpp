@@ -1,4 +1,4 @@
-#include <wend/app/comparison.h>
+#include <wend/app/comparison_data.h>
 #include <wend/app/owned_render.h>
 #include <wend/io/field_file.h>
 

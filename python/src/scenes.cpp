@@ -1,6 +1,7 @@
 #include <wend/app/parsed_scene.h>
 #include <wend/core/error.h>
 #include <wend/io/pbrt/named_parameters.h>
+#include <wend/io/volume_file.h>
 
 #include "bindings.h"
 
@@ -25,6 +26,20 @@ ScenePointer load_text(std::string text, const std::string& folder, const std::s
                        const std::string& sampler) {
     const nb::gil_scoped_release release;
     return ParsedScene::of_text(std::move(text), folder, {name, resolution, crop, max_depth, sampler});
+}
+
+/// Two corners of the box, in the world of the file, that holds all of a grid.
+std::pair<std::array<float, 3>, std::array<float, 3>> volume_bounds(const std::string& file, const std::string& grid) {
+    const nb::gil_scoped_release release;
+    const Volume volume = read_volume(file, grid);
+    const Box3 box = volume.grid.bounds();
+    Box3 world;
+    for (int corner = 0; corner < 8; ++corner) {
+        world.extendBy(
+            volume.world_from_index.point(Vec3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                               corner & 4 ? box.max.z : box.min.z)));
+    }
+    return {{world.min.x, world.min.y, world.min.z}, {world.max.x, world.max.y, world.max.z}};
 }
 
 /// Of each parameter its name, its type as files spell it, and the values, flat; those with more than `most` elements
@@ -113,6 +128,8 @@ void bind_scenes(nb::module_& module) {
         .def_prop_ro("warnings", [](const ParsedScene& s) { return s.session().warnings(); })
         .def("parameters", &parameters, nb::arg("most"))
         .def("with_parameters", &with_parameters, nb::arg("changes"));
+    module.def("volume_bounds", &volume_bounds, nb::arg("file"), nb::arg("grid"),
+               "Two corners of the box that holds all of a grid of an OpenVDB or NanoVDB file.");
     module.def("load", &load, nb::arg("file"), nb::arg("resolution"), nb::arg("crop"), nb::arg("max_depth").none(),
                nb::arg("sampler"));
     module.def("load_text", &load_text, nb::arg("text"), nb::arg("folder"), nb::arg("name"), nb::arg("resolution"),

@@ -160,10 +160,11 @@ def test_spot_lamp(scene, tmp_path):
     check(scene, tmp_path, 400)
 
 
-def test_sun(scene, tmp_path):
+@pytest.mark.parametrize("angle", [0, 0.6])
+def test_sun(scene, tmp_path, angle):
     floor(scene)
     mesh(scene, "cube", material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), place=(0, 0, 0.5), turn=(0, 0, 0.5), stretch=(0.5, 0.7, 0.5))
-    lamp(scene, "SUN", 3, (0, 0, 5), (0.6, 0.3, 0.2), angle=0)
+    lamp(scene, "SUN", 3, (0, 0, 5), (0.6, 0.3, 0.2), angle=angle)
     check(scene, tmp_path, 256)
 
 
@@ -191,10 +192,20 @@ def test_principled(scene, tmp_path, inputs):
     check(scene, tmp_path, 600)
 
 
-def test_glass(scene, tmp_path):
+@pytest.mark.parametrize(
+    "glass",
+    [
+        {"kind": "BsdfGlass", "color": (1, 1, 1), "distribution": "GGX"},
+        {"kind": "BsdfGlass", "color": (0.9, 0.6, 0.3), "distribution": "GGX"},
+        {"kind": "BsdfPrincipled", "base_color": (0.8, 0.9, 0.5), "transmission_weight": 1, "distribution": "GGX"},
+    ],
+    ids=["white", "coloured", "principled"],
+)
+def test_glass(scene, tmp_path, glass):
     sky(scene, (0.5, 0.7, 1.0))
     floor(scene)
-    mesh(scene, "cube", material("BsdfGlass", color=(1, 1, 1), roughness=0.3, ior=1.45, distribution="GGX"), place=(0, 0, 1), turn=(0.2, 0.3, 0.4), stretch=(0.7, 0.7, 0.7))
+    kind, rest = glass["kind"], {name: value for name, value in glass.items() if name != "kind"}
+    mesh(scene, "cube", material(kind, roughness=0.3, ior=1.45, **rest), place=(0, 0, 1), turn=(0.2, 0.3, 0.4), stretch=(0.7, 0.7, 0.7))
     check(scene, tmp_path, 2000, tolerance=0.015)
 
 
@@ -472,6 +483,44 @@ def test_motion_blur(scene, tmp_path, what, position):
     # What stood still would be refused.
     assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
     assert scene.frame_current == 2 and scene.frame_subframe == 0
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_what_deforms_is_blurred(scene, tmp_path, smooth):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    lamp(scene, "SUN", 2, (0, 0, 5), (0.5, 0.3, 0), angle=0)
+    ball = mesh(scene, "uv_sphere", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), smooth, place=(0, 0, 1))
+    ball.shape_key_add(name="rest")
+    key = ball.shape_key_add(name="long")
+    for point in key.data:
+        point.co.x, point.co.z = 2.5 * point.co.x, 0.5 * point.co.z
+    for frame, value in ((1, 0.0), (3, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    for curve in ball.data.shape_keys.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    scene.frame_set(1)
+    still = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    scene.render.motion_blur_position = "START"
+    ours, _ = check(scene, tmp_path, 1000, tolerance=0.015)
+    # What stood still would be refused.
+    assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
+
+
+def test_what_changes_its_number_of_points_is_named(scene):
+    cube = mesh(scene, "cube")
+    array = cube.modifiers.new("array", "ARRAY")
+    array.count = 1
+    array.keyframe_insert("count", frame=1)
+    array.count = 3
+    array.keyframe_insert("count", frame=3)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    with pytest.warns(wend.SceneWarning, match="changes its number of points"):
+        assert "P1" not in blend.of_scene(scene).text()
 
 
 def test_a_file_becomes_a_pbrt_scene(scene, tmp_path):

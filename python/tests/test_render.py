@@ -187,10 +187,41 @@ def test_comparing(demo, tmp_path):
     assert list(rows["sampling"]) == ["classical", "full"]
     assert rows["ratio"][0] == pytest.approx(1)
     assert len(comparison.runs["seed"]) == 4
-    assert set(comparison.curves) == {"sampling", "seed", "seconds", "relmse"}
+    assert set(comparison.curves) == {"sampling", "seed", "spp", "seconds", "work", "relmse", "relmse_trimmed"}
+    assert set(comparison.runs) >= {"sampling", "seed", "spp", "seconds", "work", "relmse", "relmse_trimmed", "ratio"}
+    for name, errors in comparison.errors.items():
+        mean = comparison.runs["relmse"][comparison.runs["sampling"] == name].mean()
+        assert errors["relative_squared"].mean() == pytest.approx(mean, rel=1e-4)
+        assert rows["relmse_mean"][list(rows["sampling"]).index(name)] == pytest.approx(mean)
+    assert comparison.reference["noise"] is None
     assert comparison.films["full"].image.shape == (18, 32, 3)
     assert "iframe" in comparison._repr_html_()
     comparison.save(tmp_path / "page")
     assert (tmp_path / "page" / "index.html").exists()
+    assert (tmp_path / "page" / "runs.csv").read_text().count("\n") == 1 + 4
+    with pytest.raises(ValueError, match="reference"):
+        wend.compare(demo, reference=reference, reference_spp=4, progress=False)
+    with pytest.raises(wend.InputError, match="the picture 32 x 18"):
+        wend.compare(demo, reference=np.ones((9, 16, 3), np.float32), progress=False)
     with pytest.raises(wend.InputError, match="magic"):
         wend.compare(demo, sampling=["magic"], reference=reference, progress=False)
+
+
+def test_comparing_scenes(demo, tmp_path):
+    compared = wend.compare_scenes(
+        {"one": demo, "other": demo}, time=0.1, seeds=1, sampling=["classical", "full"], reference="render",
+        reference_spp=4, progress=False,
+    )
+    assert list(compared) == ["one", "other"]
+    assert list(compared.rows["scene"]) == ["one", "one", "other", "other"]
+    assert compared["one"].reference["halves"][0]["spp"] == 4
+    assert compared["one"].reference["noise"] > 0
+    gains = compared.gains
+    assert list(gains["sampling"]) == ["full"]
+    ratios = compared.rows["ratio"][compared.rows["sampling"] == "full"]
+    if (ratios > 0).all():
+        assert gains["geometric_mean"][0] == pytest.approx(np.sqrt(ratios.prod()))
+        assert gains["worst"][0] == ("one" if ratios[0] <= ratios[1] else "other")
+    compared.save(tmp_path / "report")
+    for name in ("index.html", "rows.csv", "one/index.html", "other/full-error.exr"):
+        assert (tmp_path / "report" / name).exists()

@@ -42,6 +42,23 @@ def test_errors_have_a_place(tmp_path):
         wend.load(tmp_path / "missing.pbrt")
 
 
+def test_scenes_of_mitsuba_are_loaded_by_their_extension(tmp_path):
+    text = """<scene version="3.0.0">
+        <sensor type="perspective"><float name="fov" value="40"/>
+            <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="6"/></film></sensor>
+        <emitter type="constant"/>
+        <medium type="homogeneous" id="fog"><float name="sigma_t" value="2"/><float name="albedo" value=".25"/></medium>
+        <shape type="sphere"><bsdf type="null"/><ref name="interior" id="fog"/></shape>
+    </scene>"""
+    (tmp_path / "scene.xml").write_text(text)
+    for scene in (wend.load(tmp_path / "scene.xml"), wend.loads(text)):
+        assert scene.resolution == (8, 6)
+        assert scene.parameters["medium.fog.sigma_s"] == pytest.approx([0.5, 0.5, 0.5])
+    with pytest.raises(wend.InputError, match=r"scene.xml:1:22: error: .*<sensr> is unknown"):
+        (tmp_path / "scene.xml").write_text('<scene version="3.0"><sensr type="perspective"/></scene>')
+        wend.load(tmp_path / "scene.xml")
+
+
 def test_what_is_done_otherwise_is_warned_of():
     with pytest.warns(wend.SceneWarning, match="spoke"):
         scene = wend.loads('WorldBegin\nLightSource "infinite"\nShape "sphere" "float spoke" 1\n')

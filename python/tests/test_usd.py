@@ -3,7 +3,7 @@
 import math
 import subprocess
 import sys
-import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,66 +12,18 @@ import wend
 pytest.importorskip("pxr", reason="usd-core is absent")
 pytestmark = pytest.mark.filterwarnings("ignore:.*no light:wend.SceneWarning")
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt  # noqa: E402
+from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, UsdVol, Vt  # noqa: E402
 
 import wend.usd  # noqa: E402
+from usd_stage import Stage, coverage, middle  # noqa: E402
 
 
-class Stage:
-    """A stage in a file, with a camera at the origin that looks along -z and sees 90 degrees across."""
-
-    def __init__(self, folder):
-        self.file = folder / "stage.usda"
-        self.stage = Usd.Stage.CreateNew(str(self.file))
-        camera = UsdGeom.Camera.Define(self.stage, "/camera")
-        camera.CreateHorizontalApertureAttr(20)
-        camera.CreateVerticalApertureAttr(20)
-        camera.CreateFocalLengthAttr(10)
-        self.camera = camera
-
-    def read(self, *, size=(9, 9), spp=16, **options):
-        self.stage.GetRootLayer().Save()
-        return wend.usd.read(self.file, resolution=size, spp=spp, **options)
-
-    def image(self, **options):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wend.SceneWarning)
-            return wend.render(self.read(**options).scene(), sampling="classical", progress=False).image.copy()
-
-    def look(self, towards):
-        """The camera looks along +-x, +-y or +z."""
-        degrees = {"+x": (0, -90, 0), "-x": (0, 90, 0), "+y": (90, 0, 0), "-y": (-90, 0, 0), "+z": (0, 180, 0)}[towards]
-        UsdGeom.XformCommonAPI(self.camera).SetRotate(Gf.Vec3f(*degrees))
-
-    def lamp(self, kind, place=(0, 0, -3), turn=(0, 180, 0), scale=(1, 1, 1), **inputs):
-        """By default it shines at the camera."""
-        prim = self.stage.DefinePrim("/lamp", kind)
-        api = UsdGeom.XformCommonAPI(prim)
-        api.SetTranslate(Gf.Vec3d(*place))
-        api.SetRotate(Gf.Vec3f(*turn))
-        api.SetScale(Gf.Vec3f(*scale))
-        for name, value in inputs.items():
-            prim.GetAttribute(f"inputs:{name}").Set(value)
-        return prim
-
-    def card(self, colour=(0.5, 0.5, 0.5), distance=2.0, half=10.0, path="/card"):
-        mesh = UsdGeom.Mesh.Define(self.stage, path)
-        h, z = half, -distance
-        mesh.CreatePointsAttr([(-h, -h, z), (h, -h, z), (h, h, z), (-h, h, z)])
-        mesh.CreateFaceVertexCountsAttr([4])
-        mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
-        mesh.CreateSubdivisionSchemeAttr("none")
-        mesh.CreateDisplayColorAttr([colour])
-        return mesh
+SMALL_VOLUME = Path(__file__).resolve().parents[2] / "fuzz" / "corpus" / "vdb" / "zip.vdb"
 
 
 @pytest.fixture
 def stage(tmp_path):
     return Stage(tmp_path)
-
-
-def middle(image):
-    return image[image.shape[0] // 2, image.shape[1] // 2]
 
 
 @pytest.mark.parametrize(
@@ -181,13 +133,6 @@ def test_cameras_see_what_usd_says(stage):
     assert centre(size=(160, 160)) == pytest.approx((0.75, 0.375), abs=0.01)
 
 
-def coverage(stage, size=(80, 80)):
-    """The share of the picture that black things take before a white sky."""
-    sky = stage.stage.DefinePrim("/sky", "DomeLight")
-    sky.GetAttribute("inputs:intensity").Set(1.0)
-    return 1 - float(stage.image(size=size, spp=64)[:, :, 0].mean())
-
-
 @pytest.mark.parametrize(
     ("kind", "values", "share"),
     [
@@ -236,12 +181,14 @@ def test_faces_keep_their_materials_and_their_holes(stage):
     assert image[28] == pytest.approx((0, 0, 0), abs=1e-6)
 
 
-def test_textures_lie_as_usd_has_them(stage, tmp_path):
+@pytest.mark.parametrize("scheme", ["none", "catmullClark", "bilinear"])
+def test_textures_lie_as_usd_has_them(stage, tmp_path, scheme):
     picture = np.zeros((32, 32, 3), dtype=np.float32)
     picture[:16] = (0.8, 0.1, 0.1)  # the upper half
     picture[16:] = (0.1, 0.1, 0.8)
     wend.Film.of(picture).save(tmp_path / "map.exr")
     card = stage.card(half=2, distance=2)
+    card.CreateSubdivisionSchemeAttr(scheme)
     UsdGeom.PrimvarsAPI(card).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "faceVarying").Set(
         [(0, 0), (1, 0), (1, 1), (0, 1)]
     )
@@ -329,6 +276,53 @@ def test_instances_are_where_they_are_put(stage):
     assert image[40, 20] < 0.9 and image[20, 60] < 0.9 and image[40, 40] > 0.9
 
 
+def cards(stage, path, positions, target):
+    """An instancer that copies a black card of 2 x 2, or another prim."""
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, path)
+    if target is None:
+        cube = UsdGeom.Cube.Define(stage.stage, f"{path}/cube")
+        cube.CreateSizeAttr(1)
+        cube.CreateDisplayColorAttr([(0, 0, 0)])
+        UsdGeom.XformCommonAPI(cube).SetScale(Gf.Vec3f(2, 2, 0.01))
+        target = cube.GetPath()
+    instancer.CreatePrototypesRel().AddTarget(target)
+    instancer.CreateProtoIndicesAttr([0] * len(positions))
+    instancer.CreatePositionsAttr(positions)
+    return instancer
+
+
+def test_instancers_within_instancers_multiply(stage):
+    # A prototype with a card of its own and an instancer of two more, which is copied twice.
+    outer = UsdGeom.PointInstancer.Define(stage.stage, "/outer")
+    group = UsdGeom.Xform.Define(stage.stage, "/outer/group")
+    own = UsdGeom.Cube.Define(stage.stage, "/outer/group/own")
+    own.CreateSizeAttr(2)
+    own.CreateDisplayColorAttr([(0, 0, 0)])
+    UsdGeom.XformCommonAPI(own).SetScale(Gf.Vec3f(1, 1, 0.001))
+    inner = cards(stage, "/outer/group/inner", [(0, 3, 0), (0, 6, 0)], None)
+    UsdGeom.XformCommonAPI(inner).SetTranslate(Gf.Vec3d(1, 0, 0))
+    outer.CreatePrototypesRel().AddTarget(group.GetPath())
+    outer.CreateProtoIndicesAttr([0, 0])
+    outer.CreatePositionsAttr([(-5, -4, -10), (2, -4, -10)])
+    assert stage.read().text().count("ObjectInstance") == 6
+    assert coverage(stage) == pytest.approx(6 * 4 / 400, rel=0.02)
+    image = stage.image(size=(80, 80))[:, :, 0]
+
+    def is_dark(x, y):
+        return image[round(40 - 4 * y), round(40 + 4 * x)] < 0.5
+
+    assert is_dark(-5, -4) and is_dark(-4, -1) and is_dark(-4, 2) and is_dark(3, -1) and is_dark(3, 2)
+    assert not is_dark(-6.5, 2) and not is_dark(0, -1)
+
+
+def test_an_instancer_that_copies_itself_is_named(stage):
+    cards(stage, "/a", [(0, 0, -10)], "/group")
+    UsdGeom.Xform.Define(stage.stage, "/group")
+    cards(stage, "/group/again", [(1, 0, 0)], "/group")
+    with pytest.warns(wend.SceneWarning, match="what copies itself is left out"):
+        stage.read()
+
+
 @pytest.mark.parametrize("basis", ["linear", "bspline", "catmullRom", "bezier"])
 def test_curves_have_their_width(stage, basis):
     curves = UsdGeom.BasisCurves.Define(stage.stage, "/hair")
@@ -352,47 +346,6 @@ def test_what_is_hidden_or_a_guide_is_not_seen(stage):
     assert coverage(stage) == 0
 
 
-def test_frames_are_those_of_the_time(stage):
-    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
-    place = cube.AddTranslateOp()
-    place.Set(Gf.Vec3d(-5, 0, -10), 1)
-    place.Set(Gf.Vec3d(5, 0, -10), 3)
-    stage.stage.SetStartTimeCode(1)
-    stage.stage.SetEndTimeCode(3)
-    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    cube.CreateDisplayColorAttr([(0, 0, 0)])
-
-    def column(**options):
-        return np.nonzero(stage.image(size=(80, 80), **options)[40, :, 0] < 0.9)[0].mean()
-
-    assert column() == pytest.approx(20, abs=2)
-    assert column(time=2) == pytest.approx(39.5, abs=2)
-
-
-def test_what_moves_is_blurred_while_the_shutter_is_open(stage):
-    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
-    place = cube.AddTranslateOp()
-    place.Set(Gf.Vec3d(-5, 0, -11), 1)
-    place.Set(Gf.Vec3d(5, 0, -11), 3)
-    cube.CreateDisplayColorAttr([(0, 0, 0)])
-    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    still = 1 - stage.image(size=(80, 80), spp=64, time=2)[:, :, 0].mean()
-    stage.camera.CreateShutterOpenAttr(-0.5)
-    stage.camera.CreateShutterCloseAttr(0.5)
-    sky = stage.image(size=(80, 80), spp=256, time=2)[:, :, 0]
-    assert 1 - sky.mean() == pytest.approx(still, rel=0.05)
-    # At distance 10 the front, 2 across, goes from -2.5 to 2.5: each place is behind it for two fifths of the time.
-    assert 1 - sky[40, 35:45].mean() == pytest.approx(0.4, abs=0.05)
-    columns = np.nonzero((1 - sky[38:42]).mean(axis=0) > 0.02)[0]
-    assert columns.min() == pytest.approx(26, abs=2) and columns.max() == pytest.approx(53, abs=2)
-    # A camera that goes along sees it sharp.
-    move = stage.camera.AddTranslateOp()
-    move.Set(Gf.Vec3d(-5, 0, 0), 1)
-    move.Set(Gf.Vec3d(5, 0, 0), 3)
-    sharp = stage.image(size=(80, 80), spp=64, time=2)[:, :, 0]
-    assert 1 - sharp[40, 40] == pytest.approx(1, abs=1e-3)
-
-
 def test_volumes_are_named_with_their_files(stage):
     volume = UsdVol.Volume.Define(stage.stage, "/smoke")
     field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")
@@ -403,6 +356,30 @@ def test_volumes_are_named_with_their_files(stage):
     with pytest.warns(wend.SceneWarning, match="/smoke: warning: a volume scatters"):
         text = stage.read().text()
     assert '"string filename" [ "smoke.vdb" ]' in text and '"string gridname" [ "d" ]' in text
+
+
+def test_a_volume_without_an_extent_has_that_of_its_grid(stage):
+    volume = UsdVol.Volume.Define(stage.stage, "/smoke")
+    field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")
+    field.CreateFilePathAttr(str(SMALL_VOLUME))
+    field.CreateFieldNameAttr("density")
+    volume.CreateFieldRelationship("density", field.GetPath())
+    text = stage.read().text()
+    points = np.array(text.split('"point3 P" [')[1].split("]")[0].split(), dtype=float).reshape(-1, 3)
+    # Voxels from 0 to 7 across, which fade within another on each side.
+    assert points.min(axis=0)[1:] == pytest.approx((-1, -1)) and points.max(axis=0)[1:] == pytest.approx((8, 8))
+    # It is as if the box had been given, and larger ones are the same.
+    stage.camera.AddTranslateOp().Set(Gf.Vec3d(2, 3, 12))
+    stage.camera.GetFocalLengthAttr().Set(60)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    seen = stage.image(size=(8, 8), spp=256)
+    assert seen.mean() < 0.97
+    volume.CreateExtentAttr([(-9, -9, -9), (200, 11, 11)])
+    assert 1 - stage.image(size=(8, 8), spp=256).mean() == pytest.approx(1 - seen.mean(), rel=0.1)
+    volume.GetExtentAttr().Clear()
+    field.CreateFilePathAttr("absent.vdb")
+    with pytest.raises(wend.InputError, match="absent.vdb"):
+        stage.read()
 
 
 def test_what_is_wrong_is_named(stage, tmp_path):

@@ -18,7 +18,7 @@ file, line and column. Long work lets other Python threads run, and Ctrl-C ends 
 
 from . import guide
 from ._builder import SceneBuilder
-from ._compare import Comparison, compare
+from ._compare import Comparison, SceneComparisons, compare, compare_scenes
 from ._errors import InputError, SceneWarning
 from ._film import Film, merge, metric, read
 from ._planar import halfspace, samplers, slab
@@ -34,9 +34,11 @@ __all__ = [
     "Render",
     "Scene",
     "SceneBuilder",
+    "SceneComparisons",
     "SceneWarning",
     "Table",
     "compare",
+    "compare_scenes",
     "demo_scene",
     "guide",
     "halfspace",

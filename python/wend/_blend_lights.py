@@ -82,10 +82,9 @@ def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any,
 
 
 def _sun(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
-    if lamp.angle > math.radians(1):
-        reader.tell(place, "a sun is taken as a point in the sky: its shadows are hard")
     reader.builder.add("Transform", _TURNED @ _unscaled(world))
-    reader.builder.add("LightSource", "distant", {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)})
+    parameters: dict[str, Any] = {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
+    reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(lamp.angle), 180.0)})
 
 
 def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:

@@ -176,9 +176,10 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         _detail(nodes, node, wax)
         result = _blended(result, _Surface(wax), waxen / (1 - clear), emission)
     if clear > 0:
-        colour = nodes.colour(inputs["Base Color"])
-        glass = _clear(nodes, node, colour, nodes.number(inputs["Roughness"]), ior)
-        result = _blended(result, glass, clear, emission)
+        glass = _dielectric(nodes.number(inputs["Roughness"]), ior)
+        # Of two boundaries the base colour.
+        glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
+        result = _blended(result, _Surface(glass), clear, emission)
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
         nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
     return result
@@ -223,20 +224,22 @@ def _metallic(nodes: Nodes, node: Any) -> _Surface:
 
 
 def _glass(nodes: Nodes, node: Any) -> _Surface:
-    colour, roughness = nodes.colour(node.inputs["Color"]), nodes.number(node.inputs["Roughness"])
-    return _clear(nodes, node, colour, roughness, max(nodes.number(node.inputs["IOR"]), 1e-3))
+    material = _dielectric(nodes.number(node.inputs["Roughness"]), max(nodes.number(node.inputs["IOR"]), 1e-3))
+    nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
+    if node.bl_idname == "ShaderNodeBsdfGlass":
+        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    else:
+        material["rgb reflectance"] = (0, 0, 0)
+    return _Surface(material)
 
 
-def _clear(nodes: Nodes, node: Any, colour: Colour, roughness: float, ior: float) -> _Surface:
-    if np.abs(colour - 1).max() > 1e-3:
-        nodes.warn(node, "the colour of glass is left out: give it a volume that absorbs")
-    material = {
+def _dielectric(roughness: float, ior: float) -> dict[str, Any]:
+    return {
         "string type": "dielectric",
         "float eta": ior,
         "float roughness": roughness**2,
         "bool remaproughness": False,
     }
-    return _Surface(material)
 
 
 def _transparent(nodes: Nodes, node: Any) -> _Surface:

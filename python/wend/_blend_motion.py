@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_shapes import Geometry
+
 Matrix = npt.NDArray[np.float64]
 
 #: Where the frame lies between the opening of the shutter (0) and its closing.
@@ -20,7 +22,7 @@ def rows(matrix: Any) -> Matrix:
 
 
 class Motion:
-    """Places at both ends of the shutter; one place twice where there is no motion blur.
+    """Places and shapes at both ends of the shutter; one place twice where there is no motion blur.
 
     Args:
         scene: whose frame is rendered.
@@ -31,6 +33,7 @@ class Motion:
 
     def __init__(self, scene: Any, eye: Any, depsgraph: Any, set_frame: Callable[[int, float], Any]) -> None:
         self._ends: list[dict[Any, Matrix]] = []
+        self._shapes: list[dict[str, Geometry]] = []
         render = scene.render
         self.is_on = bool(render.use_motion_blur) and render.motion_blur_shutter > 0
         if not self.is_on:
@@ -41,10 +44,16 @@ class Motion:
             whole = int(np.floor(time))
             set_frame(whole, float(time - whole))
             depsgraph.update()
-            places = {_key(i): rows(i.matrix_world) for i in depsgraph.object_instances}
+            places, shapes = {}, {}
+            for instance in depsgraph.object_instances:
+                places[_key(instance)] = rows(instance.matrix_world)
+                name = instance.object.name_full
+                if name not in shapes and _may_change(scene, instance.object):
+                    shapes[name] = _shape_of(instance.object)
             if eye is not None:
                 places[None] = rows(eye.evaluated_get(depsgraph).matrix_world.normalized())
             self._ends.append(places)
+            self._shapes.append({name: shape for name, shape in shapes.items() if shape is not None})
         set_frame(frame, part)
         depsgraph.update()
 
@@ -52,6 +61,14 @@ class Motion:
         """(2, 4, 4), of an instance of the depsgraph."""
         still = not getattr(getattr(instance.object, "cycles", None), "use_motion_blur", True)
         return self._between(_key(instance), rows(instance.matrix_world), still)
+
+    def shapes(self, object_: Any) -> tuple[Geometry, Geometry] | None:
+        """Of a mesh that changes its shape, or its number of points; None for others."""
+        name = object_.name_full
+        if any(name not in shapes for shapes in self._shapes) or not self._shapes:
+            return None
+        start, end = (shapes[name] for shapes in self._shapes)
+        return None if start.points.shape == end.points.shape and np.array_equal(start.points, end.points) else (start, end)
 
     def of_camera(self, eye: Any) -> Matrix:
         """(2, 4, 4), without a scale."""
@@ -62,6 +79,24 @@ class Motion:
         if still or not self._ends or any(key not in places for places in self._ends):
             return np.array([now, now])
         return np.array([places[key] for places in self._ends])
+
+
+def _may_change(scene: Any, object_: Any) -> bool:
+    cycles = getattr(object_, "cycles", None)
+    if object_.type != "MESH" or not (getattr(cycles, "use_motion_blur", True) and getattr(cycles, "use_deform_motion", True)):
+        return False
+    original = object_.original
+    return bool(original.is_deform_modified(scene, "RENDER") or original.is_modified(scene, "RENDER"))
+
+
+def _shape_of(object_: Any) -> Geometry | None:
+    mesh = object_.to_mesh()
+    if mesh is None:
+        return None
+    try:
+        return Geometry.of(mesh)
+    finally:
+        object_.to_mesh_clear()
 
 
 def _key(instance: Any) -> Any:

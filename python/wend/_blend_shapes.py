@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,37 +18,75 @@ def _taken(collection: Any, attribute: str, width: int, kind: type) -> npt.NDArr
     return values.reshape(-1, width) if width > 1 else values
 
 
-def mesh_parts(mesh: Any) -> Iterator[tuple[int, Parameters]]:
-    """Of an evaluated mesh, the triangles of each material: its number, and the parameters of a "trianglemesh"."""
+@dataclass
+class Geometry:
+    """What of a mesh changes with time."""
+
+    points: npt.NDArray[np.float32]
+    normals: npt.NDArray[np.float32] | None  #: of points, where smooth faces have those
+    corner_normals: npt.NDArray[np.float32] | None
+
+    @staticmethod
+    def of(mesh: Any) -> Geometry:
+        # Flat faces need no normals, smooth ones have those of their points.
+        domain = mesh.normals_domain
+        return Geometry(
+            _taken(mesh.vertices, "co", 3, np.float32),
+            _taken(mesh.vertex_normals, "vector", 3, np.float32) if domain == "POINT" else None,
+            _taken(mesh.corner_normals, "vector", 3, np.float32) if domain == "CORNER" else None,
+        )
+
+    def goes_with(self, other: Geometry) -> bool:
+        """Whether both may be the same mesh at two times."""
+
+        def shape_of(array: npt.NDArray[np.float32] | None) -> tuple[int, ...]:
+            return () if array is None else array.shape
+
+        pairs = ((self.points, other.points), (self.normals, other.normals), (self.corner_normals, other.corner_normals))
+        return all(shape_of(a) == shape_of(b) for a, b in pairs)
+
+    def taken(
+        self, names: tuple[str, str], points: npt.NDArray[np.int32], corners: npt.NDArray[np.int32] | None
+    ) -> Parameters:
+        """Points and normals of vertices, which are points, and corners where they need that."""
+        parameters: Parameters = {names[0]: self.points[points]}
+        if self.normals is not None:
+            parameters[names[1]] = self.normals[points]
+        elif self.corner_normals is not None:
+            parameters[names[1]] = self.corner_normals[corners]
+        return parameters
+
+
+def mesh_parts(mesh: Any, ends: tuple[Geometry, Geometry] | None) -> Iterator[tuple[int, Parameters]]:
+    """Of an evaluated mesh, the triangles of each material: its number, and the parameters of a "trianglemesh".
+
+    Args:
+        mesh: as it is at the frame.
+        ends: what goes with it where the shutter opens and where it closes; None: it does not change.
+    """
     mesh.calc_loop_triangles()
     if not len(mesh.loop_triangles):
         return
-    points = _taken(mesh.vertices, "co", 3, np.float32)
     corners = _taken(mesh.loop_triangles, "loops", 3, np.int32)
     vertices = _taken(mesh.loop_triangles, "vertices", 3, np.int32)
     materials = _taken(mesh.loop_triangles, "material_index", 1, np.int32)
-    # Flat faces need no normals, smooth ones have those of their points.
-    domain = mesh.normals_domain
-    normals = _taken(mesh.vertex_normals, "vector", 3, np.float32) if domain == "POINT" else None
-    of_corners = _taken(mesh.corner_normals, "vector", 3, np.float32) if domain == "CORNER" else None
+    start, end = ends or (Geometry.of(mesh), None)
     layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
     coordinates = None if layer is None else _taken(layer.uv, "vector", 2, np.float32)
     for number in np.unique(materials):
         chosen = materials == number
-        if coordinates is None and of_corners is None:
-            used, indices = np.unique(vertices[chosen], return_inverse=True)
-            parameters: Parameters = {"point3 P": points[used], "integer indices": indices.reshape(-1, 3).astype(np.int32)}
-            if normals is not None:
-                parameters["normal3 N"] = normals[used]
+        if coordinates is None and start.corner_normals is None:
+            points, indices = np.unique(vertices[chosen], return_inverse=True)
+            loops = None
         else:
-            flat, loops = vertices[chosen].reshape(-1), corners[chosen].reshape(-1)
-            parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32).reshape(-1, 3)}
-            if normals is not None:
-                parameters["normal3 N"] = normals[flat]
-            elif of_corners is not None:
-                parameters["normal3 N"] = of_corners[loops]
-            if coordinates is not None:
-                parameters["point2 uv"] = coordinates[loops]
+            points, loops = vertices[chosen].reshape(-1), corners[chosen].reshape(-1)
+            indices = np.arange(len(points))
+        parameters: Parameters = {"integer indices": indices.reshape(-1, 3).astype(np.int32)}
+        parameters |= start.taken(("point3 P", "normal3 N"), points, loops)
+        if end is not None:
+            parameters |= end.taken(("point3 P1", "normal3 N1"), points, loops)
+        if coordinates is not None:
+            parameters["point2 uv"] = coordinates[loops]
         yield int(number), parameters
 
 

@@ -25,7 +25,7 @@ def load(
     max_depth: int | None = None,
     sampler: str | None = None,
 ) -> Scene:
-    """Load a pbrt-v4 scene file and all that it refers to.
+    """Load a scene file (pbrt-v4, or Mitsuba 3: `.xml`) and all that it refers to.
 
     Args:
         path: the scene file, plain or gzip.

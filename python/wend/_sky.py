@@ -6,10 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 
-def equal_area(latlong: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
-    """The square picture of a sphere that pbrt wants, of one by latitude and longitude, as OpenEXR has them: the
-    middle is +z, +x is to the left of it, +y on top."""
-    side = min(max(int(latlong.shape[0]), 16), 2048)
+def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """x, y and z of the pixels of a square picture of the sphere, as pbrt has them."""
     centre = (np.arange(side) + 0.5) / side * 2 - 1
     u, v = np.meshgrid(centre, centre)
     across, down = np.abs(u), np.abs(v)
@@ -18,7 +16,13 @@ def equal_area(latlong: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
     phi = (np.divide(down - across, r, out=np.ones_like(r), where=r > 0) + 1) * np.pi / 4
     z = np.copysign(1 - r**2, signed)
     ring = r * np.sqrt(np.maximum(2 - r**2, 0))
-    x, y = np.copysign(np.cos(phi), u) * ring, np.copysign(np.sin(phi), v) * ring
+    return np.copysign(np.cos(phi), u) * ring, np.copysign(np.sin(phi), v) * ring, z
+
+
+def equal_area(latlong: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+    """The square picture of a sphere that pbrt wants, of one by latitude and longitude, as OpenEXR has them: the
+    middle is +z, +x is to the left of it, +y on top."""
+    x, y, z = directions(min(max(int(latlong.shape[0]), 16), 2048))
     longitude, latitude = np.arctan2(x, z), np.arcsin(np.clip(y, -1, 1))
     height, width = latlong.shape[:2]
     column = (0.5 - longitude / (2 * np.pi)) * width - 0.5

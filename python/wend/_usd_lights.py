@@ -4,23 +4,29 @@ radiance times the light's area; of a distant light, the irradiance across its d
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from pxr import UsdLux  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
+from . import _ies
 from ._film import Film, read
-from ._sky import equal_area
+from ._scene_reader import Places
+from ._sky import directions, equal_area
 
 Matrix = npt.NDArray[np.float64]
+
+#: Of pictures of how lights are shaped.
+_SHAPED_SIDE = 512
 
 #: Half a turn around x, from -z to z.
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
-def add(reader: Any, prim: Any, world: Matrix) -> bool:
-    """Whether there is a light then."""
+def add(reader: Any, prim: Any, world: Places) -> bool:
+    """Whether there is a light then. `world` is where it is when the shutter opens and when it closes."""
     kinds = {
         "DistantLight": _distant,
         "DomeLight": _dome,
@@ -34,13 +40,64 @@ def add(reader: Any, prim: Any, world: Matrix) -> bool:
     if kind not in kinds:
         reader.warn(prim, f"a {kind} is left out")
         return False
-    if prim.HasAPI(UsdLux.ShapingAPI):
-        shaping = UsdLux.ShapingAPI(prim)
-        if shaping.GetShapingFocusAttr().Get(reader.time) or shaping.GetShapingIesFileAttr().Get(reader.time):
-            reader.warn(prim, "focus and IES profile of a light are left out")
+    if kind in ("DistantLight", "DomeLight", "DomeLight_1", "CylinderLight") and Shaping.of(reader, prim).is_any():
+        reader.warn(prim, "the shaping of a light that is neither a sphere, a rectangle nor a disk is left out")
     with reader.builder.block():
         kinds[kind](reader, prim, world)
     return True
+
+
+@dataclass
+class Shaping:
+    """What a light's shaping asks for."""
+
+    cone: float | None  #: degrees from the axis; None: everywhere
+    softness: float
+    focus: float
+    profile: str | None  #: a file of IES LM-63
+    angle_scale: float
+    is_normalised: bool
+
+    @staticmethod
+    def of(reader: Any, prim: Any) -> Shaping:
+        if not prim.HasAPI(UsdLux.ShapingAPI):
+            return Shaping(None, 0.0, 0.0, None, 0.0, False)
+        api, time = UsdLux.ShapingAPI(prim), reader.time
+        angle = float(api.GetShapingConeAngleAttr().Get(time))
+        file = api.GetShapingIesFileAttr().Get(time)
+        return Shaping(
+            angle if angle < 90 else None,
+            min(max(float(api.GetShapingConeSoftnessAttr().Get(time)), 0.0), 1.0),
+            max(float(api.GetShapingFocusAttr().Get(time)), 0.0),
+            (file.resolvedPath or file.path) if file and file.path else None,
+            float(api.GetShapingIesAngleScaleAttr().Get(time)),
+            bool(api.GetShapingIesNormalizeAttr().Get(time)),
+        )
+
+    def is_any(self) -> bool:
+        return self.cone is not None or self.needs_picture()
+
+    def needs_picture(self) -> bool:
+        """Whether a cone is not all."""
+        return self.focus > 0 or self.profile is not None
+
+    def factor(self, reader: Any, prim: Any, x: Matrix, y: Matrix, z: Matrix) -> Matrix:
+        """What the light is multiplied with in directions of its own space, whose axis is -z."""
+        off_axis = np.degrees(np.arccos(np.clip(-z, -1, 1)))
+        factor = np.abs(z) ** self.focus
+        if UsdLux.ShapingAPI(prim).GetShapingFocusTintAttr().Get(reader.time) != (0, 0, 0):
+            reader.warn(prim, "the tint of a light's focus is left out")
+        if self.profile is not None:
+            # The cone does not count then.
+            scale = self.angle_scale
+            vertical = off_axis / scale if scale > 0 else (off_axis - 180) / -scale + 180 if scale < 0 else off_axis
+            profile = _ies.read(self.profile)
+            return factor * profile.at(vertical, np.degrees(np.arctan2(y, x))) / (profile.mean() if self.is_normalised else 1.0)
+        if self.cone is None:
+            return factor
+        start = self.cone * (1 - self.softness)
+        t = np.clip((off_axis - start) / max(self.cone - start, 1e-6), 0, 1)
+        return factor * (1 - t * t * (3 - 2 * t))
 
 
 def emission(reader: Any, prim: Any) -> npt.NDArray[np.float64]:
@@ -68,29 +125,30 @@ def _value(reader: Any, prim: Any, name: str) -> float:
     return float(prim.GetAttribute(f"inputs:{name}").Get(reader.time))
 
 
-def _flip(reader: Any, world: Matrix) -> None:
-    """Their lights shine along -z; pbrt's shine along z."""
-    reader.builder.add("Transform", _TURNED @ world)
+def _stand(reader: Any, prim: Any, world: Places, turned: bool = False) -> None:
+    """Puts a light without a size. Their lights shine along -z; pbrt's, if turned, along z."""
+    if not np.allclose(world[0], world[1], rtol=1e-12, atol=0):
+        reader.warn(prim, "a light without a size stays where it is when the shutter opens")
+    reader.builder.add("Transform", _TURNED @ world[0] if turned else world[0])
 
 
-def _distant(reader: Any, prim: Any, world: Matrix) -> None:
+def _distant(reader: Any, prim: Any, world: Places) -> None:
     light = UsdLux.LightAPI(prim)
     half = math.radians(_value(reader, prim, "angle")) / 2
     irradiance = emission(reader, prim)
     if not light.GetNormalizeAttr().Get(reader.time) and half > 0:
         irradiance = irradiance * math.pi * math.sin(min(half, math.pi / 2)) ** 2
-    if half > math.radians(1):
-        reader.warn(prim, "a distant light is taken as a point in the sky: its shadows are hard")
-    _flip(reader, world)
-    reader.builder.add("LightSource", "distant", {"rgb L": irradiance, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)})
+    _stand(reader, prim, world, turned=True)
+    parameters: dict[str, Any] = {"rgb L": irradiance, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
+    reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(2 * half), 180.0)})
 
 
-def _dome(reader: Any, prim: Any, world: Matrix) -> None:
+def _dome(reader: Any, prim: Any, world: Places) -> None:
     radiance = emission(reader, prim)
     dome = UsdLux.DomeLight_1(prim) if str(prim.GetTypeName()) == "DomeLight_1" else UsdLux.DomeLight(prim)
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
-    reader.builder.add("Transform", world)
+    _stand(reader, prim, world)
     if not texture or not texture.path:
         reader.builder.add("LightSource", "infinite", {"rgb L": radiance})
         return
@@ -102,21 +160,19 @@ def _dome(reader: Any, prim: Any, world: Matrix) -> None:
     reader.builder.add("LightSource", "infinite", {"string filename": file})
 
 
-def _sphere(reader: Any, prim: Any, world: Matrix) -> None:
+def _sphere(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
-    scale = _scales(world)
+    scale = _scales(world[0])
     area = 4 * math.pi * radius**2 * float(np.cbrt(np.prod(scale))) ** 2
-    as_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
     radiance = _radiance(reader, prim, area)
-    cone, softness = _cone(reader, prim)
-    if as_point or cone is not None:
-        # From afar a sphere has this intensity. A cone makes a spot of it.
-        intensity = radiance * (area / 4)
-        if cone is None:
-            reader.builder.add("Transform", world)
-            reader.builder.add("LightSource", "point", {"rgb I": intensity})
-            return
-        _flip(reader, world)
+    shaping = Shaping.of(reader, prim)
+    as_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
+    # From afar a sphere has this intensity.
+    intensity = radiance * (area / 4)
+    if shaping.needs_picture():
+        _throw(reader, prim, world, shaping, intensity, is_flat=False)
+    elif shaping.cone is not None:
+        _stand(reader, prim, world, turned=True)
         reader.builder.add(
             "LightSource",
             "spot",
@@ -124,62 +180,91 @@ def _sphere(reader: Any, prim: Any, world: Matrix) -> None:
                 "rgb I": intensity,
                 "point3 from": (0, 0, 0),
                 "point3 to": (0, 0, 1),
-                "float coneangle": cone,
-                "float conedeltaangle": cone * softness,
+                "float coneangle": shaping.cone,
+                "float conedeltaangle": shaping.cone * shaping.softness,
             },
         )
+    elif as_point:
+        _stand(reader, prim, world)
+        reader.builder.add("LightSource", "point", {"rgb I": intensity})
+    else:
+        _shine(reader, world, {"rgb L": radiance}, "sphere", {"float radius": radius})
+
+
+def _throw(
+    reader: Any, prim: Any, world: Places, shaping: Shaping, intensity: npt.NDArray[np.float64], is_flat: bool
+) -> None:
+    """A light as a point whose intensity is shaped by direction; on its axis it is what is given. `is_flat`: it shines
+    forwards alone, by the cosine."""
+    reader.warn(prim, "a light that is shaped is taken as a point: its shadows are hard")
+    # pbrt's pole is y.
+    x, z, y = directions(_SHAPED_SIDE)
+    factor = shaping.factor(reader, prim, x, y, z) * (np.maximum(-z, 0) if is_flat else 1.0)
+    if factor.max() <= 0:
         return
-    _shine(reader, prim, world, radiance, "sphere", {"float radius": radius})
-
-
-def _cone(reader: Any, prim: Any) -> tuple[float | None, float]:
-    if not prim.HasAPI(UsdLux.ShapingAPI):
-        return None, 0.0
-    shaping = UsdLux.ShapingAPI(prim)
-    angle = float(shaping.GetShapingConeAngleAttr().Get(reader.time))
-    softness = float(shaping.GetShapingConeSoftnessAttr().Get(reader.time))
-    return (angle if angle < 90 else None), min(max(softness, 0.0), 1.0)
+    file = reader.map_file(f"shape{len(reader.builder)}.exr")
+    picture = np.repeat((factor / factor.max()).astype(np.float32)[:, :, None], 3, axis=2)
+    Film.of(picture).save(file)
+    _stand(reader, prim, world)
+    reader.builder.add("LightSource", "goniometric", {"rgb I": intensity * factor.max(), "string filename": file})
 
 
 def _scales(world: Matrix) -> npt.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(world[:3, :3], axis=1), dtype=np.float64)
 
 
-def _shine(
-    reader: Any, prim: Any, world: Matrix, radiance: npt.NDArray[np.float64], kind: str, parameters: dict[str, Any]
-) -> None:
-    if prim.GetTypeName() != "SphereLight" and _cone(reader, prim)[0] is not None:
-        reader.warn(prim, "the cone of a light that is not a sphere is left out")
-    reader.builder.add("Transform", world)
-    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance})
+def _shine(reader: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]) -> None:
+    reader.put(world)
+    reader.builder.add("AreaLightSource", "diffuse", light)
     # Lights reflect nothing.
     reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
     reader.builder.add("Shape", kind, parameters)
 
 
-def _rect(reader: Any, prim: Any, world: Matrix) -> None:
+def _rect(reader: Any, prim: Any, world: Places) -> None:
     x, y = _value(reader, prim, "width") / 2, _value(reader, prim, "height") / 2
-    across, up = world[0, :3] * 2 * x, world[1, :3] * 2 * y
-    if UsdLux.RectLight(prim).GetTextureFileAttr().Get(reader.time):
-        reader.warn(prim, "the picture of a rectangular light is left out")
-    radiance = _radiance(reader, prim, float(np.linalg.norm(np.cross(across, up))))
+    across, up = world[0, 0, :3] * 2 * x, world[0, 1, :3] * 2 * y
+    area = float(np.linalg.norm(np.cross(across, up)))
+    radiance = _radiance(reader, prim, area)
+    texture = UsdLux.RectLight(prim).GetTextureFileAttr().Get(reader.time)
     # Seen from -z, where it shines, the corners go around against the clock.
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
-    _shine(reader, prim, world, radiance, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
+    parameters = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
+    picture = read(texture.resolvedPath or texture.path).image if texture and texture.path else None
+    if _is_thrown(reader, prim, world, radiance * area * (1 if picture is None else picture.mean(axis=(0, 1)))):
+        if picture is not None:
+            reader.warn(prim, "of the picture of a light that is shaped the mean is taken")
+    elif picture is None:
+        _shine(reader, world, {"rgb L": radiance}, "trianglemesh", parameters)
+    else:
+        file = reader.map_file(f"rect{len(reader.builder)}.exr")
+        Film.of(picture * radiance.astype(np.float32)).save(file)
+        # Upright and unmirrored for who looks at it: its left is at +x.
+        coordinates = [[1, 0], [1, 1], [0, 1], [0, 0]]
+        _shine(reader, world, {"string filename": file}, "trianglemesh", parameters | {"point2 uv": coordinates})
 
 
-def _disk(reader: Any, prim: Any, world: Matrix) -> None:
+def _is_thrown(reader: Any, prim: Any, world: Places, intensity: npt.NDArray[np.float64]) -> bool:
+    """Whether a flat light is shaped, and then it is there."""
+    shaping = Shaping.of(reader, prim)
+    if shaping.is_any():
+        _throw(reader, prim, world, shaping, intensity, is_flat=True)
+    return shaping.is_any()
+
+
+def _disk(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
-    area = math.pi * radius**2 * float(np.linalg.norm(np.cross(world[0, :3], world[1, :3])))
+    area = math.pi * radius**2 * float(np.linalg.norm(np.cross(world[0, 0, :3], world[0, 1, :3])))
     radiance = _radiance(reader, prim, area)
-    _shine(reader, prim, _TURNED @ world, radiance, "disk", {"float radius": radius})
+    if not _is_thrown(reader, prim, world, radiance * area):
+        _shine(reader, _TURNED @ world, {"rgb L": radiance}, "disk", {"float radius": radius})
 
 
-def _cylinder(reader: Any, prim: Any, world: Matrix) -> None:
+def _cylinder(reader: Any, prim: Any, world: Places) -> None:
     radius, length = _value(reader, prim, "radius"), _value(reader, prim, "length")
-    x, y, z = _scales(world)
+    x, y, z = _scales(world[0])
     radiance = _radiance(reader, prim, 2 * math.pi * radius * math.sqrt(y * z) * length * x)
     # Theirs is along x, pbrt's along z.
     turn = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1.0]])
     parameters = {"float radius": radius, "float zmin": -length / 2, "float zmax": length / 2}
-    _shine(reader, prim, turn @ world, radiance, "cylinder", parameters)
+    _shine(reader, turn @ world, {"rgb L": radiance}, "cylinder", parameters)

@@ -9,14 +9,18 @@ import numpy as np
 import numpy.typing as npt
 from pxr import UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
+from . import _usd_subdivision as subdivision
+
 Parameters = dict[str, Any]
 
 
-def mesh_parts(reader: Any, prim: Any) -> Iterator[tuple[Any, tuple[str, Parameters]]]:
-    """The mesh, in the parts that materials are bound to: what is bound to, and the shape."""
+def mesh_parts(
+    reader: Any, prim: Any, world: npt.NDArray[np.float64], in_object: bool
+) -> Iterator[tuple[Any, tuple[str, Parameters]]]:
+    """The mesh, in the parts that materials are bound to: what is bound to, and the shape. `world` is where it is."""
     mesh = UsdGeom.Mesh(prim)
     time = reader.time
-    points = np.array(mesh.GetPointsAttr().Get(time) or [], dtype=np.float32).reshape(-1, 3)
+    points, end_points = _points(reader, prim)
     counts = np.array(mesh.GetFaceVertexCountsAttr().Get(time) or [], dtype=np.int64)
     corners = np.array(mesh.GetFaceVertexIndicesAttr().Get(time) or [], dtype=np.int64)
     if not len(counts):
@@ -25,28 +29,70 @@ def mesh_parts(reader: Any, prim: Any) -> Iterator[tuple[Any, tuple[str, Paramet
         reader.warn(prim, "a mesh whose faces are not of its points is left out")
         return
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
+    is_left_handed = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
+    values = _values(reader, prim, counts, corners, len(points), end_points is not None)
+    parts = _parts(mesh, time, len(counts))
     if scheme != UsdGeom.Tokens.none:
-        reader.warn(prim, f"a {scheme} surface is taken as its control mesh, with smooth normals")
-    triangles, faces = _triangulate(counts)
-    if mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded:
+        faces = subdivision.Faces(counts, corners, scheme, is_left_handed)
+        surface = subdivision.surface(reader, prim, points, faces, values.get("point2 uv"), world, in_object)
+        if surface is not None:
+            if end_points is not None:
+                surface["point3 P1"] = end_points
+            for bound, chosen in parts:
+                holes = np.flatnonzero(~chosen[faces.of_face]).astype(np.int32)
+                if len(holes) < len(faces.of_face):
+                    yield bound, ("subdivision", surface | ({"integer holeIndices": holes} if len(holes) else {}))
+            return
+    triangles, of_triangle = _triangulate(counts)
+    if is_left_handed:
         triangles = triangles[:, ::-1]
-    keep = np.ones(len(counts), dtype=bool)
-    keep[np.array(mesh.GetHoleIndicesAttr().Get(time) or [], dtype=np.int64)] = False
-
-    values = {}
-    normals = _normals(mesh, time) if scheme == UsdGeom.Tokens.none else None
-    if normals is not None:
-        values["normal3 N"] = normals
-    elif scheme != UsdGeom.Tokens.none:
+    if scheme != UsdGeom.Tokens.none:
         values["normal3 N"] = (_smooth_normals(points, corners[triangles]), UsdGeom.Tokens.vertex)
-    coordinates = _coordinates(prim, time)
+        if end_points is not None:
+            values["normal3 N1"] = (_smooth_normals(end_points, corners[triangles]), UsdGeom.Tokens.vertex)
+    if end_points is not None:
+        values["point3 P1"] = (end_points, UsdGeom.Tokens.vertex)
+    for bound, chosen in parts:
+        selected = chosen[of_triangle]
+        if selected.any():
+            yield bound, ("trianglemesh", _mesh(points, corners, triangles[selected], of_triangle[selected], values))
+
+
+def _points(reader: Any, prim: Any) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32] | None]:
+    """Where the shutter opens, and where it closes if they move."""
+    based = UsdGeom.PointBased(prim)
+
+    def at(time: Any) -> npt.NDArray[np.float32]:
+        still = time == reader.time
+        found = based.GetPointsAttr().Get(time) if still else based.ComputePointsAtTime(time, reader.time)
+        return np.array(found or [], dtype=np.float32).reshape(-1, 3)
+
+    # Of as many as there are at the time, by their velocities if they have any.
+    start, end = (at(time) for time in reader.shutter)
+    return start, None if np.array_equal(start, end) else end
+
+
+def _values(
+    reader: Any, prim: Any, counts: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], points: int, moves: bool
+) -> dict[str, tuple[npt.NDArray[np.float32], str]]:
+    """Normals and texture coordinates, with their interpolation. Subdivision surfaces have their own normals."""
+    mesh = UsdGeom.Mesh(prim)
+    values = {}
+    if mesh.GetSubdivisionSchemeAttr().Get(reader.time) == UsdGeom.Tokens.none:
+        normals = _normals(mesh, reader.shutter[0])
+        if normals is not None:
+            values["normal3 N"] = normals
+            end_normals = _normals(mesh, reader.shutter[1])
+            if moves and end_normals is not None:
+                values["normal3 N1"] = end_normals
+    coordinates = _coordinates(prim, reader.time)
     if coordinates is not None:
         values["point2 uv"] = coordinates
     sizes = {
         UsdGeom.Tokens.constant: 1,
         UsdGeom.Tokens.uniform: len(counts),
-        UsdGeom.Tokens.vertex: len(points),
-        UsdGeom.Tokens.varying: len(points),
+        UsdGeom.Tokens.vertex: points,
+        UsdGeom.Tokens.varying: points,
         UsdGeom.Tokens.faceVarying: len(corners),
     }
     for name in list(values):
@@ -54,21 +100,27 @@ def mesh_parts(reader: Any, prim: Any) -> Iterator[tuple[Any, tuple[str, Paramet
         if sizes.get(kind) != len(array):
             reader.warn(prim, f"{name.split()[1]} of another number than the mesh has are left out")
             del values[name]
+    if moves and ("normal3 N" in values) != ("normal3 N1" in values):
+        # They belong together.
+        values.pop("normal3 N", None)
+        values.pop("normal3 N1", None)
+    return values
 
-    subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
+
+def _parts(mesh: Any, time: Any, count: int) -> list[tuple[Any, npt.NDArray[np.bool_]]]:
+    """What materials are bound to, and its faces; holes belong to nothing."""
+    rest = np.ones(count, dtype=bool)
+    holes = np.array(mesh.GetHoleIndicesAttr().Get(time) or [], dtype=np.int64)
+    rest[holes[(holes >= 0) & (holes < count)]] = False
     parts = []
-    rest = keep.copy()
-    for subset in subsets:
-        chosen = np.zeros(len(counts), dtype=bool)
+    keep = rest.copy()
+    for subset in UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind"):
+        chosen = np.zeros(count, dtype=bool)
         indices = np.array(subset.GetIndicesAttr().Get(time) or [], dtype=np.int64)
-        chosen[indices[(indices >= 0) & (indices < len(counts))]] = True
+        chosen[indices[(indices >= 0) & (indices < count)]] = True
         parts.append((subset.GetPrim(), chosen & keep))
         rest &= ~chosen
-    parts.append((prim, rest))
-    for bound, chosen in parts:
-        selected = chosen[faces]
-        if selected.any():
-            yield bound, ("trianglemesh", _mesh(points, corners, triangles[selected], faces[selected], values))
+    return [*parts, (mesh.GetPrim(), rest)]
 
 
 def _mesh(

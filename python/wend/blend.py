@@ -30,7 +30,7 @@ from ._blend_camera import add_view
 from ._blend_materials import look_of, volume_parameters
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
-from ._blend_shapes import box_of, hair_segments, mesh_parts, strands
+from ._blend_shapes import Geometry, box_of, hair_segments, mesh_parts, strands
 from ._blend_world import add_world, add_world_volume
 
 #: Kinds of objects that have a surface once they are evaluated.
@@ -142,6 +142,8 @@ class _Reader(SceneReader):
         self.around: str | None = None  #: the medium of the world
         self.has_light = False
         self._objects: dict[str, str] = {}
+        #: of the object at hand, where it changes its shape
+        self.shapes: tuple[Geometry, Geometry] | None = None
 
     def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> SceneBuilder:
         add = self.builder.add
@@ -158,8 +160,7 @@ class _Reader(SceneReader):
             if shown:
                 object_ = instance.object
                 place = motion.places(instance)
-                if motion.is_on and object_.original.is_deform_modified(self.scene, "RENDER"):
-                    self.tell(f"object '{object_.name}'", "what deforms while the shutter is open is taken as it is at the frame")
+                self.shapes = motion.shapes(object_)
                 self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
@@ -217,10 +218,14 @@ class _Reader(SceneReader):
         mesh = object_.to_mesh()
         if mesh is None:
             return
+        ends = self.shapes
+        if ends is not None and not all(end.goes_with(Geometry.of(mesh)) for end in ends):
+            self.tell(f"object '{name}'", "what changes its number of points while the shutter is open is as at the frame")
+            ends = None
         try:
             parts = [
                 (look_of(self, materials[min(number, len(materials) - 1)] if materials else None), parameters)
-                for number, parameters in mesh_parts(mesh)
+                for number, parameters in mesh_parts(mesh, ends)
             ]
         finally:
             object_.to_mesh_clear()

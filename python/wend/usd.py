@@ -11,10 +11,12 @@ import math
 import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from . import _wend
 from ._builder import SceneBuilder
 from ._errors import InputError
 from ._scene_reader import Places, SceneReader
@@ -28,6 +30,7 @@ from . import _reader_command as command
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
+from ._usd_subdivision import Refinement, View
 
 
 def read(
@@ -38,6 +41,7 @@ def read(
     resolution: tuple[int, int] = (640, 360),
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
+    subdivision: int | None = None,
 ) -> SceneBuilder:
     """A stage as it is composed, in the terms of the renderer.
 
@@ -49,6 +53,8 @@ def read(
             sides, of its aperture.
         spp: samples per pixel.
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
+        subdivision: how often edges of subdivision surfaces are halved; None: until they are two pixels long where the
+            surface is nearest, 1 to 6 times, and 2 times for what is copied.
 
     Raises:
         InputError: for a file that is no stage, or a camera that is not in it.
@@ -62,18 +68,36 @@ def read(
         raise InputError(f"{os.fspath(path)}: error: {_reason(error)}") from None
     if time is None and stage.HasAuthoredTimeCodeRange():
         time = stage.GetStartTimeCode()
-    return _Reader(stage, os.fspath(path), Usd.TimeCode.Default() if time is None else Usd.TimeCode(time), maps).read(
-        camera, resolution, spp
-    )
+    when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
+    return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp)
+
+
+#: Instances within instances multiply.
+_MOST_NESTED = 2**20
+
+
+@dataclass
+class Prototype:
+    """What an instancer copies: an object, and what it copies itself, with where to."""
+
+    name: str | None  #: None: it has no shapes of its own
+    inner: list[tuple[Prototype, Places]]
+    is_made: bool
 
 
 class _Reader(SceneReader):
-    def __init__(self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None) -> None:
+    def __init__(
+        self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None, refinement: Refinement
+    ) -> None:
         super().__init__(file, maps)
+        self.refinement = refinement
         self.stage = stage
         self.time = time
+        #: when the shutter opens and when it closes; the time twice where nothing is blurred
+        self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
-        self.objects: set[str] = set()
+        self.prototypes: dict[str, Prototype] = {}
+        self.nested = 0
         self.has_light = False
 
     def warn(self, prim: Any, text: str) -> None:
@@ -115,9 +139,9 @@ class _Reader(SceneReader):
             if in_object:
                 self.warn(prim, "a light that is copied by an instancer is left out")
             else:
-                self.has_light = lights.add(self, prim, world[0]) or self.has_light
+                self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
-            for part, faces in mesh_parts(self, prim):
+            for part, faces in mesh_parts(self, prim, world[0], in_object):
                 self.add_shape(prim, part, world, faces, in_object)
         elif prim.IsA(UsdGeom.BasisCurves):
             for segment in curve_segments(self, prim):
@@ -128,10 +152,7 @@ class _Reader(SceneReader):
         elif prim.IsA(UsdVol.Volume):
             self.add_volume(prim, world, in_object)
         elif prim.IsA(UsdGeom.PointInstancer):
-            if in_object:
-                self.warn(prim, "an instancer inside what an instancer copies is left out")
-            else:
-                self.add_instances(prim, world)
+            self.add_instances(prim, world)
         elif prim.IsA(UsdGeom.Gprim):
             mesh = primitive_mesh(prim, self.time)
             if mesh is None:
@@ -159,28 +180,58 @@ class _Reader(SceneReader):
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
     def add_instances(self, prim: Any, world: Places) -> None:
+        for prototype, places in self.instances(prim, world):
+            self.place(prim, prototype, places)
+
+    def instances(self, prim: Any, world: Places) -> Iterator[tuple[Prototype, Places]]:
+        """What an instancer copies, and where to."""
         instancer = UsdGeom.PointInstancer(prim)
-        names = []
-        for target in instancer.GetPrototypesRel().GetForwardedTargets():
-            key = str(target)
-            if key not in self.objects:
-                self.objects.add(key)
-                root = self.stage.GetPrimAtPath(target)
-                from_root = np.linalg.inv(self.world(root))
-                with self.builder.block("Object", key):
-                    for part in self.prims(root):
-                        self.add_prim(part, self.world(part) @ from_root, in_object=True)
-            names.append(key)
+        prototypes = [self.prototype(target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
-        places = instancer.ComputeInstanceTransformsAtTime(self.time, self.time)
+        start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
-        for i, place in zip(shown, places):
-            if not 0 <= indices[i] < len(names):
-                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(names)}")
+        for i, places in zip(shown, zip(start, end)):
+            if not 0 <= indices[i] < len(prototypes):
+                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(prototypes)}")
+            yield prototypes[indices[i]], np.array(places) @ world
+
+    def prototype(self, path: Any) -> Prototype:
+        """Made once. Of one that is within itself nothing is there."""
+        key = str(path)
+        if key in self.prototypes:
+            if not self.prototypes[key].is_made:
+                self.warn(self.stage.GetPrimAtPath(path), "what copies itself is left out")
+                return Prototype(None, [], True)
+            return self.prototypes[key]
+        made = self.prototypes[key] = Prototype(None, [], False)
+        root = self.stage.GetPrimAtPath(path)
+        from_root = np.linalg.inv(self.world(root))
+        parts = list(self.prims(root))
+        # An object holds no instances: what an instancer within copies is placed where all of it is.
+        for part in parts:
+            if part.IsA(UsdGeom.PointInstancer):
+                made.inner += self.instances(part, self.world(part) @ from_root)
+        empty = len(self.builder) + 2
+        with self.builder.block("Object", key):
+            for part in parts:
+                if not part.IsA(UsdGeom.PointInstancer):
+                    self.add_prim(part, self.world(part) @ from_root, in_object=True)
+        made.name = key if len(self.builder) > empty else None
+        made.is_made = True
+        return made
+
+    def place(self, prim: Any, prototype: Prototype, places: Places) -> None:
+        if prototype.name is not None:
             with self.builder.block():
-                self.put(np.array(place) @ world)
-                self.builder.add("ObjectInstance", names[indices[i]])
+                self.put(places)
+                self.builder.add("ObjectInstance", prototype.name)
+        for inner, within in prototype.inner:
+            self.nested += 1
+            if self.nested > _MOST_NESTED:
+                self.warn(prim, f"of instances within instances no more than {_MOST_NESTED} are there")
+                return
+            self.place(prim, inner, within @ places)
 
     def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
@@ -190,10 +241,12 @@ class _Reader(SceneReader):
             return
         asset = UsdVol.OpenVDBAsset(field)
         path = asset.GetFilePathAttr().Get(self.time)
-        extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time)
-        if not path or not extent:
-            self.warn(prim, "a volume without a file or an extent is left out")
+        if not path:
+            self.warn(prim, "a volume without a file is left out")
             return
+        file = path.resolvedPath or path.path
+        grid = asset.GetFieldNameAttr().Get(self.time) or "density"
+        extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
         colour = materials.display_colour(prim, self.time)
         name = str(prim.GetPath())
         with self.builder.block():
@@ -203,8 +256,8 @@ class _Reader(SceneReader):
                 name,
                 {
                     "string type": "nanovdb",
-                    "string filename": path.resolvedPath or path.path,
-                    "string gridname": asset.GetFieldNameAttr().Get(self.time) or "density",
+                    "string filename": file,
+                    "string gridname": grid,
                     "rgb sigma_s": colour,
                     "rgb sigma_a": np.maximum(1 - np.asarray(colour), 0),
                 },
@@ -227,13 +280,14 @@ class _Reader(SceneReader):
         aspect = resolution[0] / resolution[1]
         if prim is None:
             self.warn(self.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
-            self.view_of_all(aspect)
+            self.view_of_all(resolution)
             return
         camera = UsdGeom.Camera(prim)
         lens = camera.GetCamera(self.time)
         shutter = [camera.GetShutterOpenAttr().Get(self.time), camera.GetShutterCloseAttr().Get(self.time)]
         if shutter[0] < shutter[1] and not self.time.IsDefault():
-            self.transforms = [UsdGeom.XformCache(self.time.GetValue() + offset) for offset in shutter]
+            self.shutter = [Usd.TimeCode(self.time.GetValue() + offset) for offset in shutter]
+            self.transforms = [UsdGeom.XformCache(time) for time in self.shutter]
         # A tenth of a scene unit, which is a millimetre where that is a centimetre.
         width, height = lens.horizontalAperture, lens.verticalAperture
         shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
@@ -244,8 +298,12 @@ class _Reader(SceneReader):
             height = width / aspect
         window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
         # A camera of USD looks along its -z.
-        self.put(np.asarray(np.linalg.inv(np.diag([1, 1, -1, 1]) @ self.world(prim)), dtype=np.float64))
-        if lens.projection == Gf.Camera.Orthographic:
+        places = self.world(prim)
+        self.put(np.asarray(np.linalg.inv(np.diag([1, 1, -1, 1]) @ places), dtype=np.float64))
+        is_parallel = lens.projection == Gf.Camera.Orthographic
+        pixel = width / (10 if is_parallel else lens.focalLength) / resolution[0]
+        self.refinement.view = View(places[0, 3, :3], pixel, is_parallel)
+        if is_parallel:
             self.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
             return
         parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
@@ -254,7 +312,8 @@ class _Reader(SceneReader):
             parameters["float focaldistance"] = lens.focusDistance
         self.builder.add("Camera", "perspective", parameters)
 
-    def view_of_all(self, aspect: float) -> None:
+    def view_of_all(self, resolution: tuple[int, int]) -> None:
+        aspect = resolution[0] / resolution[1]
         bounds = UsdGeom.BBoxCache(self.time, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
         box = bounds.ComputeWorldBound(self.stage.GetPseudoRoot()).ComputeAlignedRange()
         middle = np.zeros(3) if box.IsEmpty() else np.array(box.GetMidpoint())
@@ -263,6 +322,7 @@ class _Reader(SceneReader):
         forwards = np.array([0, 1.0, 0]) if upwards[2] else np.array([0, 0, -1.0])
         fov = 40.0
         eye = middle + (0.35 * upwards - forwards) * radius / math.sin(math.radians(fov / 2)) / min(aspect, 1)
+        self.refinement.view = View(eye, 2 * math.tan(math.radians(fov / 2)) / min(resolution))
         # The camera's own axes are of the other hand, as pbrt's are.
         self.builder.add("Scale", -1, 1, 1)
         self.builder.add("LookAt", eye, middle, upwards)
@@ -282,6 +342,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--frame", type=float, help="time code (default: the first, or the default values)")
     parser.add_argument("--camera", metavar="PRIM", help="path of the camera (default: the first)")
     parser.add_argument("--resolution", default="640x360", metavar="WxH")
+    parser.add_argument(
+        "--subdivision", type=int, metavar="N", help="halve edges of subdivision surfaces N times (default: to two pixels)"
+    )
     command.add_options(parser)
     options = command.parsed(parser, arguments)
 
@@ -293,6 +356,7 @@ def main(arguments: list[str] | None = None) -> int:
             resolution=command.size_of(options.resolution),
             spp=options.spp,
             maps=command.maps_of(options.output),
+            subdivision=options.subdivision,
         )
         command.deliver(builder, options, options.output, options.render)
 

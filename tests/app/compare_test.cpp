@@ -1,12 +1,14 @@
 // wend compare: what it judges by, what it shows.
 #include "program_support.h"
 
+#include <wend/core/colour.h>
 #include <wend/io/image_file.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -42,6 +44,12 @@ TEST_F(Compare, RendersAReferenceWhereThereIsNoneAndKeepsIt) {
     ASSERT_EQ(second.status, 0) << second.err;
     EXPECT_EQ(second.err.find("two halves"), std::string::npos) << second.err;
     EXPECT_TRUE(second.json()["rows"][0]["relmse"].is_number());
+
+    const auto of_folder = compare({"--sampling", "classical", "--reference", folder_.file("report")});
+    EXPECT_EQ(of_folder.json()["reference"]["files"], second.json()["reference"]["files"]);
+    std::filesystem::create_directory(folder_.path() / "report" / "room");
+    const auto still = compare({"--sampling", "classical", "--reference", folder_.file("report/room")});
+    EXPECT_EQ(still.json()["reference"]["files"], second.json()["reference"]["files"]) << "the pair before the folder";
 }
 
 TEST_F(Compare, LeavesNoReferenceWhereThereIsNoFolder) {
@@ -141,6 +149,184 @@ TEST_F(Compare, ShowsWhatWalksDid) {
             EXPECT_GE(*least, 1);
         }
     }
+}
+
+TEST_F(Compare, HasEveryRunAndEveryPictureOnItsWay) {
+    const auto result = compare({"--sampling", "classical,full", "--reference-spp", "8"}, "3");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = result.json();
+    ASSERT_EQ(json["rows"].size(), 2u);
+    for (const auto& row : json["rows"]) {
+        EXPECT_EQ(row["scene"], scene_);
+        ASSERT_EQ(row["runs"].size(), 3u);
+        double sum = 0;
+        for (const auto& run : row["runs"]) {
+            sum += run["relmse"].get<double>();
+            ASSERT_GE(run["points"].size(), 1u);
+            double samples = 0, work = 0;
+            for (const auto& point : run["points"]) {
+                EXPECT_GE(point["spp"], samples);
+                EXPECT_GT(point["work"], work) << "every pass walks";
+                EXPECT_TRUE(point["relmse_trimmed"].is_number());
+                samples = point["spp"];
+                work = point["work"];
+            }
+            EXPECT_EQ(run["points"].back()["relmse"], run["relmse"]);
+            EXPECT_EQ(run["points"].back()["seconds"], run["seconds"]);
+            EXPECT_EQ(work, run["work"]);
+        }
+        const auto& spread = row["spread"]["relmse"];
+        EXPECT_EQ(spread["count"], 3);
+        EXPECT_EQ(spread["median"], row["relmse"]) << "of three runs the median is one of them";
+        EXPECT_LT(spread["min"], spread["max"]);
+        EXPECT_NEAR(spread["mean"].get<double>(), sum / 3, 1e-9 * sum);
+        EXPECT_GT(spread["std_error"], 0);
+        EXPECT_NE(row["runs"][0]["seed"], row["runs"][1]["seed"]);
+    }
+    EXPECT_EQ(json["rows"][0]["spread"]["ratio"]["max"], 1) << "classical against itself";
+}
+
+TEST_F(Compare, ErrorsOfPixelsAreMeansOverTheRuns) {
+    const auto result = compare({"--sampling", "classical", "--out", folder_.file("report")}, "2");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Picture errors = read_picture(folder_.file("report/classical-error.exr"));
+    ASSERT_EQ(errors.layers.size(), 3u);
+    const auto runs = result.json()["rows"][0]["runs"];
+    const auto mean = [&](const std::string& name) {
+        const Layer& layer = *std::find_if(errors.layers.begin(), errors.layers.end(),
+                                           [&](const Layer& one) { return one.name == name; });
+        return std::accumulate(layer.values.begin(), layer.values.end(), 0.0) /
+               static_cast<double>(layer.values.size());
+    };
+    const auto mean_of_runs = [&](const char* key) {
+        return (runs[0][key].get<double>() + runs[1][key].get<double>()) / 2;
+    };
+    EXPECT_NEAR(mean("relative_squared"), mean_of_runs("relmse"), 1e-5 * mean_of_runs("relmse"));
+    EXPECT_NEAR(mean("relative"), mean_of_runs("mape"), 1e-5 * mean_of_runs("mape"));
+    double squared = 0;
+    for (const Rgb& pixel : errors.image.pixels) {
+        squared += static_cast<double>(mean_value(pixel)) / static_cast<double>(errors.image.pixels.size());
+    }
+    EXPECT_NEAR(squared, mean_of_runs("mse"), 1e-5 * mean_of_runs("mse"));
+    EXPECT_EQ(errors.metadata.at("wend:renders"), "2");
+}
+
+TEST_F(Compare, SaysHowItsReferenceWasRenderedAndHowNoisyItIs) {
+    for (const char* half : {"a", "b"}) {
+        ASSERT_EQ(run_wend({"render", scene_, "-o", folder_.file(std::string("room.ref-") + half + ".exr"), "--spp",
+                            "1", "--seed", half[0] == 'a' ? "1" : "2"})
+                      .status,
+                  0);
+    }
+    const auto read = compare({"--sampling", "classical"}).json()["reference"];
+    EXPECT_EQ(read["source"], "files");
+    EXPECT_EQ(read["files"].size(), 2u);
+    EXPECT_TRUE(read["halves"].empty());
+    const auto rendered =
+        compare({"--sampling", "classical", "--reference", "render", "--reference-spp", "64"}).json()["reference"];
+    EXPECT_EQ(rendered["source"], "rendered") << "although there is a pair beside the scene";
+    ASSERT_EQ(rendered["halves"].size(), 2u);
+    EXPECT_EQ(rendered["halves"][0]["spp"], 64);
+    EXPECT_LT(rendered["noise"].get<double>(), read["noise"].get<double>() / 4) << "64 samples against one";
+
+    const auto one = compare({"--sampling", "classical", "--reference", folder_.file("room.ref-a.exr")});
+    EXPECT_TRUE(one.json()["reference"]["noise"].is_null()) << "one picture does not know its noise";
+    const auto both = compare({"--reference", folder_.file("room"), "--reference-time", "0.1"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_NE(both.err.find("is rendered, and --reference"), std::string::npos) << both.err;
+}
+
+TEST_F(Compare, TakesAnyResolutionAndRefusesAReferenceOfAnother) {
+    for (const char* half : {"a", "b"}) {
+        ASSERT_EQ(run_wend({"render", scene_, "-o", folder_.file(std::string("room.ref-") + half + ".exr"), "--spp",
+                            "1", "--seed", half[0] == 'a' ? "1" : "2"})
+                      .status,
+                  0);
+    }
+    const auto beside = compare({"--sampling", "classical", "--resolution", "7x5"});
+    EXPECT_EQ(beside.status, 2);
+    EXPECT_NE(beside.err.find("room.ref-a.exr has 16 x 12 pixels, the picture 7 x 5: choose --resolution 16x12"),
+              std::string::npos)
+        << beside.err;
+    const auto rendered =
+        compare({"--sampling", "classical", "--resolution", "7x5", "--reference", "render", "--reference-spp", "8"});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(rendered.json()["reference"]["resolution"], (nlohmann::json{7, 5}));
+    const auto asked = compare({"--sampling", "classical", "--resolution", "7x5", "--reference", folder_.file("room")});
+    EXPECT_EQ(asked.status, 2);
+    EXPECT_NE(asked.err.find("16 x 12 pixels, the picture 7 x 5: choose --resolution 16x12"), std::string::npos)
+        << asked.err;
+    ASSERT_EQ(
+        run_wend({"render", scene_, "-o", folder_.file("room.ref-b.exr"), "--spp", "1", "--resolution", "8x8"}).status,
+        0);
+    const auto halves = compare({"--sampling", "classical", "--reference", folder_.file("room")});
+    EXPECT_EQ(halves.status, 2);
+    EXPECT_NE(halves.err.find("room.ref-b.exr: error: has 8 x 8 pixels"), std::string::npos) << halves.err;
+}
+
+class CompareScenes : public Compare {
+protected:
+    CompareScenes() : second_(folder_.write("hall.pbrt", test::small_scene())) {}
+
+    test::ProgramResult compare_all(std::vector<std::string> more) const {
+        more.insert(more.begin(), {"compare", scene_, second_, "--time", "0.02", "--seeds", "2", "--sampling",
+                                   "classical,full", "--reference-spp", "8"});
+        return run_wend(more);
+    }
+
+    std::string second_;
+};
+
+TEST_F(CompareScenes, MakesOneReportOfAll) {
+    const auto result = compare_all({"--report", folder_.file("report"), "--json", folder_.file("all.json")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("gain over classical"), std::string::npos) << result.out;
+    const auto json = nlohmann::json::parse(test::read_text(folder_.file("all.json")));
+    EXPECT_EQ(json["rows"].size(), 4u);
+    EXPECT_EQ(json["scenes"].size(), 2u);
+    ASSERT_EQ(json["gains"].size(), 1u);
+    EXPECT_EQ(json["gains"][0]["scenes"].size() + json["gains"][0]["unknown"].size(), 2u);
+    EXPECT_EQ(nlohmann::json::parse(test::read_text(folder_.file("report/comparison.json"))), json);
+    for (const char* name : {"report/index.html", "report/room/index.html", "report/hall/full-error.exr",
+                             "report/hall/hall.ref-a.exr", "report/rows.csv"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder_.file(name))) << name;
+    }
+    const auto lines = [&](const char* name) {
+        const std::string text = test::read_text(folder_.file(name));
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    EXPECT_EQ(lines("report/rows.csv"), 1 + 4);
+    EXPECT_EQ(lines("report/runs.csv"), 1 + 8);
+    EXPECT_GE(lines("report/curves.csv"), 1 + 8);
+
+    const auto again = run_wend({"compare", scene_, second_, "--time", "0.02", "--seeds", "1", "--sampling",
+                                 "classical", "--reference", folder_.file("report/room"), "--quiet"});
+    EXPECT_EQ(again.status, 2) << "the folder has no hall.ref-a.exr";
+    EXPECT_NE(again.err.find("1 of 2 scenes failed"), std::string::npos) << again.err;
+}
+
+TEST_F(CompareScenes, GoesOnAfterASceneThatFails) {
+    folder_.write("hall.pbrt", "WorldBegin\nShape \"nonsense\"\nFilm");
+    const auto result = compare_all({"--report", folder_.file("report"), "--json", "-"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find("1 of 2 scenes failed"), std::string::npos) << result.err;
+    const auto json = result.json();
+    EXPECT_EQ(json["rows"].size(), 2u);
+    ASSERT_EQ(json["failed"].size(), 1u);
+    EXPECT_EQ(json["failed"][0]["scene"], second_);
+    EXPECT_NE(json["failed"][0]["error"].get<std::string>().find("hall.pbrt:"), std::string::npos);
+    EXPECT_NE(test::read_text(folder_.file("report/index.html")).find("Not compared"), std::string::npos);
+}
+
+TEST_F(CompareScenes, RefusesWhatIsForOneSceneBeforeAnythingIsRendered) {
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+             {"--out", folder_.file("out")}, {"--out", folder_.file("out"), "--report", folder_.file("report")}}) {
+        EXPECT_EQ(compare_all(more).status, 2);
+    }
+    const auto absent = run_wend({"compare", scene_, folder_.file("none.pbrt"), "--time", "0.02"});
+    EXPECT_EQ(absent.status, 2);
+    EXPECT_NE(absent.err.find("none.pbrt: error: does not exist"), std::string::npos) << absent.err;
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"hall.pbrt", "room.pbrt"}));
 }
 
 }  // namespace

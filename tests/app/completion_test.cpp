@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace wend {
@@ -122,6 +123,31 @@ TEST_F(Completion, TheManualPageHasAllOfHelp) {
     EXPECT_EQ(run("if command -v groff > /dev/null; then groff -man -Tutf8 -ww '" + folder_.file("wend.1") +
                   "' 2>&1 > /dev/null; fi"),
               "");
+}
+
+TEST_F(Completion, TheTreeAsJsonHasAllOfHelp) {
+    const auto printed = run_wend({"man-page", "--format", "json"});
+    ASSERT_EQ(printed.status, 0) << printed.err;
+    std::size_t commands = 0;
+    for (const auto& command : nlohmann::json::parse(printed.out)) {
+        const std::string name = command.at("name");
+        EXPECT_NE(name, "man-page") << "it is hidden";
+        const std::string help = (name.empty() ? run_wend({"--help"}) : run_wend({name, "--help"})).out;
+        EXPECT_TRUE(contains(help, command.at("description").get<std::string>())) << name;
+        for (const auto& option : command.at("options")) {
+            for (const char* part : {"description", "range", "group"}) {
+                EXPECT_TRUE(contains(help, option.at(part).get<std::string>())) << option;
+            }
+            for (const char* others : {"names", "needs", "excludes", "choices"}) {
+                for (const auto& other : option.at(others)) {
+                    EXPECT_TRUE(contains(help, other.get<std::string>())) << option;
+                }
+            }
+        }
+        ++commands;
+    }
+    EXPECT_GE(commands, 10u);
+    EXPECT_TRUE(contains(printed.out, "\"range\": \"INT in [1 - 1073741824]\""));
 }
 
 }  // namespace

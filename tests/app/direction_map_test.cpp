@@ -1,4 +1,4 @@
-#include <wend/app/direction_map.h>
+#include <wend/app/direction_picture.h>
 #include <wend/core/random.h>
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace wend {
 namespace {
 
-constexpr int width = DirectionMaps::width, height = DirectionMaps::height;
+constexpr int width = DirectionMap::width, height = DirectionMap::height;
 
 /// Over all directions.
 double integral(const std::vector<float>& map) {
@@ -64,15 +64,59 @@ TEST(DirectionMap, DarkAndAbsentRecordsAreDark) {
     }
 }
 
-TEST(DirectionMap, RecordsAreBelowTheLobesOrALayer) {
+TEST(DirectionMap, PlacesDirectionsByTheAxesThatThePictureNames) {
+    EXPECT_EQ(place_on_map({1, 0, 0}), (std::array{width / 2, height / 2}));
+    EXPECT_EQ(place_on_map({0, 1, 0}), (std::array{3 * width / 4, height / 2}));
+    EXPECT_EQ(place_on_map({0, 0, 1})[1], 0);
+    EXPECT_EQ(place_on_map({0, 0, -1})[1], height - 1);
+}
+
+TEST(DirectionMap, AllMapsButTheFirstAreLayers) {
     const guide::VmfMixture mixture(std::array{guide::WeightedVmf{1, Vmf{{0, 0, 1}, 5}}});
-    const DirectionMaps alone{radiance_map(mixture, 1), {}};
-    EXPECT_EQ(colours_picture(alone, mixture).image.height, height);
-    EXPECT_TRUE(numbers_picture(alone).layers.empty());
-    const DirectionMaps both{alone.radiance, record_map(lamp_records({{0, 0, 1}, 5}, true))};
-    EXPECT_EQ(colours_picture(both, mixture).image.height, 2 * height);
-    ASSERT_EQ(numbers_picture(both).layers.size(), 1u);
-    EXPECT_EQ(numbers_picture(both).layers[0].values, both.records);
+    const DirectionMap lobes{"lobes", radiance_map(mixture, 1)};
+    EXPECT_TRUE(numbers_picture({lobes}).layers.empty());
+    const DirectionMap records{"records", record_map(lamp_records({{0, 0, 1}, 5}, true))};
+    const Picture both = numbers_picture({lobes, records});
+    ASSERT_EQ(both.layers.size(), 1u);
+    EXPECT_EQ(both.layers[0].values, records.values);
+    EXPECT_EQ(both.image.pixels[0].r, lobes.values[0]);
+}
+
+/// Whether a part of the picture has anything but its corner's colour.
+bool has_ink(const Image& image, int x0, int x1, int y0, int y1) {
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            if (image.at(x, y) != image.at(0, image.height - 1)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+TEST(DirectionPicture, FramesEachMapWithAxesAndColours) {
+    const guide::VmfMixture mixture(std::array{guide::WeightedVmf{1, Vmf{{0, 0, 1}, 5}}});
+    const DirectionPanel panel{"at 0,0,0", radiance_map(mixture, 1), {{0, 0, 1}}};
+    const ColourScale scale = scale_of({panel});
+    EXPECT_NEAR(scale.high / scale.low, 1e4, 1);
+    const Image one = labelled_picture({panel}, scale).image;
+    EXPECT_EQ(labelled_picture({panel, panel}, scale).image.height, 2 * one.height);
+    EXPECT_GT(one.width, width);
+    EXPECT_GT(one.height, height);
+    const int left = (one.width - width) / 4;
+    EXPECT_TRUE(has_ink(one, 0, left, 0, one.height)) << "the angles from +z";
+    EXPECT_TRUE(has_ink(one, one.width - left, one.width, 0, one.height)) << "the radiances";
+    EXPECT_TRUE(has_ink(one, 0, one.width, 0, 20)) << "the title";
+    EXPECT_TRUE(has_ink(one, 0, one.width, one.height - 20, one.height)) << "the longitude";
+    const DirectionPanel untitled{"", panel.values, {}};
+    EXPECT_FALSE(has_ink(labelled_picture({untitled}, scale).image, 0, width / 2, 0, 20));
+}
+
+TEST(DirectionPicture, TitlesOfAnyBytesAreDrawn) {
+    const guide::VmfMixture mixture(std::array{guide::WeightedVmf{1, Vmf{{0, 0, 1}, 5}}});
+    const DirectionPanel panel{"\xff\x01\n~ä" + std::string(400, 'W'), radiance_map(mixture, 1), {}};
+    const Image image = labelled_picture({panel}, scale_of({panel})).image;
+    EXPECT_TRUE(has_ink(image, 0, image.width, 0, 20));
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
 
 namespace wend {
 namespace {
@@ -119,6 +122,108 @@ TEST_F(FieldCommand, RefusesWhatIsNoFieldAndNamesIt) {
     }
     EXPECT_EQ(run_wend({"field", folder_.file("room.field"), "--at", "1,2"}).status, 2);
     EXPECT_EQ(render({"--spp", "1", "--sampling", "classical", "--save-field", folder_.file("x.field")}).status, 2);
+}
+
+TEST_F(FieldCommand, FollowsAPixelToItsSurface) {
+    ASSERT_EQ(
+        render({"--spp", "31", "--sampling", "distance+direction", "--save-field", folder_.file("room.field")}).status,
+        0);
+    const auto result = run_wend({"field", folder_.file("room.field"), "--scene", scene_, "--pixel", "8,9", "--page",
+                                  folder_.file("lobes.html"), "-o", folder_.file("lobes.exr"), "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto pixel = result.json()["pixel"];
+    const double length = pixel["length"];
+    // The fog's extinction is 0.56, 0.46 and 0.36.
+    const double passes = (std::exp(-0.56 * length) + std::exp(-0.46 * length) + std::exp(-0.36 * length)) / 3;
+    EXPECT_NEAR(pixel["scatters"].get<double>(), 1 - passes, 1e-4);
+    double collides = 0;
+    for (const auto& piece : pixel["pieces"]) {
+        collides += piece["collides"].get<double>();
+    }
+    EXPECT_NEAR(collides, 1 - passes, 1e-4);
+    EXPECT_GT(pixel["guided_scatters"], 0);
+    EXPECT_LT(pixel["guided_scatters"], 1);
+    double distance = 0;
+    for (const auto& stop : pixel["stops"]) {
+        EXPECT_GT(stop["distance"], distance);
+        distance = stop["distance"];
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(stop["position"][axis].get<double>(),
+                        pixel["origin"][axis].get<double>() + distance * pixel["direction"][axis].get<double>(), 1e-4);
+        }
+    }
+    EXPECT_EQ(distance, length);
+    EXPECT_EQ(pixel["stops"].back()["part"], "surface");
+    EXPECT_EQ(pixel["stops"][0]["part"], "volume");
+    EXPECT_EQ(read_picture(folder_.file("lobes.exr")).layers.size(), pixel["stops"].size() - 1);
+}
+
+TEST_F(FieldCommand, ThePageHoldsEveryPlaceAndNeedsNothingElse) {
+    save_field();
+    ASSERT_EQ(
+        run_wend({"field", folder_.file("room.field"), "--at", "0,0.5,0", "--page", folder_.file("at.html")}).status,
+        0);
+    const std::string page = test::read_text(folder_.file("at.html"));
+    EXPECT_EQ(page.find("http"), std::string::npos);
+    EXPECT_NE(page.find("data-section=\"0\""), std::string::npos);
+    const std::size_t begin = page.find("id=\"data\">") + 10;
+    const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    ASSERT_EQ(data["places"].size(), 1u);
+    const auto& lobes = data["places"][0]["lobes"];
+    ASSERT_FALSE(lobes.empty());
+    EXPECT_NE(page.find("data-lobe=\"" + std::to_string(lobes.size() - 1) + "\""), std::string::npos);
+    EXPECT_LT(data["low"], data["high"]);
+    EXPECT_FALSE(std::filesystem::exists("field.png")) << "a page alone was asked for";
+}
+
+TEST_F(FieldCommand, SaysThatAPlaceIsOutsideOfTheField) {
+    save_field();
+    const auto show = [&](const std::string& at) {
+        return run_wend({"field", folder_.file("room.field"), "--at", at, "-o", folder_.file("at.png")});
+    };
+    EXPECT_EQ(show("0,0.5,0").out.find("outside"), std::string::npos);
+    const auto far = show("0,0.5,1000");
+    EXPECT_EQ(far.status, 0);
+    EXPECT_NE(far.out.find(" outside of the volume field, which reaches from "), std::string::npos) << far.out;
+    const auto json = run_wend({"field", folder_.file("room.field"), "--at", "0,0.5,1000", "-o", folder_.file("at.png"),
+                                "--json", "-"})
+                          .json();
+    EXPECT_NEAR(json["at"]["outside"].get<double>(), 1000 - json["fields"]["volume"]["bounds"][1][2].get<double>(),
+                1e-3);
+}
+
+TEST_F(FieldCommand, ReplacesNoPictureThatNobodyNamed) {
+    save_field();
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder_.path());
+    folder_.write("field.png", "mine");
+    const auto refused = run_wend({"field", "room.field", "--at", "0,0.5,0"});
+    const std::string kept = test::read_text("field.png");
+    const auto forced = run_wend({"field", "room.field", "--at", "0,0.5,0", "--force"});
+    const std::string replaced = test::read_text("field.png");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("field.png: error: is there already"), std::string::npos) << refused.err;
+    EXPECT_EQ(kept, "mine");
+    EXPECT_EQ(forced.status, 0) << forced.err;
+    EXPECT_NE(replaced, "mine");
+}
+
+TEST_F(FieldCommand, RefusesPixelsThatThereAreNot) {
+    save_field();
+    const auto show = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"field", folder_.file("room.field"), "-o", folder_.file("x.png")});
+        return run_wend(more);
+    };
+    for (const char* pixel : {"16,0", "0,12", "-1,0", "1", "1,2,3", "a,b", "99999999999,1", "1.5,2"}) {
+        const auto result = show({"--scene", scene_, "--pixel", pixel});
+        EXPECT_EQ(result.status, 2) << pixel;
+        EXPECT_NE(result.err.find(std::string("--pixel ") + pixel), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(show({"--pixel", "1,1"}).status, 2) << "of which scene?";
+    EXPECT_EQ(show({"--scene", scene_, "--pixel", "1,1", "--at", "0,0,0"}).status, 2);
+    EXPECT_EQ(show({}).status, 2) << "a picture of which place?";
+    EXPECT_EQ(show({"--scene", scene_, "--pixel", "31,23", "--resolution", "32x24"}).status, 0);
 }
 
 }  // namespace

@@ -91,10 +91,10 @@ std::filesystem::path cases_folder() {
     return test::source_dir() / "tests" / "cases";
 }
 
-std::vector<std::string> cases(const std::filesystem::path& folder) {
+std::vector<std::string> cases(const std::filesystem::path& folder, const char* extension = ".pbrt") {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.path().extension() == ".pbrt") {
+        if (entry.path().extension() == extension) {
             names.push_back(entry.path().stem().string());
         }
     }
@@ -128,6 +128,16 @@ TEST_P(PbrtCase, HasTheMeanOfPbrt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, PbrtCase, testing::ValuesIn(cases(cases_folder() / "pbrt")), test_name);
+
+/// What Mitsuba 3 makes of what its format has: a feature each.
+class MitsubaCase : public testing::TestWithParam<std::string> {};
+
+TEST_P(MitsubaCase, HasTheMeanOfMitsuba) {
+    expect_right_mean(cases_folder() / "mitsuba" / (GetParam() + ".xml"));
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowScenes, MitsubaCase, testing::ValuesIn(cases(cases_folder() / "mitsuba", ".xml")),
+                         test_name);
 
 /// openvdb issue 1840 (rotated transforms), unreal-vdb issue 78 (negative scale in a file's transform).
 TEST(PublicCases, AVolumeThatItsFileMirrorsAndTurns) {

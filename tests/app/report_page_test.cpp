@@ -119,6 +119,18 @@ TEST(ReportPage, ShowsEveryRowOnce) {
     EXPECT_EQ(count(page, "class=\"best\""), 1u);
 }
 
+TEST(ReportPage, ShowsTheSpreadWhereThereAreSeveralSeeds) {
+    EXPECT_FALSE(contains(report_page(example()), "Spread over seeds"));
+    Report report = example();
+    report.rows[0].relmse_spread = {3, 0.5, 0.4, 0.75, 0.55, 0.1};
+    report.rows[0].ratio_spread = {3, 1, 1, 1, 1, 0};
+    const std::string page = report_page(report);
+    EXPECT_TRUE(contains(page,
+                         "<tr><th scope=\"row\">classical</th><td>0.5</td><td>0.4</td><td>0.75</td><td>0.55</td>"
+                         "<td>0.1</td><td>1</td><td>1</td></tr>"));
+    EXPECT_EQ(count(page, "<th scope=\"row\">"), 6u);
+}
+
 TEST(ReportPage, EscapesEveryText) {
     const std::string page = report_page(example());
     EXPECT_EQ(count(page, "<title>Fog &amp; &lt;script&gt;alert(1)&lt;/script&gt;</title>"), 1u);
@@ -199,6 +211,15 @@ TEST(ConvergencePlot, DrawsEveryPointAndNamesEverySeries) {
     for (const char* tick : {">1</text>", ">10</text>", ">100</text>", ">0.1</text>", ">0.01</text>"}) {
         EXPECT_TRUE(contains(svg, tick)) << tick;
     }
+}
+
+TEST(ConvergencePlot, HasOtherAxesAndTheRendersThatAreNotNamed) {
+    ConvergenceSeries series{"one", {{1, 1, 4, 100, 1}, {10, 0.1, 40, 1000, 0.1}}, {}};
+    series.others = {{{1, 2, 5, 100, 1}, {9, 0.2, 45, 900, 0.1}}};
+    const std::string svg = convergence_svg({series}, ConvergenceOver::samples);
+    EXPECT_TRUE(contains(svg, ">samples per pixel</text>"));
+    EXPECT_EQ(count(svg, "<polyline"), 3u) << "two curves and one entry of the legend";
+    EXPECT_TRUE(contains(convergence_svg({series}, ConvergenceOver::work), ">1000</text>"));
 }
 
 TEST(ConvergencePlot, LogarithmicAxesSpaceDecadesEvenly) {

@@ -60,6 +60,12 @@ TEST(LoadLights, DistantLightComesFromFrom) {
         only_light<DistantLight>("Rotate 90 1 0 0 LightSource \"distant\" \"float illuminance\" 50 \"float scale\" 2");
     EXPECT_NEAR(turned.direction.y, 1, 1e-6f);
     expect_near(turned.radiance, Rgb(100.0f));
+    // With an angle it is a disk, and what is given is its irradiance.
+    const auto sun = only_light<SkyDiskLight>("LightSource \"distant\" \"float angle\" 60 \"rgb L\" [ 1 2 3 ]");
+    EXPECT_NEAR(sun.radiance.g, 2 / (pi * 0.25f), 1e-5f);
+    EXPECT_NEAR(sun.one_minus_cosine, 1 - std::sqrt(0.75f), 1e-6f);
+    only_light<DistantLight>("LightSource \"distant\" \"float angle\" 0");
+    EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"distant\" \"float angle\" 181"); }), "0 and 180");
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"distant\" \"point3 to\" [ 0 0 0 ]"); }),
                  "must differ");
 }

@@ -100,6 +100,27 @@ TEST(LoadShapes, RefusesBrokenMeshesWithTheirPlace) {
     EXPECT_PRED2(contains, message("Shape \"frob\""), "Shape \"frob\" is unknown");
 }
 
+TEST(LoadShapes, MeshesMayChangeTheirShape) {
+    const std::string moving = triangle + "\"point3 P1\" [ 0 0 1  1 0 1  0 1 1 ] ";
+    const LoadedScene loaded =
+        load_text("Translate 0 0 7 " + moving + triangle + "ReverseOrientation Scale 2 2 1 " + moving +
+                  "\"normal N\" [ 0 0 1  0 0 1  0 0 1 ] " + "\"normal N1\" [ 0 2 2  0 2 2  0 2 2 ]");
+    const auto mesh = [&](std::size_t i) { return std::get<TriangleMesh>(loaded.scene.surfaces[i].shape); };
+    ASSERT_TRUE(mesh(0).is_moving());
+    EXPECT_FALSE(mesh(1).is_moving());
+    EXPECT_EQ(mesh(0).triangle(0, 0)[1], Vec3(1, 0, 7));
+    EXPECT_EQ(mesh(0).triangle(0, 1)[1], Vec3(1, 0, 8));
+    EXPECT_EQ(mesh(0).triangle(0, 0.5f)[1], Vec3(1, 0, 7.5f));
+    EXPECT_EQ(bounds(loaded.scene.surfaces[0].shape).max.z, 8);
+    EXPECT_EQ(mesh(2).corner_normals(0, 0)[0], Vec3(0, 0, -1));
+    EXPECT_LT(length(mesh(2).corner_normals(0, 1)[0] + normalize(Vec3(0, 0.5f, 1))), 1e-6f);
+    const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
+    EXPECT_PRED2(contains, message(triangle + "\"point3 P1\" [ 0 0 1 ]"), "\"P1\" has 1 values for 3 vertices");
+    EXPECT_PRED2(contains, message(moving + "\"normal N\" [ 0 0 1  0 0 1  0 0 1 ]"), "\"N1\" has 0 values");
+    EXPECT_PRED2(contains, message(triangle + "\"normal N1\" [ 0 0 1 ]"), "\"N1\" has 1 values");
+    EXPECT_PRED2(contains, message(triangle + "\"point3 P1\" [ 0 0 1e20  1 0 1  0 1 1 ]"), "must stay within");
+}
+
 TEST(LoadShapes, PlyMesh) {
     const auto directory = std::filesystem::temp_directory_path();
     std::ofstream(directory / "wend_load_test.ply")

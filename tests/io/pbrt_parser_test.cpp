@@ -121,17 +121,22 @@ TEST(PbrtParser, TheCameraMovesTheOtherWay) {
     EXPECT_EQ(d.transform_times.end, 3);
 }
 
-TEST(PbrtParser, LampsMediaAndTexturesStayAtTheStart) {
+TEST(PbrtParser, LightsMediaAndTexturesStayAtTheStart) {
     const Description d = parse_world(
         "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0\n"
-        "LightSource \"point\"\nLightSource \"point\" AttributeBegin AreaLightSource \"diffuse\"\n"
-        "Shape \"a\"\nShape \"a\" AttributeEnd");
+        "LightSource \"point\"\nLightSource \"point\"");
     expect_near(d.lights[0].world_from_light.point(Vec3(0)), Vec3(1, 0, 0));
-    expect_near(d.shapes[0].world_from_object.point(Vec3(0)), Vec3(1, 0, 0));
-    EXPECT_FALSE(d.shapes[0].motion);
-    ASSERT_EQ(d.warnings.size(), 2u);
+    ASSERT_EQ(d.warnings.size(), 1u);
     EXPECT_PRED2(contains, d.warnings[0], "t.pbrt:3:1: warning: lights, media and textures do not move");
-    EXPECT_PRED2(contains, d.warnings[1], "t.pbrt:5:1: warning: area lights do not move");
+}
+
+TEST(PbrtParser, AreaLightsMoveWithTheirShapes) {
+    const Description d = parse_world(
+        "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0\n"
+        "AttributeBegin AreaLightSource \"diffuse\" Shape \"a\" AttributeEnd");
+    ASSERT_TRUE(d.shapes[0].area_light && d.shapes[0].motion);
+    expect_near(d.shapes[0].motion->at(1).world_from_object.point(Vec3(0)), Vec3(2, 0, 0));
+    EXPECT_EQ(d.warnings.size(), 0u);
 }
 
 TEST(PbrtParser, WhatMirrorsAtOneEndOnlyStaysAtTheStart) {

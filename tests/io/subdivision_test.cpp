@@ -9,6 +9,8 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -18,17 +20,24 @@ using pbrt::message_of;
 using test::load_text;
 using test::warnings_with;
 
-struct Control {
-    std::vector<Vec3> positions;
-    std::vector<std::uint32_t> indices;
-};
+ControlMesh triangles(std::vector<Vec3> positions, std::vector<std::uint32_t> corners) {
+    ControlMesh control;
+    control.positions = std::move(positions);
+    control.face_sizes.assign(corners.size() / 3, 3);
+    control.corners = std::move(corners);
+    return control;
+}
 
-const Control tetrahedron{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}};
-const Control octahedron{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                         {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
+const ControlMesh tetrahedron =
+    triangles({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2});
+const ControlMesh octahedron = triangles({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                                         {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5});
 
-TriangleMeshData limit_of(const Control& control, int levels) {
-    const auto mesh = subdivide(control.positions, control.indices, levels);
+/// What pbrt's "loopsubdiv" follows.
+const SubdivisionRules loop{SubdivisionRules::Scheme::loop, SubdivisionRules::Boundary::edge_only};
+
+TriangleMeshData limit_of(const ControlMesh& control, int levels, const SubdivisionRules& rules = loop) {
+    const auto mesh = limit_surface(control, rules, levels);
     EXPECT_TRUE(mesh);
     return mesh.value_or(TriangleMeshData{});
 }
@@ -83,7 +92,7 @@ TEST(Subdivision, KeepsOrientationAndStaysClosed) {
 }
 
 TEST(Subdivision, BoundariesTendToSplines) {
-    const Control triangle{{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}}, {0, 1, 2}};
+    const ControlMesh triangle = triangles({{0, 0, 0}, {6, 0, 0}, {0, 6, 0}}, {0, 1, 2});
     for (const int levels : {0, 2}) {
         const TriangleMeshData mesh = limit_of(triangle, levels);
         EXPECT_EQ(mesh.indices.size(), 3u << 2 * levels);
@@ -97,14 +106,16 @@ TEST(Subdivision, BoundariesTendToSplines) {
 }
 
 TEST(Subdivision, TakesMeshesThatAreNoSurface) {
-    Control fan = tetrahedron;
-    fan.positions.push_back({5, 5, 5});               // belongs to no triangle
-    fan.positions.push_back({2, -2, 2});              // of a third triangle at an edge
+    std::vector<Vec3> positions = tetrahedron.positions;
+    std::vector<std::uint32_t> corners = tetrahedron.corners;
+    positions.push_back({5, 5, 5});                   // belongs to no triangle
+    positions.push_back({2, -2, 2});                  // of a third triangle at an edge
     for (const std::uint32_t index : {0u, 1u, 5u,     // that
                                       0u, 1u, 5u,     // twice
                                       3u, 3u, 2u}) {  // no triangle
-        fan.indices.push_back(index);
+        corners.push_back(index);
     }
+    const ControlMesh fan = triangles(positions, corners);
     for (const int levels : {0, 2}) {
         const TriangleMeshData mesh = limit_of(fan, levels);
         EXPECT_EQ(mesh.indices.size(), 3u * 6u << 2 * levels);
@@ -112,8 +123,8 @@ TEST(Subdivision, TakesMeshesThatAreNoSurface) {
             EXPECT_TRUE(is_finite(p));
         }
     }
-    EXPECT_FALSE(subdivide(fan.positions, std::vector<std::uint32_t>{1, 1, 2}, 2));
-    EXPECT_FALSE(subdivide({}, {}, 2));
+    EXPECT_FALSE(limit_surface(triangles(positions, {1, 1, 2}), loop, 2));
+    EXPECT_FALSE(limit_surface({}, loop, 2));
 }
 
 std::string loop_shape(const std::string& levels, const std::string& indices = "0 1 2") {
@@ -135,7 +146,7 @@ TEST(Subdivision, RefusesWhatLeadsToNoMesh) {
     const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
     EXPECT_PRED2(contains, message(loop_shape("-1")), "\"levels\" is -1");
     EXPECT_PRED2(contains, message(loop_shape("2000000000")), "\"levels\" is 2000000000");
-    EXPECT_PRED2(contains, message(loop_shape("1", "0 0 2")), "three different vertices");
+    EXPECT_PRED2(contains, message(loop_shape("1", "0 0 2")), "as many different vertices as corners");
     EXPECT_PRED2(contains, message(loop_shape("1", "0 1 3")), "index 3 is out of range");
 }
 

@@ -20,8 +20,9 @@ LEVEL = {
     "capi": 7, "openpgl": 7, "light": 7, "io": 7,
     "transport": 8,
     "render": 9,
-    "app": 10,
-    "library": 11,
+    "view": 10,
+    "app": 11,
+    "library": 12,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

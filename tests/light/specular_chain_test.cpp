@@ -16,6 +16,7 @@ namespace wend {
 namespace {
 
 constexpr float ior = 1.5f;
+constexpr float tint = 0.5f;  // of green light, at each boundary
 const Vec3 corner(0.9f, 4, -0.5f);
 constexpr float lamp_size = 0.4f;
 const Vec3 eye(0, 0, 0);
@@ -108,6 +109,11 @@ Scene under_lamp(const std::function<void(SceneDescription&)>& add_boundaries) {
     SceneDescription s = test::scene_with_camera({0, 0, 0}, {0, 1, 1}, 40, 8);
     test::add_lamp(s, corner, lamp_size, Rgb(1.0f), test::add_diffuse(s, Rgb(0.0f)));
     add_boundaries(s);
+    for (Material& material : s.materials) {
+        if (auto* glass = std::get_if<DielectricMaterial>(&material)) {
+            glass->transmittance = s.textures.add_constant(Rgb(1, tint, 1));
+        }
+    }
     return Scene(std::move(s));
 }
 
@@ -199,7 +205,8 @@ TEST_P(SpecularChains, GoToThePoint) {
             at = leg.ray.at(leg.length);
         }
         EXPECT_LT(length(at - point), 2e-4f);
-        EXPECT_NEAR(way->transmitted, transmitted, 1e-4f * transmitted);
+        EXPECT_NEAR(way->transmitted.r, transmitted, 1e-4f * transmitted);
+        EXPECT_FLOAT_EQ(way->transmitted.g, way->transmitted.r * std::pow(tint, static_cast<float>(way->refractions)));
     }
 }
 

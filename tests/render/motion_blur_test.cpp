@@ -384,26 +384,5 @@ AttributeEnd
     }
 }
 
-TEST(SlowMotionBlur, ALampThatShouldMoveShinesFromWhereItIsSeen) {
-    const std::string scene = R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
-PixelFilter "box"
-Integrator "path" "integer maxdepth" 5
-LookAt 0 -5 1  0 0 .6  0 0 1
-Camera "perspective" "float fov" 50
-WorldBegin
-Material "conductor" "float roughness" .3
-Shape "bilinearmesh" "point3 P" [-3 -3 -1  3 -3 -1  -3 3 -1  3 3 -1]
-AttributeBegin
-ActiveTransform EndTime
-Translate 3 0 0
-ActiveTransform All
-AreaLightSource "diffuse" "rgb L" [1 2 3]
-Shape "sphere" "float radius" .5
-AttributeEnd
-)";
-    expect_same_means(picture_means(scene, "classical", 768, 12), picture_means(scene, "full", 768, 12));
-    EXPECT_EQ(load(scene).scene.instances.size(), 0u);
-}
-
 }  // namespace
 }  // namespace wend

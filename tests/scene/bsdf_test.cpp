@@ -47,6 +47,13 @@ PrincipledBsdf principled(float metallic, float alpha, float coat = 0) {
     return b;
 }
 
+DielectricBsdf coloured_glass(float alpha) {
+    DielectricBsdf b{1.5f, alpha, alpha};
+    b.reflectance = Rgb(0.9f, 0.5f, 0.1f);
+    b.transmittance = Rgb(0.2f, 0.4f, 0.8f);
+    return b;
+}
+
 const std::vector<Model>& models() {
     static const std::vector<Model> all = {
         {"lambert", LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}},
@@ -74,7 +81,14 @@ const std::vector<Model>& models() {
         {"principled_metal", principled(1, 0.4f)},
         {"principled_coated", principled(0.3f, 0.6f, 0.8f)},
         {"hair", HairBsdf(0.4f, 1.55f, Rgb(0.1f, 0.3f, 1), 0.3f, 0.4f, 0.035f)},
-        {"hair_sharp", HairBsdf(-0.7f, 1.55f, Rgb(0.5f), 0.25f, 0.3f, 0.1f)}};
+        {"hair_sharp", HairBsdf(-0.7f, 1.55f, Rgb(0.5f), 0.25f, 0.3f, 0.1f)},
+        {"conductor_beckmann",
+         ConductorBsdf{Rgb(0.2f, 0.9f, 1.5f), Rgb(3.9f, 2.4f, 1.9f), 0.5f, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_beckmann", DielectricBsdf{1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
+        {"dielectric_coloured", coloured_glass(0.4f)},
+        {"dielectric_smooth_coloured", coloured_glass(0)},
+        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}}};
     return all;
 }
 
@@ -211,6 +225,27 @@ TEST(Dielectric, SmoothLosesNothingOnAnyPath) {
         const Moments share = energy(bsdf, wo, 2000)[0];
         EXPECT_NEAR(share.mean(), 1, 1e-5);
         EXPECT_LT(share.standard_error(), 1e-6);
+    }
+}
+
+TEST(Dielectric, ColoursAreFactorsOfWhatIsReflectedAndOfWhatPasses) {
+    Pcg32 random(1);
+    for (const float alpha : {0.0f, 0.4f}) {
+        const DielectricBsdf clear{1.5f, alpha, alpha}, coloured = coloured_glass(alpha);
+        for (const Vec3& wo : incidences()) {
+            for (int i = 0; i < 200; ++i) {
+                const float u = random.uniform();
+                const Vec2 u2 = random.uniform2();
+                const auto a = clear.sample(wo, u, u2), b = coloured.sample(wo, u, u2);
+                ASSERT_EQ(a.has_value(), b.has_value());
+                if (a) {
+                    const bool reflects = a->direction.z * wo.z > 0;
+                    EXPECT_EQ(a->direction, b->direction);
+                    EXPECT_EQ(a->density, b->density);
+                    EXPECT_EQ(b->value, (reflects ? coloured.reflectance : coloured.transmittance) * a->value.r);
+                }
+            }
+        }
     }
 }
 
@@ -482,7 +517,7 @@ TEST(DiffuseTransmission, SharesAreItsColours) {
 TEST(ThinDielectric, LightGoesOnOrIsReflected) {
     const ThinDielectricBsdf glass{1.5f};
     const Vec3 wo = incidences()[0];
-    const float share = glass.reflectance(wo);
+    const float share = glass.reflected_share(wo);
     EXPECT_NEAR(share, 2 * 0.04f / 1.04f, 2e-3f);
     const auto reflected = glass.sample(wo, share - 1e-4f, {0, 0}), passed = glass.sample(wo, share + 1e-4f, {0, 0});
     ASSERT_TRUE(reflected && passed);
@@ -559,17 +594,38 @@ TEST(Bsdf, AnIndexOfOneIsNotThere) {
 }
 
 TEST(Microfacets, ProjectedAreaOfTheNormalsIsOne) {
-    for (const auto& [ax, ay] : {std::pair{0.5f, 0.5f}, {0.8f, 0.3f}}) {
-        const Microfacets facets(ax, ay);
-        double projected = 0;
-        constexpr int n = 1000;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < n; ++j) {
-                const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
-                projected += facets.d(m) * m.z * 2 * pi / (n * n);
+    for (const FacetSlopes slopes : {FacetSlopes::ggx, FacetSlopes::beckmann}) {
+        for (const auto& [ax, ay] : {std::pair{0.5f, 0.5f}, {0.8f, 0.3f}}) {
+            const Microfacets facets(ax, ay, slopes);
+            double projected = 0;
+            constexpr int n = 1000;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
+                    projected += facets.d(m) * m.z * 2 * pi / (n * n);
+                }
             }
+            EXPECT_NEAR(projected, 1, 1e-3);
         }
-        EXPECT_NEAR(projected, 1, 1e-3);
+    }
+}
+
+// What is visible of the facets is what the macrosurface shows.
+TEST(Microfacets, MaskingKeepsTheProjectedAreaOfWhatIsSeen) {
+    for (const FacetSlopes slopes : {FacetSlopes::ggx, FacetSlopes::beckmann}) {
+        const Microfacets facets(0.6f, 0.4f, slopes);
+        for (const Vec3& w : {normalize(Vec3(0.3f, 0.2f, 1)), normalize(Vec3(-1, 0.5f, 0.4f))}) {
+            double visible = 0;
+            constexpr int n = 1000;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    const Vec3 m = direction_from_cosine((i + 0.5f) / n, (j + 0.5f) / n);
+                    visible += facets.g1(w) * facets.d(m) * std::max(dot(w, m), 0.0f) * 2 * pi / (n * n);
+                }
+            }
+            // Beckmann's masking is a fit.
+            EXPECT_NEAR(visible, w.z, slopes == FacetSlopes::ggx ? 1e-3 : 4e-3);
+        }
     }
 }
 

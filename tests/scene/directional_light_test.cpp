@@ -56,6 +56,20 @@ TEST(DirectionalLights, PowerIsTheIntegralOfTheirIntensity) {
     }
 }
 
+TEST(DirectionalLights, PowerIsThatOfOtherProfilesToo) {
+    SpotLight linear = spot();
+    linear.is_linear = true;
+    EXPECT_TRUE(agrees(measured_power(linear, 1), static_cast<double>(3 * spread(linear)), 4));
+    EXPECT_FALSE(agrees(measured_power(linear, 1), static_cast<double>(3 * spread(spot())), 4));
+    ProjectionLight even = projector();
+    even.lights_plane_evenly = true;
+    for (int c = 0; c < 3; ++c) {
+        const auto projected = static_cast<double>(even.intensity[c] * spread(even)[c]);
+        // The picture goes on as it is at its borders, over half a pixel.
+        EXPECT_NEAR(measured_power(even, c).mean(), projected, 0.1 * projected);
+    }
+}
+
 template <class Directional>
 void expect_connection(const Directional& light, const Vec3& p) {
     Pcg32 random(1);

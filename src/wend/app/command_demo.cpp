@@ -1,6 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/comparison.h>
-#include <wend/app/comparison_page.h>
+#include <wend/app/comparison_data.h>
+#include <wend/app/comparison_files.h>
 #include <wend/app/reference.h>
 #include <wend/app/report_folder.h>
 #include <wend/core/error.h>
@@ -11,6 +12,7 @@
 
 #include <memory>
 #include <ostream>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -42,21 +44,21 @@ void run_demo(const DemoOptions& options, const Streams& streams) {
     const std::filesystem::path scenes = options.scenes.empty() ? find_scenes() : std::filesystem::path(options.scenes);
     SceneOptions scene;
     scene.file = (scenes / "demo.pbrt").string();
-    const Reference reference = read_reference(scenes / "demo");
+    KnownReference reference = read_reference(scenes / "demo");
     make_report_folder(options.folder);
     const Session session(scene, options.common, streams);
-    constexpr int seeds = 3;
+    const ComparisonPlan plan{{WayOfSampling{}, WayOfSampling{parse_preset("full"), {}}}, options.seconds, 3};
     options.common.note(streams, fmt::format("rendering {} for {:g} s classically and {:g} s guided, {} times",
-                                             scene.file, options.seconds, options.seconds, seeds));
-    const Preset guided = parse_preset("full");
-    const auto rows = compare_presets(session, {WayOfSampling{}, WayOfSampling{guided, {}}}, options.seconds, seeds,
-                                      reference, comparison_bars(seeds, options.common, streams));
-    write_comparison(options.folder, session, rows, reference, options.seconds, seeds);
+                                             scene.file, options.seconds, options.seconds, plan.seeds));
+    const Comparison comparison =
+        compare_presets(session, plan, std::move(reference), comparison_bars(plan.seeds, options.common, streams));
+    write_comparison(options.folder, comparison);
     if (options.common.json != "-") {
-        streams.out << comparison_table(rows) << "\npictures and the page index.html are in " << options.folder << '\n'
+        streams.out << comparison_table(comparison.rows) << "\npictures and the page index.html are in "
+                    << options.folder << '\n'
                     << std::flush;
     }
-    options.common.write_json(streams, {{"rows", comparison_json(rows)}});
+    options.common.write_json(streams, {{"rows", comparison_json(comparison)}});
 }
 
 }  // namespace

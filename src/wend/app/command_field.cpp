@@ -1,9 +1,11 @@
 #include <wend/app/commands.h>
-#include <wend/app/direction_map.h>
+#include <wend/app/direction_picture.h>
+#include <wend/app/field_place.h>
+#include <wend/app/lobe_page.h>
+#include <wend/app/pixel_flight.h>
 #include <wend/app/session.h>
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>
-#include <wend/guide/lobe_revision.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
@@ -17,7 +19,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -26,23 +28,32 @@
 namespace wend {
 namespace {
 
+constexpr const char* default_picture = "field.png";
+
 struct FieldOptions {
     CommonOptions common;
     std::string file;
     std::string at;
+    std::string pixel;
+    SceneOptions scene;  ///< that the pixel is of
     std::string part;
-    std::string picture = "field.png";
+    std::string picture;
+    std::string page;
     std::string vtk;
     std::string records;
+    bool force = false;
+
+    bool has_places() const { return !at.empty() || !pixel.empty(); }
+    /// Where the picture goes; empty: nowhere.
+    std::string picture_file() const {
+        const bool by_default = picture.empty() && page.empty() && has_places();
+        return by_default ? default_picture : picture;
+    }
 };
 
-/// A part of the file by name.
-struct Part {
-    const char* name;
-    const guide::Field* field;
-};
+using Parts = std::array<FieldPart, 2>;
 
-std::array<Part, 2> parts_of(const guide::Fields& fields) {
+Parts parts_of(const guide::Fields& fields) {
     return {{{"surface", &fields.surface}, {"volume", &fields.volume}}};
 }
 
@@ -60,10 +71,6 @@ Summary summarize(const guide::Field& field) {
         summary.samples += samples;
     });
     return summary;
-}
-
-nlohmann::json vector_json(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 nlohmann::json summary_json(const Summary& s, const Box3& bounds) {
@@ -89,177 +96,218 @@ Vec3 parse_position(const std::string& text) {
     return position;
 }
 
+/// A whole number and nothing else.
+bool read_number(const std::string& text, int& number) {
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && read == end;
+}
+
+Vec2i parse_pixel(const std::string& text, const Vec2i& resolution) {
+    Vec2i pixel(0, 0);
+    const std::vector<std::string> parts = split_list(text);
+    if (parts.size() != 2 || !read_number(parts[0], pixel.x) || !read_number(parts[1], pixel.y)) {
+        throw InputError("--pixel " + text + ": expected two whole numbers, such as 100,40: column and row, from 0");
+    }
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= resolution.x || pixel.y >= resolution.y) {
+        throw InputError(fmt::format("--pixel {}: the picture has {} columns and {} rows, from 0 on", text,
+                                     resolution.x, resolution.y));
+    }
+    return pixel;
+}
+
 /// The part asked for, or the one that more samples taught.
-const Part& choose_part(const std::array<Part, 2>& parts, const std::string& name) {
+const FieldPart& choose_part(const std::array<FieldPart, 2>& parts, const std::string& name) {
     if (!name.empty()) {
         return name == parts[0].name ? parts[0] : parts[1];
     }
     return summarize(*parts[0].field).samples >= summarize(*parts[1].field).samples ? parts[0] : parts[1];
 }
 
-/// The records of a sample that lie in a region of the field.
-guide::Records records_in(const guide::Region* region, const guide::Field& field, const guide::RecordSample& sample) {
-    guide::Records found;
-    std::copy_if(sample.records().begin(), sample.records().end(), std::back_inserter(found),
-                 [&](const guide::Record& r) { return field.find(r.position) == region; });
-    return found;
-}
-
-/// The lobes of a region as they are seen from a position: rows of a table, and JSON.
-struct Lobes {
-    std::vector<std::vector<std::string>> rows;
-    nlohmann::json json;
+/// What is shown of a file: the places, and how they came about.
+struct Look {
+    LobePage page;
+    nlohmann::json json;  ///< of "at" or "pixel"
+    std::string text;
 };
 
-Lobes describe_lobes(const guide::Field& field, const guide::Region& region, const Vec3& position) {
-    const guide::VmfMixture incident = region.incident(position);
-    std::vector<std::vector<std::string>> rows = {
-        {"lobe", "share", "towards", "concentration", "distance", "records", "misfit", "colour"}};
-    const auto sums = field.lobe_sums(position);
-    nlohmann::json lobes = nlohmann::json::array();
-    for (int i = 0; i < incident.size(); ++i) {
-        const auto [weight, vmf] = incident.lobe(i);
-        const double inverse = static_cast<double>(region.inverse_distance()[i]);
-        const guide::LobeSums& seen = sums[static_cast<std::size_t>(i)];
-        const double records = guide::effective_records(seen);
-        const double misfit = guide::misfit(seen, region.mixture().lobe(i).vmf).total();
-        const Rgb colour = region.colours()[i];
-        rows.push_back({std::to_string(i + 1), fmt::format("{:.4f}", weight),
-                        fmt::format("{:.3f} {:.3f} {:.3f}", vmf.mean.x, vmf.mean.y, vmf.mean.z),
-                        fmt::format("{:.4g}", vmf.kappa), inverse > 0 ? fmt::format("{:.4g}", 1 / inverse) : "far",
-                        fmt::format("{:.1f}", records), fmt::format("{:.3f}", misfit),
-                        fmt::format("{:.2f} {:.2f} {:.2f}", colour.r, colour.g, colour.b)});
-        lobes.push_back({{"weight", weight},
-                         {"mean", vector_json(vmf.mean)},
-                         {"kappa", vmf.kappa},
-                         {"records", json_number(records)},
-                         {"misfit", json_number(misfit)},
-                         {"colour", {colour.r, colour.g, colour.b}},
-                         {"distance", inverse > 0 ? nlohmann::json(1 / inverse) : nlohmann::json(nullptr)}});
-    }
-    return {std::move(rows), std::move(lobes)};
+/// The lobes of a place as text.
+std::string place_text(const LobePagePlace& one) {
+    const FieldPlace& p = one.place;
+    const std::string outside = outside_text(p);
+    return fmt::format(
+        "\n{}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n{}light from "
+        "connections {:.4g}\n{}",
+        one.name, p.part.name, p.region->fluence(), p.region->defensive_fraction(), p.region->reference().x,
+        p.region->reference().y, p.region->reference().z, outside.empty() ? "" : outside + "\n", p.connected_fluence,
+        lobe_table(p));
 }
 
-nlohmann::json show_position(const FieldOptions& options, const std::array<Part, 2>& parts,
-                             const std::optional<RecordSamples>& samples, const Streams& streams) {
+constexpr const char* table_note =
+    "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of them spreads "
+    "otherwise than the lobe\n";
+
+LobePagePlace page_place(std::string name, FieldPlace place) {
+    std::vector<Vec3> means;
+    for (const LobeFacts& lobe : lobe_facts(place)) {
+        means.push_back(lobe.mean);
+    }
+    DirectionPanel panel{fmt::format("{}, {} field", name, place.part.name),
+                         radiance_map(place.incident, place.region->fluence()), std::move(means)};
+    return {std::move(name), std::move(place), {std::move(panel)}};
+}
+
+Look look_at_position(const FieldOptions& options, const Parts& parts, const std::optional<RecordSamples>& samples) {
     const Vec3 position = parse_position(options.at);
-    const Part& part = choose_part(parts, options.part);
-    const guide::Region* region = part.field->find(position);
-    if (!region) {
-        throw InputError(fmt::format("{}: the {} field has learned nothing", options.file, part.name));
-    }
-    const guide::VmfMixture incident = region->incident(position);
-    std::optional<guide::Records> told;
+    const FieldPart& part = choose_part(parts, options.part);
+    LobePagePlace one = page_place("at " + options.at, field_place(part, position, options.file));
+    Look look;
+    look.json = place_json(one.place);
+    look.json["records"] = nullptr;
+    look.text = place_text(one) + table_note;
     if (samples) {
-        told = records_in(region, *part.field, part.field == parts[0].field ? samples->surface : samples->volume);
+        const bool surface = part.field == parts[0].field;
+        const guide::Records told =
+            records_in(surface ? samples->surface : samples->volume, *part.field, one.place.region);
+        one.panels.push_back({fmt::format("what {} records of the cell saw", told.size()), record_map(told), {}});
+        look.json["records"] = told.size();
+        look.text +=
+            fmt::format("with that of {} records of the cell, below it or as the layer 'records'\n", told.size());
     }
-    const DirectionMaps maps{radiance_map(incident, region->fluence()),
-                             told ? record_map(*told) : std::vector<float>()};
-    const bool floating_point = std::filesystem::path(options.picture).extension() == ".exr";
-    write_picture(options.picture, floating_point ? numbers_picture(maps) : colours_picture(maps, incident));
-
-    const auto [rows, lobes] = describe_lobes(*part.field, *region, position);
-    const guide::ScatteredLight& light = *part.field->scattered_light(position);
-    if (options.common.json != "-") {
-        streams.out
-            << fmt::format(
-                   "\nat {}, {} field: fluence {:.4g}, classical share {:.2f}, distances from {:.4g} {:.4g} {:.4g}\n",
-                   options.at, part.name, region->fluence(), region->defensive_fraction(), region->reference().x,
-                   region->reference().y, region->reference().z)
-            << fmt::format("light from connections {:.4g}\n", light.connected.fluence) << text_table(rows)
-            << "records: how many of equal weight would know as much of the lobe; misfit: by how many nats each of "
-               "them spreads otherwise than the lobe\n"
-            << "incident radiance by direction: " << options.picture << '\n';
-        if (told) {
-            streams.out << fmt::format("with that of {} records of the cell {}\n", told->size(),
-                                       floating_point ? "as the layer 'records'" : "below");
-        }
-    }
-    return {{"position", vector_json(position)},
-            {"part", part.name},
-            {"fluence", region->fluence()},
-            {"classical_share", region->defensive_fraction()},
-            {"connected_fluence", light.connected.fluence},
-            {"reference", vector_json(region->reference())},
-            {"lobes", lobes},
-            {"records", told ? nlohmann::json(told->size()) : nlohmann::json(nullptr)},
-            {"picture", options.picture}};
+    look.page = {"Lobes at " + options.at, options.file, {std::move(one)}, {}};
+    return look;
 }
 
-/// All cells as boxes in VTK's legacy text format.
-std::string vtk_text(const std::array<Part, 2>& parts) {
-    struct Cell {
-        Box3 box;
-        float fluence;
-        float defensive_fraction;
-        double samples;
-        int lobes;
-        int part;
-    };
-    std::vector<Cell> cells;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        parts[p].field->for_each_cell([&](const Box3& box, const guide::Region& region, double samples) {
-            cells.push_back({box, region.fluence(), region.defensive_fraction(), samples, region.mixture().size(),
-                             static_cast<int>(p)});
-        });
+nlohmann::json flight_json(const PixelFlight& flight) {
+    nlohmann::json pieces = nlohmann::json::array();
+    for (const FlightPiece& piece : flight.pieces) {
+        pieces.push_back({{"begin", piece.begin},
+                          {"end", piece.end},
+                          {"medium", piece.medium},
+                          {"collides", piece.collides},
+                          {"in_scattered", piece.in_scattered},
+                          {"brings", piece.brings}});
     }
-    std::string text =
-        fmt::format("# vtk DataFile Version 3.0\nguiding field\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} float\n",
-                    8 * cells.size());
-    for (const Cell& cell : cells) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const auto along = [&](int axis) {
-                return (corner >> axis & 1) != 0 ? cell.box.max[axis] : cell.box.min[axis];
-            };
-            text += fmt::format("{} {} {}\n", along(0), along(1), along(2));
-        }
+    const std::optional<double> guided = flight.guided_collides();
+    nlohmann::json surface;
+    if (flight.surface) {
+        surface = {{"position", vector_json(flight.surface->position)},
+                   {"normal", vector_json(flight.surface->normal)}};
     }
-    text += fmt::format("CELLS {} {}\n", cells.size(), 9 * cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        text += '8';
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            text += fmt::format(" {}", 8 * i + corner);
-        }
-        text += '\n';
-    }
-    constexpr int voxel = 11;
-    text += fmt::format("CELL_TYPES {}\n", cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        text += fmt::format("{}\n", voxel);
-    }
-    text += fmt::format("CELL_DATA {}\n", cells.size());
-    const auto scalars = [&](const char* name, const auto& value) {
-        text += fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", name);
-        for (const Cell& cell : cells) {
-            text += fmt::format("{}\n", static_cast<float>(value(cell)));
-        }
-    };
-    scalars("fluence", [](const Cell& cell) { return cell.fluence; });
-    scalars("classical_share", [](const Cell& cell) { return cell.defensive_fraction; });
-    scalars("samples", [](const Cell& cell) { return cell.samples; });
-    scalars("lobes", [](const Cell& cell) { return cell.lobes; });
-    scalars("volume", [](const Cell& cell) { return cell.part; });
-    return text;
+    return {{"origin", vector_json(flight.ray.origin)},
+            {"direction", vector_json(flight.ray.direction)},
+            {"length", flight.length},
+            {"surface", std::move(surface)},
+            {"scatters", 1 - flight.reaches_end},
+            {"guided_scatters", guided ? nlohmann::json(*guided) : nlohmann::json(nullptr)},
+            {"pieces", std::move(pieces)}};
 }
 
-void show_field(const FieldOptions& options, const Streams& streams) {
-    if (!options.vtk.empty()) {
-        require_writable(options.vtk);
+std::string flight_text(const PixelFlight& flight, const std::string& pixel) {
+    const Vec3 &o = flight.ray.origin, &d = flight.ray.direction;
+    const std::optional<double> guided = flight.guided_collides();
+    const std::string end =
+        flight.surface ? fmt::format("meets a surface at {:.4g} {:.4g} {:.4g}, {:.4g} away", flight.surface->position.x,
+                                     flight.surface->position.y, flight.surface->position.z, flight.length)
+                       : std::string("meets no surface");
+    return fmt::format(
+        "\npixel {}: from {:.4g} {:.4g} {:.4g} towards {:.4f} {:.4f} {:.4f}, {}\nscatters in media on its way: {:.1f} "
+        "% of classical flights{}\n",
+        pixel, o.x, o.y, o.z, d.x, d.y, d.z, end, 100 * (1 - flight.reaches_end),
+        guided ? fmt::format("; of the light that the field expects {:.1f} % come from there", 100 * *guided)
+               : std::string());
+}
+
+Look look_along_pixel(const FieldOptions& options, const Parts& parts, const guide::Fields& fields,
+                      const Streams& streams) {
+    constexpr int most_stops = 5;
+    const Session session(options.scene, options.common, streams);
+    const Vec2i pixel = parse_pixel(options.pixel, session.resolution());
+    Pcg32 random(session.settings().seed);
+    PixelFlight flight = pixel_flight(session.scene(), pixel, fields, random);
+    Look look;
+    look.json = flight_json(flight);
+    look.json["pixel"] = {pixel.x, pixel.y};
+    look.json["stops"] = nlohmann::json::array();
+    look.text = flight_text(flight, options.pixel);
+    look.page = {fmt::format("Lobes along pixel {}", options.pixel), options.file, {}, {}};
+    for (const FlightStop& stop : stops_of(flight, most_stops)) {
+        const FieldPart& part = stop.on_surface ? parts[0] : parts[1];
+        if (!part.field->is_trained()) {
+            continue;
+        }
+        const Vec3 position =
+            stop.on_surface ? flight.surface->position : flight.ray.at(static_cast<float>(stop.distance));
+        LobePagePlace one =
+            page_place(fmt::format("{}{:.4g} from the camera", stop.on_surface ? "surface, " : "", stop.distance),
+                       field_place(part, position, options.file));
+        look.text += place_text(one);
+        nlohmann::json& json = look.json["stops"].emplace_back(place_json(one.place));
+        json["distance"] = stop.distance;
+        look.page.places.push_back(std::move(one));
     }
-    if (!options.at.empty()) {
-        require_writable_picture(options.picture);
+    if (look.page.places.empty()) {
+        throw InputError(options.file + ": nothing was learned of what the flight of pixel " + options.pixel +
+                         " meets");
     }
-    require_distinct({options.file, options.records},
-                     {options.vtk, options.at.empty() ? "" : options.picture, options.common.json});
-    const guide::Fields fields = read_fields(options.file);
-    const std::optional<RecordSamples> samples =
-        options.records.empty() ? std::nullopt : std::optional(read_records(options.records));
-    const std::array<Part, 2> parts = parts_of(fields);
+    look.text += table_note;
+    look.page.flight = std::move(flight);
+    return look;
+}
+
+void write_look(const FieldOptions& options, const Look& look) {
+    const std::string picture = options.picture_file();
+    if (!picture.empty()) {
+        std::vector<DirectionPanel> panels;
+        for (const LobePagePlace& one : look.page.places) {
+            panels.insert(panels.end(), one.panels.begin(), one.panels.end());
+        }
+        if (std::filesystem::path(picture).extension() == ".exr") {
+            std::vector<DirectionMap> maps;
+            for (DirectionPanel& panel : panels) {
+                // The second of one place is of its records.
+                const bool records = options.pixel.empty() && maps.size() == 1;
+                maps.push_back({records ? "records" : fmt::format("stop{}", maps.size() + 1), std::move(panel.values)});
+            }
+            write_picture(picture, numbers_picture(maps));
+        } else {
+            write_picture(picture, labelled_picture(panels, scale_of(look.page)));
+        }
+    }
+    if (!options.page.empty()) {
+        write_atomically(options.page, lobe_page(look.page));
+    }
+}
+
+/// Throws InputError for what is wrong with names, before anything is read.
+void check(const FieldOptions& options) {
+    const std::string picture = options.picture_file();
+    if (!options.has_places() && !(picture.empty() && options.page.empty())) {
+        throw InputError("-o and --page show a place: --at or --pixel says which");
+    }
+    if (!picture.empty()) {
+        require_writable_picture(picture);
+    }
+    if (options.picture.empty() && !picture.empty() && !options.force && std::filesystem::exists(picture)) {
+        throw InputError(Place{picture}, "is there already: -o names another picture, --force replaces this one");
+    }
+    for (const std::string& file : {options.page, options.vtk}) {
+        if (!file.empty()) {
+            require_writable(file);
+        }
+    }
+    require_distinct({options.file, options.records, options.scene.file},
+                     {options.vtk, picture, options.page, options.common.json});
+    options.scene.check();
+}
+
+/// The table of both parts, and JSON.
+nlohmann::json show_summary(const FieldOptions& options, const Parts& parts, const Streams& streams) {
     Summary all;
     Box3 bounds;
     nlohmann::json by_part;
     std::vector<std::vector<std::string>> rows = {{"field", "cells", "lobes", "samples", "MiB"}};
-    for (const Part& part : parts) {
+    for (const FieldPart& part : parts) {
         const Summary s = summarize(*part.field);
         all.cells += s.cells;
         all.lobes += s.lobes;
@@ -279,8 +327,28 @@ void show_field(const FieldOptions& options, const Streams& streams) {
     }
     nlohmann::json json = summary_json(all, bounds);
     json["fields"] = std::move(by_part);
-    if (!options.at.empty()) {
-        json["at"] = show_position(options, parts, samples, streams);
+    return json;
+}
+
+void show_field(const FieldOptions& options, const Streams& streams) {
+    check(options);
+    const guide::Fields fields = read_fields(options.file);
+    const std::optional<RecordSamples> samples =
+        options.records.empty() ? std::nullopt : std::optional(read_records(options.records));
+    const Parts parts = parts_of(fields);
+    nlohmann::json json = show_summary(options, parts, streams);
+    if (options.has_places()) {
+        Look look = options.pixel.empty() ? look_at_position(options, parts, samples)
+                                          : look_along_pixel(options, parts, fields, streams);
+        write_look(options, look);
+        const std::string picture = options.picture_file();
+        look.json["picture"] = picture.empty() ? nlohmann::json(nullptr) : nlohmann::json(picture);
+        look.json["page"] = options.page.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.page);
+        if (options.common.json != "-") {
+            streams.out << look.text << (picture.empty() ? "" : "incident radiance by direction: " + picture + "\n")
+                        << (options.page.empty() ? "" : "a page to turn it: " + options.page + "\n");
+        }
+        json[options.pixel.empty() ? "at" : "pixel"] = std::move(look.json);
     }
     if (!options.vtk.empty()) {
         write_atomically(options.vtk, vtk_text(parts));
@@ -301,11 +369,29 @@ Action add_field_command(CLI::App& program) {
         "x,y,z: the lobes of incident radiance there, and a picture of them; of each lobe how many records taught it "
         "(those of equal weight that would know as much) and by how many nats their directions spread otherwise than "
         "it does");
-    command.add_option("--part", options->part, "surface or volume (default: the one with more samples)")
-        ->check(CLI::IsMember({"surface", "volume"}));
+    CLI::Option* part =
+        command.add_option("--part", options->part, "surface or volume (default: the one with more samples)")
+            ->check(CLI::IsMember({"surface", "volume"}));
+    CLI::Option* scene = command.add_option("--scene", options->scene.file, "pbrt-v4 scene of --pixel");
+    command
+        .add_option(
+            "--pixel", options->pixel,
+            "X,Y, from 0 at the upper left: where the first flight of that pixel of --scene goes, how likely it "
+            "scatters in media, and the lobes at places that stand for the light that it brings, and at its "
+            "surface")
+        ->needs(scene)
+        ->excludes(at)
+        ->excludes(part);
+    command
+        .add_option("--resolution", options->scene.resolution,
+                    "size of the picture that --pixel is of, WIDTHxHEIGHT (default: the scene's)")
+        ->needs(scene);
     command.add_option("-o,--output", options->picture,
-                       "picture of --at, latitude and longitude: .exr with radiance, .png in false colours over four "
-                       "decades (default: field.png)");
+                       "picture of --at or --pixel, latitude and longitude: .exr with radiance, .png in false colours "
+                       "over four decades, with axes (default: field.png, which must not be there yet, or none with "
+                       "--page)");
+    command.add_option("--page", options->page, "page of --at or --pixel (HTML): the lobes on a sphere to turn");
+    command.add_flag("--force", options->force, "replace field.png where no picture is named");
     command
         .add_option("--records", options->records,
                     "records of the same render (--save-records): what those of the cell saw goes below the picture of "

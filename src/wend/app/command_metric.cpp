@@ -25,7 +25,7 @@ void print_metrics(const MetricOptions& options, const Streams& streams) {
     std::vector<std::string> inputs = options.images;
     inputs.push_back(options.reference);
     require_distinct(inputs, {options.common.json});
-    const Reference reference = read_reference(options.reference);
+    const Reference reference = read_reference(options.reference).halves;
     const Image average = reference.average();
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::vector<std::string>> table = {{"image", "relMSE", "trimmed", "99.99 %", "MSE", "MAPE", "FLIP"}};

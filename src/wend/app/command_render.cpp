@@ -1,5 +1,5 @@
 #include <wend/app/commands.h>
-#include <wend/app/comparison.h>
+#include <wend/app/comparison_data.h>
 #include <wend/app/denoiser.h>
 #include <wend/app/extra_layers.h>
 #include <wend/app/frames.h>
@@ -356,7 +356,7 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
 
 Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command = *program.add_subcommand("render", "render a pbrt-v4 scene");
+    CLI::App& command = *program.add_subcommand("render", "render a scene");
     options->scene.add_to(command);
     CLI::Option* output = command.add_option(
         "-o,--output", options->output,

@@ -1,6 +1,11 @@
 #include <wend/app/command_tree.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
 
 namespace wend {
 namespace {
@@ -17,6 +22,16 @@ std::vector<std::string> choices_in(const std::string& type) {
     return {};
 }
 
+/// In the order of their names: the sets are ordered by address.
+std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : options) {
+        names.push_back(option->get_name());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 OptionShape shape_of(const CLI::Option& option) {
     OptionShape shape;
     for (const std::string& name : option.get_snames()) {
@@ -31,8 +46,15 @@ OptionShape shape_of(const CLI::Option& option) {
     if (option.get_items_expected_max() > 0) {
         const std::string type = option.get_type_name();
         shape.choices = choices_in(type);
-        shape.value = type.substr(0, type.find(':'));
+        const std::size_t colon = type.find(':');
+        shape.value = type.substr(0, colon);
+        if (colon != std::string::npos && shape.choices.empty()) {
+            shape.range = type.substr(colon + 1);
+        }
     }
+    shape.group = option.get_group();
+    shape.needs = names_of(option.get_needs());
+    shape.excludes = names_of(option.get_excludes());
     shape.description = option.get_description();
     shape.default_value = option.get_default_str();
     shape.is_required = option.get_required();
@@ -53,6 +75,30 @@ CommandShape shape_of(const CLI::App& app) {
     return shape;
 }
 
+using Json = nlohmann::ordered_json;
+
+Json json_of(const OptionShape& option) {
+    return {{"names", option.names},
+            {"value", option.value},
+            {"choices", option.choices},
+            {"range", option.range},
+            {"group", option.group},
+            {"needs", option.needs},
+            {"excludes", option.excludes},
+            {"description", option.description},
+            {"default_value", option.default_value},
+            {"is_required", option.is_required},
+            {"is_repeated", option.is_repeated}};
+}
+
+Json json_of(const std::vector<OptionShape>& options) {
+    Json all = Json::array();
+    for (const OptionShape& option : options) {
+        all.push_back(json_of(option));
+    }
+    return all;
+}
+
 }  // namespace
 
 std::vector<CommandShape> command_tree(const CLI::App& program) {
@@ -63,6 +109,18 @@ std::vector<CommandShape> command_tree(const CLI::App& program) {
         }
     }
     return all;
+}
+
+void write_json(std::ostream& out, const std::vector<CommandShape>& tree) {
+    Json all = Json::array();
+    for (const CommandShape& command : tree) {
+        all.push_back({{"name", command.name},
+                       {"description", command.description},
+                       {"footer", command.footer},
+                       {"arguments", json_of(command.arguments)},
+                       {"options", json_of(command.options)}});
+    }
+    out << all.dump(2) << '\n';
 }
 
 }  // namespace wend

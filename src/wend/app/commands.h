@@ -6,6 +6,7 @@
 namespace wend {
 
 Action add_render_command(CLI::App& program);
+Action add_view_command(CLI::App& program);
 Action add_compare_command(CLI::App& program);
 Action add_metric_command(CLI::App& program);
 Action add_merge_command(CLI::App& program);

@@ -1,25 +1,22 @@
+#include <wend/app/comparison_data.h>
 #include <wend/app/comparison_page.h>
 #include <wend/app/report_page.h>
 #include <wend/film/false_colour.h>
-#include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace wend {
 namespace {
 
 constexpr ColourScale error_scale{ColourScale::Kind::logarithmic, 1e-3f, 10.0f};
-
-std::string file_name(const WayOfSampling& way) {
-    std::string name = to_string(way);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '+' || c == '/'; }, '-');
-    return name;
-}
 
 const std::vector<float>& values_of(const ComparisonRow& row, const std::string& layer) {
     return std::find_if(row.walks.begin(), row.walks.end(), [&](const Layer& l) { return l.name == layer; })->values;
@@ -53,28 +50,57 @@ std::vector<WalkMap> walk_maps(const std::vector<ComparisonRow>& rows) {
             {"branches", {"Splitting", "branches a sample", common_scale(rows, "branches", Kind::logarithmic, 1.0f)}}};
 }
 
-Image error_map(const ComparisonRow& row, const Reference& reference) {
-    return false_colour(relative_squared_errors(row.image, reference), row.image.width, row.image.height, error_scale);
+ReportRow report_row(const ComparisonRow& r) {
+    return {to_string(r.way),
+            ablation_role(r.way.preset),
+            r.samples,
+            r.seconds,
+            r.metrics.relmse,
+            r.metrics.relmse_trimmed,
+            r.metrics.error_p9999,
+            r.metrics.mse,
+            r.flip,
+            r.ratio,
+            relmse_spread(r),
+            ratio_spread(r)};
 }
 
-ReportRow report_row(const ComparisonRow& r) {
-    return {to_string(r.way),         ablation_role(r.way.preset), r.samples,     r.seconds, r.metrics.relmse,
-            r.metrics.relmse_trimmed, r.metrics.error_p9999,       r.metrics.mse, r.flip,    r.ratio};
+/// How the reference came about, and how noisy it is.
+std::string reference_text(const KnownReference& reference) {
+    std::string text = reference.rendered.empty() ? "read from files" : "rendered";
+    for (const RenderedHalf& half : reference.rendered) {
+        text += fmt::format(", {} spp in {:.3g} s", half.samples, half.seconds);
+    }
+    const std::optional<double> noise = noise_of(reference.halves);
+    return text + (noise ? fmt::format("; its own relMSE {:.2g}, left out of the errors", *noise)
+                         : "; one picture, whose noise counts as error");
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const Comparison& comparison) {
+    const Vec2i size = comparison.reference.size();
+    const int threads = comparison.settings.at("threads"), depth = comparison.settings.at("max_depth");
+    return {{"resolution", fmt::format("{} x {}", size.x, size.y)},
+            {"seeds", fmt::format("{}, the median shown", comparison.plan.seeds)},
+            {"threads", threads == 0 ? "all" : std::to_string(threads)},
+            {"maximum depth", depth == (1 << 30) ? "none" : std::to_string(depth)},
+            {"version", comparison.settings.at("version")},
+            {"reference", reference_text(comparison.reference)}};
 }
 
 }  // namespace
 
-std::string comparison_page(const Session& session, const std::vector<ComparisonRow>& rows, const Reference& reference,
-                            double seconds, int seeds) {
+Image error_map(const ComparisonRow& row, const Reference& reference) {
+    return false_colour(relative_squared_errors(row.image, reference), row.image.width, row.image.height, error_scale);
+}
+
+std::string comparison_page(const Comparison& comparison) {
+    const std::vector<ComparisonRow>& rows = comparison.rows;
+    const Reference& reference = comparison.reference.halves;
     const std::vector<WalkMap> walks = walk_maps(rows);
     Report report;
-    report.scene = std::filesystem::path(session.scene_file()).filename().string();
-    report.title = fmt::format("{}: {:g} seconds each", report.scene, seconds);
-    report.settings = {
-        {"resolution", fmt::format("{} x {}", reference.a.width, reference.a.height)},
-        {"seeds", fmt::format("{}, the median shown", seeds)},
-        {"threads", session.settings().threads == 0 ? "all" : std::to_string(session.settings().threads)},
-        {"maximum depth", std::to_string(session.settings().max_depth)}};
+    report.scene = std::filesystem::path(comparison.scene).filename().string();
+    report.title = fmt::format("{}: {:g} seconds each", report.scene, comparison.plan.seconds);
+    report.settings = settings_of(comparison);
     report.maps = {{"Error", "relative squared error", error_scale}};
     for (const WalkMap& map : walks) {
         report.maps.push_back(map.shown);
@@ -96,20 +122,6 @@ std::string comparison_page(const Session& session, const std::vector<Comparison
     report.left = rows.size() > 1 ? 1 : 0;
     report.right = rows.size();
     return report_page(report);
-}
-
-void write_comparison(const std::filesystem::path& folder, const Session& session,
-                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds) {
-    for (const ComparisonRow& r : rows) {
-        const std::string name = file_name(r.way);
-        const int width = r.image.width, height = r.image.height;
-        const Image errors = error_map(r, reference);
-        for (const auto& [file, image] : {std::pair{name, &r.image}, {name + "-error", &errors}}) {
-            write_picture(folder / (file + ".png"), {*image, {}, {}, {0, 0}, {width, height}});
-        }
-        write_picture(folder / (name + ".exr"), {r.image, r.walks, {}, {0, 0}, {width, height}});
-    }
-    write_atomically(folder / "index.html", comparison_page(session, rows, reference, seconds, seeds));
 }
 
 }  // namespace wend

@@ -2,19 +2,17 @@
 #pragma once
 
 #include <wend/app/comparison.h>
+#include <wend/core/image.h>
+#include <wend/film/false_colour.h>
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 namespace wend {
 
-/// The page, pictures included.
-std::string comparison_page(const Session& session, const std::vector<ComparisonRow>& rows, const Reference& reference,
-                            double seconds, int seeds);
+/// The errors of a row's median run in false colours, as the page and the files beside it show them.
+Image error_map(const ComparisonRow& row, const Reference& reference);
 
-/// Writes pictures, error maps, what walks did (as layers) and index.html into a folder of make_report_folder().
-void write_comparison(const std::filesystem::path& folder, const Session& session,
-                      const std::vector<ComparisonRow>& rows, const Reference& reference, double seconds, int seeds);
+/// The page, pictures included.
+std::string comparison_page(const Comparison& comparison);
 
 }  // namespace wend

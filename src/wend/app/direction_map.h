@@ -1,21 +1,27 @@
-// What arrives at a place, by direction, as a picture.
+// What arrives at a place, by direction, as numbers.
 #pragma once
 
+#include <wend/core/vector.h>
 #include <wend/film/picture.h>
 #include <wend/guide/mixture.h>
 #include <wend/guide/records.h>
 
+#include <array>
+#include <string>
 #include <vector>
 
 namespace wend {
 
-/// Latitude-longitude maps, row by row: z on top, x in the middle. Values are radiances.
-struct DirectionMaps {
+/// Latitude-longitude maps, row by row: z on top, x in the middle, y to the right of it. Values are radiances.
+struct DirectionMap {
     static constexpr int width = 512, height = 256;
 
-    std::vector<float> radiance;
-    std::vector<float> records;  ///< may be empty
+    std::string name;           ///< what it shows, in words
+    std::vector<float> values;  ///< width times height
 };
+
+/// Where a direction is on the maps: column and row.
+std::array<int, 2> place_on_map(const Vec3& direction);
 
 /// What the lobes say.
 std::vector<float> radiance_map(const guide::VmfMixture& incident, float fluence);
@@ -24,11 +30,7 @@ std::vector<float> radiance_map(const guide::VmfMixture& incident, float fluence
 /// found, over its solid angle. Zero without records.
 std::vector<float> record_map(const guide::Records& records);
 
-/// The maps as they are: the records' is the layer "records".
-Picture numbers_picture(const DirectionMaps& maps);
-
-/// In false colours over four decades below the largest radiance, a mark at the mean of each lobe; the records' map is
-/// below, in the same colours.
-Picture colours_picture(const DirectionMaps& maps, const guide::VmfMixture& incident);
+/// The maps as they are: the first as colour, the others as layers of their names. There is at least one.
+Picture numbers_picture(const std::vector<DirectionMap>& maps);
 
 }  // namespace wend

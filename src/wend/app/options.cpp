@@ -76,14 +76,6 @@ void CommonOptions::write_json(const Streams& streams, const nlohmann::json& res
     }
 }
 
-nlohmann::json json_number(double value) {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
-
-std::string json_text(const nlohmann::json& value, int indent) {
-    return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string seconds_problem(const std::string& text) {
     double seconds = 0;
     const bool fits = CLI::detail::lexical_cast(text, seconds) && seconds >= 1e-3 && seconds <= 1e9;

@@ -1,6 +1,8 @@
 // What all subcommands share.
 #pragma once
 
+#include <wend/io/json_text.h>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -37,13 +39,6 @@ struct CommonOptions {
     /// Writes the results to where --json says.
     void write_json(const Streams& streams, const nlohmann::json& results) const;
 };
-
-/// Numbers as JSON has them: null where not finite.
-nlohmann::json json_number(double value);
-
-/// JSON as text; what is not UTF-8 in it (file names may be anything) is replaced. No line breaks if `indent` is
-/// negative.
-std::string json_text(const nlohmann::json& value, int indent = -1);
 
 /// What is wrong with a number of seconds after --time; empty: nothing. CLI::Range would let NaN pass.
 std::string seconds_problem(const std::string& text);

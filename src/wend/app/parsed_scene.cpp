@@ -1,5 +1,5 @@
 #include <wend/app/parsed_scene.h>
-#include <wend/io/pbrt/parser.h>
+#include <wend/io/load/parse_scene.h>
 
 #include <utility>
 
@@ -14,13 +14,13 @@ ParsedScene::ParsedScene(const SceneOptions& options, pbrt::Description descript
 
 std::shared_ptr<ParsedScene> ParsedScene::load(const SceneOptions& options) {
     options.check();
-    return std::make_shared<ParsedScene>(options, pbrt::parse_file(options.file), std::string());
+    return std::make_shared<ParsedScene>(options, parse_scene(options.file), std::string());
 }
 
 std::shared_ptr<ParsedScene> ParsedScene::of_text(std::string text, const std::filesystem::path& folder,
                                                   const SceneOptions& options) {
     options.check();
-    pbrt::Description description = pbrt::parse_string(text, folder, options.file);
+    pbrt::Description description = parse_scene(text, folder, options.file);
     return std::make_shared<ParsedScene>(options, std::move(description), std::move(text));
 }
 

@@ -65,9 +65,9 @@ int run_program(int argc, const char* const* argv, std::ostream& out, std::ostre
         // The program's own options may come last.
         program.fallthrough();
         std::vector<std::pair<CLI::App*, Action>> actions;
-        for (const auto add : {add_render_command, add_compare_command, add_metric_command, add_merge_command,
-                               add_denoise_command, add_demo_command, add_field_command, add_halfspace_command,
-                               add_slab_command, add_completion_command, add_man_page_command}) {
+        for (const auto add : {add_render_command, add_view_command, add_compare_command, add_metric_command,
+                               add_merge_command, add_denoise_command, add_demo_command, add_field_command,
+                               add_halfspace_command, add_slab_command, add_completion_command, add_man_page_command}) {
             Action action = add(program);
             actions.emplace_back(program.get_subcommands({}).back(), std::move(action));
         }

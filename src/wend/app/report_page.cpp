@@ -1,4 +1,5 @@
 #include <wend/app/markup.h>
+#include <wend/app/number_text.h>
 #include <wend/app/report_page.h>
 #include <wend/app/report_template.h>
 #include <wend/film/tone.h>
@@ -6,23 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace wend {
 namespace {
-
-/// Three significant digits, without an exponent where that is short.
-std::string number(double value) {
-    if (!std::isfinite(value)) {
-        return "–";
-    }
-    const double size = std::abs(value);
-    if (size >= 1000 && size < 1e7) {
-        return fmt::format("{:.0f}", value);
-    }
-    return size == 0 || (size >= 1e-3 && size < 1000) ? fmt::format("{:.3g}", value) : fmt::format("{:.2e}", value);
-}
 
 std::string settings_list(const Report& report) {
     std::string html;
@@ -39,18 +27,43 @@ std::string table_rows(const Report& report) {
     }
     std::string html;
     for (const ReportRow& row : report.rows) {
-        const std::string ratio = row.ratio ? number(*row.ratio) + "×" : "–";
+        const std::string ratio = row.ratio ? number_text(*row.ratio) + "×" : "–";
         const std::string role =
             row.role.empty() ? "" : fmt::format(" <span class=\"role\">{}</span>", escape_markup(row.role));
         html += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td class=\"ratio\">{}</td>",
                             row.ratio == best ? " class=\"best\"" : "", escape_markup(row.sampling), role,
-                            number(row.relmse), ratio);
+                            number_text(row.relmse), ratio);
         for (const double value : {row.seconds, row.spp, row.relmse_trimmed, row.error_p9999, row.mse, row.flip}) {
-            html += fmt::format("<td>{}</td>", number(value));
+            html += fmt::format("<td>{}</td>", number_text(value));
         }
         html += "</tr>\n";
     }
     return html;
+}
+
+/// How the renders of each way differ; nothing where each has but one.
+std::string spread_section(const Report& report) {
+    std::string rows;
+    bool differ = false;
+    for (const ReportRow& row : report.rows) {
+        const Spread& error = row.relmse_spread;
+        differ |= error.count > 1;
+        rows += fmt::format("<tr><th scope=\"row\">{}</th>", escape_markup(row.sampling));
+        for (const double value : {error.median, error.min, error.max, error.mean, error.std_error,
+                                   row.ratio_spread.min, row.ratio_spread.max}) {
+            rows += fmt::format("<td>{}</td>", number_text(value));
+        }
+        rows += "</tr>\n";
+    }
+    return differ ? fill_template(report_spread, {{"rows", rows}}) : "";
+}
+
+std::string convergence(const Report& report) {
+    return fmt::format(
+        "{}<details><summary>Over samples</summary>\n{}</details>\n<details><summary>Over work: segments of all "
+        "walks</summary>\n{}</details>\n",
+        convergence_svg(report.convergence), convergence_svg(report.convergence, ConvergenceOver::samples),
+        convergence_svg(report.convergence, ConvergenceOver::work));
 }
 
 std::string options(const Report& report, std::size_t selected) {
@@ -78,8 +91,8 @@ std::string colour_bar(const ReportMap& map) {
     return fmt::format(
         "<div class=\"scale\"><span>{}, {} scale</span><span class=\"bar\"><span>{}</span><i></i>"
         "<span>{}</span></span></div>\n",
-        escape_markup(map.quantity), logarithmic ? "logarithmic" : "linear", number(map.scale.low),
-        number(map.scale.high));
+        escape_markup(map.quantity), logarithmic ? "logarithmic" : "linear", number_text(map.scale.low),
+        number_text(map.scale.high));
 }
 
 /// A picture or map, with the number of its picture for the script.
@@ -148,7 +161,8 @@ std::string report_page(const Report& report) {
                                            {"views", view_choices(report)},
                                            {"pictures", picture_strip(report)},
                                            {"maps", map_sections(report)},
-                                           {"convergence", convergence_svg(report.convergence)}});
+                                           {"spread", spread_section(report)},
+                                           {"convergence", convergence(report)}});
 }
 
 }  // namespace wend

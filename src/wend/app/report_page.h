@@ -3,6 +3,7 @@
 
 #include <wend/app/convergence_plot.h>
 #include <wend/film/false_colour.h>
+#include <wend/stats/spread.h>
 
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct ReportRow {
     double mse = 0;
     double flip = 0;
     std::optional<double> ratio;  ///< (relMSE · seconds of classical) / (relMSE · seconds of this)
+    Spread relmse_spread = {};    ///< over the renders of this way; of none: not known
+    Spread ratio_spread = {};
 };
 
 /// A number at each pixel that the page shows in false colours, such as the error.

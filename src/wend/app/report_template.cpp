@@ -59,7 +59,7 @@ const std::string_view report_template = R"html(<!doctype html>
 <p class="note"><b>relMSE</b> is the mean squared error relative to the squared reference; <b>trimmed</b> leaves out the worst 0.1&nbsp;% of pixels; <b>99.99&nbsp;%</b> of the pixels of all runs have a relative squared error of at most so much, and fireflies have more. <b>ratio</b> is relMSE&nbsp;×&nbsp;seconds of classical sampling over that of the row: how many times faster the row reaches the same error.</p>
 </section>
 
-<section>
+{{spread}}<section>
 <h2>Convergence</h2>
 {{convergence}}</section>
 
@@ -73,6 +73,20 @@ const std::string_view report_template = R"html(<!doctype html>
 <script>{{script}}</script>
 </body>
 </html>
+)html";
+
+const std::string_view report_spread = R"html(<section>
+<h2>Spread over seeds</h2>
+<div class="scroll" tabindex="0" role="region" aria-label="Spread over seeds">
+<table>
+<thead><tr><th scope="col">sampling</th><th scope="col">median relMSE</th><th scope="col">least</th><th scope="col">most</th><th scope="col">mean</th><th scope="col">standard error</th><th scope="col">least ratio</th><th scope="col">most</th></tr></thead>
+<tbody>
+{{rows}}</tbody>
+</table>
+</div>
+<p class="note">Ratios are those of the renders that took the same turn. The standard error is that of the mean.</p>
+</section>
+
 )html";
 
 const std::string_view report_style = R"css(
@@ -106,7 +120,7 @@ select {
   min-width: 0; max-width: 15rem; padding: .45rem .6rem; border: 1px solid var(--rule); border-radius: .4rem;
   background: var(--panel); color: var(--ink); font: inherit;
 }
-fieldset { display: flex; margin: 0; padding: 0; border: 1px solid var(--rule); border-radius: .4rem; }
+fieldset { display: flex; flex-wrap: wrap; min-width: 0; max-width: 100%; margin: 0; padding: 0; border: 1px solid var(--rule); border-radius: .4rem; }
 legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 fieldset input { position: absolute; opacity: 0; }
 fieldset span { display: block; padding: .45rem .8rem; border-radius: .35rem; color: var(--quiet); font-size: .875rem; cursor: pointer; }
@@ -149,7 +163,9 @@ tbody th { font-weight: 500; }
 .best .ratio { color: var(--accent); }
 
 .plot { display: block; max-width: 100%; height: auto; margin: 0 auto; color: inherit; }
-section > .plot { width: 100%; max-width: 46rem; }
+section > .plot, details > .plot { width: 100%; max-width: 46rem; }
+
+summary { margin-top: .75rem; color: var(--quiet); cursor: pointer; }
 
 .strip { display: grid; gap: 1.5rem 1rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 13rem), 1fr)); }
 figure { margin: 0; }
@@ -164,7 +180,7 @@ dt { color: var(--quiet); }
 dd { margin: 0; overflow-wrap: anywhere; text-align: right; font-variant-numeric: tabular-nums; }
 
 @media (max-width: 40rem) {
-  .controls { display: grid; grid-template-columns: 1fr 1fr; }
+  .controls { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
   .controls > label { flex-direction: column; gap: .2rem; align-items: stretch; }
   .controls fieldset { grid-row: 2; grid-column: 1 / -1; justify-self: center; }
   select { max-width: none; }

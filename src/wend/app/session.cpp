@@ -4,7 +4,7 @@
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
-#include <wend/io/pbrt/parser.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/version.h>
 
 #include <fmt/format.h>
@@ -53,7 +53,11 @@ PixelRect parse_crop(const std::string& text, const Vec2i& size) {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
-    command.add_option("scene", file, "pbrt-v4 scene file")->required();
+    command.add_option("scene", file, "scene file: pbrt-v4, or Mitsuba 3 (.xml)")->required();
+    add_choices_to(command);
+}
+
+void SceneOptions::add_choices_to(CLI::App& command) {
     command.add_option("--resolution", resolution, "size of the picture, WIDTHxHEIGHT (default: the scene's)");
     command.add_option("--crop", crop, "part of the picture to render: X0,X1,Y0,Y1 as fractions");
     command
@@ -77,7 +81,7 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, pbrt::parse_file(options.file), {}) {
+    : Session(options, common, parse_scene(options.file), {}) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }

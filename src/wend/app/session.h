@@ -23,6 +23,8 @@ struct SceneOptions {
     std::string sampler;
 
     void add_to(CLI::App& command);
+    /// All but the file.
+    void add_choices_to(CLI::App& command);
     /// Throws InputError for what is wrong whatever the scene.
     void check() const;
 };

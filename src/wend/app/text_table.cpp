@@ -11,6 +11,17 @@ std::size_t columns_of(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (c & '\xc0') != '\x80'; }));
 }
 
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + '"';
+}
+
 }  // namespace
 
 std::string text_table(const std::vector<std::vector<std::string>>& rows, std::size_t left_columns) {
@@ -32,6 +43,17 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows, std::s
         table += line + '\n';
     }
     return table;
+}
+
+std::string csv_text(const std::vector<std::vector<std::string>>& rows) {
+    std::string text;
+    for (const std::vector<std::string>& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            text += (i == 0 ? "" : ",") + csv_cell(row[i]);
+        }
+        text += '\n';
+    }
+    return text;
 }
 
 }  // namespace wend

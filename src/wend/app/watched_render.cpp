@@ -66,6 +66,7 @@ void WatchOptions::add_to(CLI::App& command) {
         ->capture_default_str()
         ->needs(file);
     command.add_option("--resume", resume, "go on from this checkpoint; scene and settings must be the same");
+    live.add_to(command);
 }
 
 void WatchOptions::check() const {
@@ -83,13 +84,17 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     constexpr double step = 0.25;
     // For the first picture: of a pass that takes longer there is a part.
     constexpr double longest_wait = 5;
-    Render render(session.scene(), film, settings);
+    // The first rank alone looks at the clock, writes files and is watched.
+    Team team(settings.ranks);
+    const bool is_first = team.rank() == 0;
+    std::optional<LiveView> view;
+    if (options.live.any() && is_first) {
+        view.emplace(options.live, session, settings.preset, streams);
+    }
+    Render render(session.scene(), film, view ? view->watched(settings) : settings);
     if (!options.resume.empty()) {
         resume_from(options.resume, render, session, settings);
     }
-    // The first rank alone looks at the clock and writes files.
-    Team team(settings.ranks);
-    const bool is_first = team.rank() == 0;
     std::optional<ProgressLines> lines;
     if (!is_first) {
         // One rank shows progress for all.
@@ -108,6 +113,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         bar.update(progress);
         if (lines) {
             lines->update(progress);
+        }
+        if (view) {
+            view->update(render, film, [&] { attempt(streams, [&] { write_picture(render.statistics()); }); });
         }
         if (!goes_on || render.is_stopped()) {
             break;
@@ -143,6 +151,9 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     // After the picture: it takes longer, and who stops a render may not wait for ever.
     if (!options.checkpoint.empty()) {
         attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+    }
+    if (view) {
+        view->finish(render, film);
     }
     return statistics;
 }

@@ -2,6 +2,7 @@
 // stopped and resumed.
 #pragma once
 
+#include <wend/app/live_view.h>
 #include <wend/app/options.h>
 #include <wend/app/session.h>
 #include <wend/render/render.h>
@@ -19,6 +20,7 @@ struct WatchOptions {
     std::string checkpoint;
     double checkpoint_every = 60;
     std::string resume;
+    LiveViewers live;
 
     void add_to(CLI::App& command);
     /// Throws InputError for files that cannot be written.

@@ -1,40 +1,13 @@
-#include <wend/core/error.h>
-#include <wend/film/comparable.h>
+#include <wend/film/error_terms.h>
 #include <wend/film/metrics.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 namespace wend {
 namespace {
-
-void require_valid(const Image& image, const Reference& reference) {
-    require_finite(image, "the image");
-    require_finite(reference.a, "the reference (half a)");
-    require_finite(reference.b, "the reference (half b)");
-    require_same_size(image, reference.a, "the reference (half a)");
-    require_same_size(image, reference.b, "the reference (half b)");
-}
-
-double mean_value(const Image& image) {
-    double sum = 0;
-    for (const Rgb& pixel : image.pixels) {
-        sum += static_cast<double>(pixel.r) + pixel.g + pixel.b;
-    }
-    return sum / (3.0 * static_cast<double>(image.pixels.size()));
-}
-
-/// The mean of R, which the relative measures scale their regularizers with.
-double required_level(const Image& average) {
-    const double level = std::abs(mean_value(average));
-    if (level == 0) {
-        throw InputError("the reference is black on average: relative errors are undefined");
-    }
-    return level;
-}
 
 double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -61,35 +34,6 @@ double trimmed_mean(std::vector<double> values) {
     return mean_of(values);
 }
 
-/// Per pixel, the mean over channels of term(image, a, b, average).
-template <class Term>
-std::vector<double> per_pixel(const Image& image, const Reference& reference, const Image& average, Term&& term) {
-    std::vector<double> values(image.pixels.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            values[i] += term(double{image.pixels[i][c]}, double{reference.a.pixels[i][c]},
-                              double{reference.b.pixels[i][c]}, double{average.pixels[i][c]});
-        }
-        values[i] /= 3;
-    }
-    return values;
-}
-
-std::vector<double> relative_squared(const Image& image, const Reference& reference, const Image& average,
-                                     double level) {
-    const double regularizer = 0.01 * level * level;
-    return per_pixel(image, reference, average,
-                     [=](double i, double a, double b, double r) { return (i - a) * (i - b) / (r * r + regularizer); });
-}
-
-std::vector<float> to_floats(const std::vector<double>& values) {
-    constexpr double largest = std::numeric_limits<float>::max();
-    std::vector<float> floats(values.size());
-    std::transform(values.begin(), values.end(), floats.begin(),
-                   [=](double value) { return static_cast<float>(std::clamp(value, -largest, largest)); });
-    return floats;
-}
-
 }  // namespace
 
 Image Reference::average() const {
@@ -102,30 +46,36 @@ Image Reference::average() const {
 }
 
 Metrics measure(const Image& image, const Reference& reference) {
-    require_valid(image, reference);
-    const Image average = reference.average();
-    const double level = required_level(average);
+    return measure(error_terms(image, reference));
+}
 
-    const std::vector<double> relative = relative_squared(image, reference, average, level);
-    const auto squared = [](double i, double a, double b, double) { return (i - a) * (i - b); };
-    const auto absolute = [=](double i, double, double, double r) {
-        return std::abs(i - r) / (std::abs(r) + 0.01 * level);
-    };
-
+Metrics measure(const ErrorTerms& terms) {
+    std::vector<double> squared(terms.relative_squared.size());
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+        squared[i] = (terms.squared[3 * i] + terms.squared[3 * i + 1] + terms.squared[3 * i + 2]) / 3;
+    }
     Metrics metrics;
-    metrics.relmse = mean_of(relative);
-    metrics.relmse_std_error = std_error_of_mean(relative, metrics.relmse);
-    metrics.relmse_trimmed = trimmed_mean(relative);
-    metrics.error_p9999 = firefly_error(to_floats(relative));
-    metrics.mse = mean_of(per_pixel(image, reference, average, squared));
-    metrics.mape = mean_of(per_pixel(image, reference, average, absolute));
+    metrics.relmse = mean_of(terms.relative_squared);
+    metrics.relmse_std_error = std_error_of_mean(terms.relative_squared, metrics.relmse);
+    metrics.relmse_trimmed = trimmed_mean(terms.relative_squared);
+    metrics.error_p9999 = firefly_error(to_floats(terms.relative_squared));
+    metrics.mse = mean_of(squared);
+    metrics.mape = mean_of(terms.relative);
     return metrics;
 }
 
-std::vector<float> relative_squared_errors(const Image& image, const Reference& reference) {
-    require_valid(image, reference);
+std::optional<double> noise_of(const Reference& reference) {
     const Image average = reference.average();
-    return to_floats(relative_squared(image, reference, average, required_level(average)));
+    // The average against one half alone: a and b are its halves' noise away, in opposite directions.
+    const ErrorTerms terms = error_terms(average, reference);
+    if (reference.a.pixels == reference.b.pixels) {
+        return std::nullopt;
+    }
+    return -mean_of(terms.relative_squared);
+}
+
+std::vector<float> relative_squared_errors(const Image& image, const Reference& reference) {
+    return to_floats(error_terms(image, reference).relative_squared);
 }
 
 double firefly_error(std::vector<float> errors) {

@@ -3,6 +3,7 @@
 
 #include <wend/core/image.h>
 
+#include <optional>
 #include <vector>
 
 namespace wend {
@@ -35,9 +36,18 @@ struct Metrics {
     double mape = 0;
 };
 
+struct ErrorTerms;
+
 /// All measures. Throws InputError where sizes differ, where a pixel is not finite, or where mean(R) is zero (relative
 /// errors mean nothing against a black reference).
 Metrics measure(const Image& image, const Reference& reference);
+/// The same of terms that are at hand.
+Metrics measure(const ErrorTerms& terms);
+
+/// How noisy a reference is: the relMSE that its average has by its own noise, mean of ((a − b)/2)² / (R² + e), which
+/// two halves keep out of the measures and one picture does not. None where both halves are one picture, which does not
+/// know. Throws as `measure` does.
+std::optional<double> noise_of(const Reference& reference);
 
 /// The terms of relMSE pixel by pixel, averaged over channels: their mean is `Metrics::relmse`. Row-major like the
 /// image. Throws as `measure` does.

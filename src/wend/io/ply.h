@@ -14,6 +14,8 @@ struct TriangleMeshData {
     std::vector<Vec3> normals;           ///< one a vertex, of any length, or none; they may not be finite
     std::vector<Vec2> uvs;               ///< one a vertex, or none
     std::vector<std::uint32_t> indices;  ///< three a triangle
+    std::vector<Vec3> end_positions;     ///< one a vertex, or none: as TriangleMesh has them
+    std::vector<Vec3> end_normals;       ///< the same
 };
 
 /// Reads a PLY file: ascii or binary of either byte order, compressed by gzip or not. Polygons become fans of

@@ -1,7 +1,9 @@
 #include <wend/io/parts_file.h>
 #include <wend/io/records_file.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace wend {
 namespace {
@@ -15,6 +17,13 @@ void RecordSamples::add(std::span<const guide::PathRecords> records) {
         surface.add(part.surface());
         volume.add(part.volume());
     }
+}
+
+guide::Records records_in(const guide::RecordSample& sample, const guide::Field& field, const guide::Region* region) {
+    guide::Records found;
+    std::copy_if(sample.records().begin(), sample.records().end(), std::back_inserter(found),
+                 [&](const guide::Record& r) { return field.find(r.position) == region; });
+    return found;
 }
 
 void write_records(const std::filesystem::path& file, const RecordSamples& samples) {

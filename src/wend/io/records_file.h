@@ -1,6 +1,7 @@
 // Files of records: some of what a render learned from, to look at.
 #pragma once
 
+#include <wend/guide/field.h>
 #include <wend/guide/path_records.h>
 #include <wend/guide/record_sample.h>
 
@@ -16,6 +17,9 @@ struct RecordSamples {
     /// Adds the records of all producers, in the order given.
     void add(std::span<const guide::PathRecords> records);
 };
+
+/// The records of a sample that lie in a region of the field.
+guide::Records records_in(const guide::RecordSample& sample, const guide::Field& field, const guide::Region* region);
 
 /// Writes both samples. The file appears whole or not at all.
 void write_records(const std::filesystem::path& file, const RecordSamples& samples);

@@ -36,7 +36,8 @@ struct SceneOverrides {
 /// it.
 class WEND_API Scene {
 public:
-    /// Of a pbrt-v4 file. Throws InputError for whatever is wrong in it, with file, line and column.
+    /// Of a pbrt-v4 file, or of Mitsuba 3 (`.xml`). Throws InputError for whatever is wrong in it, with file, line and
+    /// column.
     static Scene load(const std::filesystem::path& file, const SceneOverrides& overrides = {});
     /// Of a text in that format, which refers to files in the folder; `name` is what messages call it.
     static Scene of_text(const std::string& text, const std::filesystem::path& folder, const std::string& name,

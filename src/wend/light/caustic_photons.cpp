@@ -137,7 +137,7 @@ std::optional<Photon> shoot(const Scene& scene, const LightSelection& lights, co
                             float density, float time, Pcg32& random) {
     const float u = random.uniform();
     const Vec2 u2 = random.uniform2();
-    const auto chosen = choose_light(scene, lights, {target.position, {0, 0, 0}}, u, u2, random);
+    const auto chosen = choose_light(scene, lights, {target.position, {0, 0, 0}}, u, u2, random, time);
     if (!chosen || chosen->light.point_like || chosen->light.medium != vacuum) {
         return std::nullopt;
     }

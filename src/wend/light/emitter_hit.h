@@ -110,7 +110,7 @@ private:
 
     float density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
         return light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position, direction, hit,
-                             normal);
+                             normal, last.time);
     }
 
     /// Of the first direction of a refracted way that ends with `direction`: 0 where connections do not find it.

@@ -26,14 +26,17 @@ struct ChosenSample {
     float density() const { return probability * light.density; }
 };
 
-/// `u` chooses the light, `u2` and `random` the point of it; nothing where no light reaches the receiver.
+/// `u` chooses the light, `u2` and `random` the point of it as it stands at a time (Ray::time); nothing where no light
+/// reaches the receiver.
 inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightSelection& choices,
-                                                const LightReceiver& receiver, float u, Vec2 u2, Pcg32& random) {
+                                                const LightReceiver& receiver, float u, Vec2 u2, Pcg32& random,
+                                                float time) {
     const ChosenLight chosen = choices.sample(receiver, u);
     if (chosen.index < 0) {
         return std::nullopt;
     }
-    auto light = sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
+    auto light =
+        sample_light(scene.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random, time);
     if (light && light->distance < infinity) {
         light->radiance *= scene.presence(
             chosen.index, {light->uv, receiver.position + light->direction * light->distance, light->normal});
@@ -113,7 +116,7 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
 template <DistanceDecision Distance>
 Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk* interior,
              Pcg32& random) {
-    Passage passage{Rgb(way.transmitted), Rgb(1.0f)};
+    Passage passage{way.transmitted, Rgb(1.0f)};
     const MediumId first = way.legs().front().medium;
     for (const SpecularChain::Leg& leg : way.legs()) {
         if (leg.medium != first) {

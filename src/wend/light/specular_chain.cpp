@@ -66,10 +66,10 @@ const DielectricBsdf* smooth_dielectric(const Scene& scene, const Hit& hit, cons
 }
 
 /// Refracts the beam, whose origin is at the hit. False where it is totally reflected.
-bool refract_at(const Scene& scene, const Hit& hit, float ior, Pencil& beam, SpecularChain& way) {
+bool refract_at(const Scene& scene, const Hit& hit, const DielectricBsdf& boundary, Pencil& beam, SpecularChain& way) {
     const Vec3 before = beam.ray.direction;
     Vec3 n = hit.shading.n;
-    const auto refracted = refract(-before, n, ior);
+    const auto refracted = refract(-before, n, boundary.ior);
     if (!refracted || !(dot(refracted->direction, hit.normal) * dot(before, hit.normal) > 0)) {
         return false;
     }
@@ -87,7 +87,7 @@ bool refract_at(const Scene& scene, const Hit& hit, float ior, Pencil& beam, Spe
         beam.direction_by[i] = beam.direction_by[i] / index + turned * (cosine / index - cosine_beyond) +
                                n * (cosine_by / index - beyond_by);
     }
-    way.transmitted *= (1 - fresnel_dielectric(cosine * side, ior)) / sqr(index);
+    way.transmitted *= boundary.transmittance * ((1 - fresnel_dielectric(cosine * side, boundary.ior)) / sqr(index));
     ++way.refractions;
     beam.ray = beam.ray.leave(hit, refracted->direction);
     return true;
@@ -130,7 +130,7 @@ std::optional<Trial> follow(const Scene& scene, const Ray& straight, const Frame
         beam.move(hit->distance, hit->normal);
         if (is_interface) {
             beam.ray.pass(*hit);
-        } else if (!refract_at(scene, *hit, dielectric->ior, beam, trial.way)) {
+        } else if (!refract_at(scene, *hit, *dielectric, beam, trial.way)) {
             return std::nullopt;
         } else if (scene.counts_vertices_in(medium.id)) {
             ++trial.way.vertices;

@@ -20,8 +20,8 @@ struct SpecularChain {
     };
 
     Vec3 direction;  ///< of its first leg, unit length
-    /// Of radiance, by the boundaries: Fresnel's transmittances over the squared ratios of indices.
-    float transmitted = 1;
+    /// Of radiance, by the boundaries: their transmittances over the squared ratios of indices.
+    Rgb transmitted{1.0f};
     /// Density of the first direction over that of the straight one to the same point, where points on lights are
     /// drawn.
     float density_ratio = 1;
@@ -58,7 +58,8 @@ std::optional<SpecularChain> find_specular_chain(const Scene& scene, const Ray& 
 /// what a portal sends from place to place.
 inline bool is_seen_through_boundaries(const Light& light) {
     const bool is_lamp = std::holds_alternative<TriangleLight>(light) || std::holds_alternative<QuadricLight>(light);
-    return (is_lamp && presence_of(light) == Presence::solid) || std::holds_alternative<ImageInfiniteLight>(light);
+    return (is_lamp && presence_of(light) == Presence::solid) || std::holds_alternative<ImageInfiniteLight>(light) ||
+           std::holds_alternative<SkyDiskLight>(light);
 }
 
 }  // namespace wend

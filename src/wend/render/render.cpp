@@ -176,12 +176,16 @@ public:
         return statistics;
     }
 
+    std::shared_ptr<const guide::Fields> fields() const {
+        return settings_.preset.is_classical()
+                   ? nullptr
+                   : std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().fields());
+    }
+
     RenderStatistics result() const {
         RenderStatistics result = statistics();
-        if (!settings_.preset.is_classical()) {
-            result.fields = std::make_shared<const guide::Fields>(learners_.get<FieldLearner>().fields());
-            result.field_bytes = result.fields->bytes();
-        }
+        result.fields = fields();
+        result.field_bytes = result.fields ? result.fields->bytes() : 0;
         check_rejected(result.counts);
         return result;
     }
@@ -503,6 +507,10 @@ RenderProgress Render::progress() const {
 
 RenderStatistics Render::statistics() const {
     return work_->statistics();
+}
+
+std::shared_ptr<const guide::Fields> Render::fields() const {
+    return work_->fields();
 }
 
 RenderStatistics Render::result() const {

@@ -126,6 +126,8 @@ public:
     RenderProgress progress() const;
     /// So far; without fields.
     RenderStatistics statistics() const;
+    /// A copy of what was learned so far; null where nothing is guided. Not within a step.
+    std::shared_ptr<const guide::Fields> fields() const;
     /// With a copy of what was learned. Throws std::runtime_error if more than one sample in 10^4 (and more than ten)
     /// was not a finite number: that is a mistake, not chance.
     RenderStatistics result() const;

@@ -22,6 +22,10 @@ Rgb intensity_towards(const SpotLight& light, const Vec3& w) {
     if (!(cosine > light.cos_outer)) {
         return Rgb(0.0f);
     }
+    if (light.is_linear) {
+        const float outer = std::acos(light.cos_outer), inner = std::acos(light.cos_inner);
+        return light.intensity * std::clamp((outer - std::acos(cosine)) / (outer - inner), 0.0f, 1.0f);
+    }
     const float t = (cosine - light.cos_outer) / (light.cos_inner - light.cos_outer);
     return light.intensity * (t * t * (3 - 2 * t));
 }
@@ -40,10 +44,18 @@ Rgb intensity_towards(const ProjectionLight& light, const Vec3& w) {
     if (!(std::abs(on_window.x) <= 1 && std::abs(on_window.y) <= 1)) {
         return Rgb(0.0f);
     }
-    return light.intensity * light.picture->nearest({0.5f * (on_window.x + 1), 0.5f * (on_window.y + 1)});
+    const Vec2 on_picture(0.5f * (on_window.x + 1), 0.5f * (on_window.y + 1));
+    if (light.lights_plane_evenly) {
+        return light.intensity * light.picture->bilinear(on_picture) / (d.z * d.z * d.z);
+    }
+    return light.intensity * light.picture->nearest(on_picture);
 }
 
 float spread(const SpotLight& light) {
+    if (light.is_linear && light.cos_outer < light.cos_inner) {
+        const float outer = std::acos(light.cos_outer), inner = std::acos(light.cos_inner);
+        return 2 * pi * (1 - (std::sin(outer) - std::sin(inner)) / (outer - inner));
+    }
     // The smooth step is a half on average.
     return 2 * pi * ((1 - light.cos_inner) + 0.5f * (light.cos_inner - light.cos_outer));
 }
@@ -61,7 +73,7 @@ Rgb spread(const ProjectionLight& light) {
         for (int x = 0; x < image.width; ++x) {
             const float px = (static_cast<float>(x) + 0.5f) * pixel.x - light.half_size.x;
             const float py = (static_cast<float>(y) + 0.5f) * pixel.y - light.half_size.y;
-            const double d2 = 1 + double{px} * px + double{py} * py;
+            const double d2 = light.lights_plane_evenly ? 1 : 1 + double{px} * px + double{py} * py;
             for (int c = 0; c < 3; ++c) {
                 sum[c] += static_cast<double>(image.at(x, y)[c]) / (d2 * std::sqrt(d2));
             }

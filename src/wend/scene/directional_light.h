@@ -17,6 +17,7 @@ struct SpotLight {
     AffineMap light_from_world;
     float cos_inner = 1;
     float cos_outer = 0;
+    bool is_linear = false;  ///< less in proportion to the angle, and not by a smooth step of its cosine
 };
 
 /// A point whose intensity, over all directions of its own space, is a square picture in the equal-area octahedral
@@ -36,6 +37,8 @@ struct ProjectionLight {
     AffineMap light_from_world;
     std::shared_ptr<const LightPicture> picture;
     Vec2 half_size{1, 1};  ///< of the window
+    /// Whether it is the irradiance of the window that the picture gives, interpolated between its pixels.
+    bool lights_plane_evenly = false;
 };
 
 /// Power per steradian that leaves into a unit direction of the world.

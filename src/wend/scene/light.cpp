@@ -2,6 +2,7 @@
 #include <wend/core/ray.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/light.h>
+#include <wend/scene/moving_light.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,9 @@ Cap visible_cap(const Sphere& sphere, const Vec3& from) {
     return {from / distance, 0.5f * (1 - sphere.radius / distance)};
 }
 
+/// Below, the inverse of a triangle's area and its products leave the range of floats.
+constexpr float smallest_area = 1e-30f;
+
 struct ShapePoint {
     Vec3 position;
     Vec3 normal;
@@ -95,8 +99,8 @@ float shape_density(const Disk&, const Vec3&, float area, const Vec3&) {
 }
 
 /// World area of a small patch over its object area, where the object-space unit normal is n.
-float area_stretch(const QuadricLight& light, const Vec3& n) {
-    return light.determinant * length(light.quadric->object_from_world.transposed_vector(n));
+float area_stretch(const PlacedQuadric& placed, const Vec3& n) {
+    return placed.area_factor() * length(placed.normal(n));
 }
 
 std::optional<LightSample> sample(const PointLight& l, const Vec3& p, const Vec2&, const Light&, Pcg32&) {
@@ -122,6 +126,14 @@ std::optional<LightSample> sample(const PortalInfiniteLight& l, const Vec3& p, c
 std::optional<LightSample> sample(const DistantLight& l, const Vec3&, const Vec2&, const Light&, Pcg32&) {
     return LightSample{l.direction, infinity, l.radiance, 1, true};
 }
+std::optional<LightSample> sample(const SkyDiskLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
+    const Vec3 w = Frame::from_z(l.direction).to_world(to_cone(u, l.one_minus_cosine));
+    return LightSample{w, infinity, l.radiance, cone_density(l.one_minus_cosine), false};
+}
+/// Of small disks, cosines would not tell.
+bool is_within(const SkyDiskLight& l, const Vec3& direction) {
+    return length_squared(direction - l.direction) <= 2 * l.one_minus_cosine;
+}
 std::optional<LightSample> sample(const UniformInfiniteLight& l, const Vec3&, const Vec2& u, const Light&, Pcg32&) {
     return LightSample{to_sphere(u), infinity, l.radiance, inv_4pi, false};
 }
@@ -129,21 +141,28 @@ std::optional<LightSample> sample(const ImageInfiniteLight& l, const Vec3&, cons
     const LightSample s = l.sample(u);
     return s.density > 0 ? std::optional(s) : std::nullopt;
 }
-std::optional<LightSample> sample(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
+std::optional<LightSample> sample_area(const TriangleLight& l, const Vec3& p, const Vec2& u, const Light& light,
+                                       float time) {
+    const PlacedTriangle t = placed_at(l, time);
+    if (l.motion && !(t.area > smallest_area)) {
+        return std::nullopt;
+    }
     const Vec2 b = to_triangle(u);
     const float w = 1 - b.x - b.y;
-    return connect(p, l.p0 * w + l.p1 * b.x + l.p2 * b.y, l.normal, l.uv0 * w + l.uv1 * b.x + l.uv2 * b.y, 1 / l.area,
+    return connect(p, t.p0 * w + t.p1 * b.x + t.p2 * b.y, t.normal, l.uv0 * w + l.uv1 * b.x + l.uv2 * b.y, 1 / t.area,
                    light);
 }
-std::optional<LightSample> sample(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light, Pcg32&) {
+std::optional<LightSample> sample_area(const QuadricLight& l, const Vec3& p, const Vec2& u, const Light& light,
+                                       float time) {
     const Quadric& quadric = *l.quadric;
-    const Vec3 from = quadric.object_from_world.point(p);
+    const PlacedQuadric placed(l, time);
+    const Vec3 from = placed.to_object(p);
     const ShapePoint point =
         std::visit([&](const auto& s) { return sample_shape(s, from, l.object_area, u); }, quadric.shape);
     const Vec3 n = normalize(point.normal);
-    const Vec3 world_normal = normalize(quadric.object_from_world.transposed_vector(n)) * l.flip;
-    return connect(p, quadric.world_from_object.point(point.position), world_normal,
-                   parameters(quadric, point.position), point.density / area_stretch(l, n), light);
+    const Vec3 world_normal = normalize(placed.normal(n)) * l.flip;
+    return connect(p, placed.to_world(point.position), world_normal, parameters(quadric, point.position),
+                   point.density / area_stretch(placed, n), light);
 }
 
 std::optional<LightSample> sample(const MediumLight& l, const Vec3& p, const Vec2& u, const Light&, Pcg32& random) {
@@ -170,25 +189,41 @@ float solid_angle_density(float area_density, const Vec3& p, const Vec3& directi
 
 }  // namespace
 
-std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random) {
-    return std::visit([&](const auto& l) { return sample(l, p, u, light, random); }, light);
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random, float time) {
+    return std::visit(
+        [&](const auto& l) {
+            if constexpr (requires { sample_area(l, p, u, light, time); }) {
+                return sample_area(l, p, u, light, time);
+            } else {
+                return sample(l, p, u, light, random);
+            }
+        },
+        light);
 }
 
-float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal) {
+float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal,
+                    float time) {
     if (const auto* triangle = std::get_if<TriangleLight>(&light)) {
-        return solid_angle_density(1 / triangle->area, p, direction, hit, hit_normal);
+        const float area = triangle->motion ? placed_at(*triangle, time).area : triangle->area;
+        return triangle->motion && !(area > smallest_area)
+                   ? 0.0f
+                   : solid_angle_density(1 / area, p, direction, hit, hit_normal);
     }
     if (const auto* l = std::get_if<QuadricLight>(&light)) {
         const Quadric& quadric = *l->quadric;
-        const Vec3 from = quadric.object_from_world.point(p);
-        const Vec3 q = quadric.object_from_world.point(hit);
+        const PlacedQuadric placed(*l, time);
+        const Vec3 from = placed.to_object(p);
+        const Vec3 q = placed.to_object(hit);
         const float density =
             std::visit([&](const auto& s) { return shape_density(s, from, l->object_area, q); }, quadric.shape);
         const Vec3 n = std::holds_alternative<Sphere>(quadric.shape) ? normalize(q) : Vec3(0, 0, 1);
-        return solid_angle_density(density / area_stretch(*l, n), p, direction, hit, hit_normal);
+        return solid_angle_density(density / area_stretch(placed, n), p, direction, hit, hit_normal);
     }
     if (std::holds_alternative<UniformInfiniteLight>(light)) {
         return inv_4pi;
+    }
+    if (const auto* disk = std::get_if<SkyDiskLight>(&light)) {
+        return is_within(*disk, direction) ? cone_density(disk->one_minus_cosine) : 0.0f;
     }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->density(direction);
@@ -243,6 +278,9 @@ Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& directio
     if (const auto* uniform = std::get_if<UniformInfiniteLight>(&light)) {
         return uniform->radiance;
     }
+    if (const auto* disk = std::get_if<SkyDiskLight>(&light)) {
+        return is_within(*disk, direction) ? disk->radiance : Rgb(0.0f);
+    }
     if (const auto* image = std::get_if<ImageInfiniteLight>(&light)) {
         return image->radiance(direction);
     }
@@ -254,7 +292,8 @@ Rgb environment_radiance(const Light& light, const Vec3& p, const Vec3& directio
 
 bool is_at_infinity(const Light& light) {
     return std::holds_alternative<UniformInfiniteLight>(light) || std::holds_alternative<ImageInfiniteLight>(light) ||
-           std::holds_alternative<DistantLight>(light) || std::holds_alternative<PortalInfiniteLight>(light);
+           std::holds_alternative<DistantLight>(light) || std::holds_alternative<PortalInfiniteLight>(light) ||
+           std::holds_alternative<SkyDiskLight>(light);
 }
 
 Presence presence_of(const Light& light) {
@@ -273,12 +312,14 @@ float light_power(const Light& light, float scene_radius) {
         float operator()(const PointLight& l) const { return 4 * pi * mean(l.intensity); }
         float operator()(const DistantLight& l) const { return disk * mean(l.radiance); }
         float operator()(const UniformInfiniteLight& l) const { return 4 * pi * disk * mean(l.radiance); }
+        float operator()(const SkyDiskLight& l) const { return 2 * pi * l.one_minus_cosine * disk * mean(l.radiance); }
         float operator()(const ImageInfiniteLight& l) const { return 4 * pi * disk * mean(l.mean_radiance()); }
         float operator()(const TriangleLight& l) const {
             return (l.two_sided ? 2 : 1) * pi * l.area * mean_radiance(l);
         }
         float operator()(const QuadricLight& l) const {
-            return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(l.determinant, 2.0f / 3) * mean_radiance(l);
+            const float determinant = PlacedQuadric(l, 0).area_factor();
+            return (l.two_sided ? 2 : 1) * pi * l.object_area * std::pow(determinant, 2.0f / 3) * mean_radiance(l);
         }
         float operator()(const SpotLight& l) const { return spread(l) * mean(l.intensity); }
         float operator()(const GoniometricLight& l) const { return mean(l.intensity * spread(l)); }

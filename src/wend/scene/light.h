@@ -3,6 +3,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/image.h>
+#include <wend/core/motion.h>
 #include <wend/core/random.h>
 #include <wend/core/transform.h>
 #include <wend/medium/medium.h>
@@ -12,6 +13,7 @@
 #include <wend/scene/portal_light.h>
 #include <wend/scene/shape.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -40,6 +42,13 @@ struct PointLight {
 struct DistantLight {
     Vec3 direction;
     Rgb radiance;
+};
+
+/// The same radiance from a disc of the sky around a direction, as of the sun.
+struct SkyDiskLight {
+    Vec3 direction;  ///< towards the middle, unit length
+    Rgb radiance;
+    float one_minus_cosine;  ///< of half the angle across, above 0
 };
 
 /// The same radiance from everywhere.
@@ -76,10 +85,18 @@ enum class Presence {
     unseen   ///< never: it shines, and only connections find it
 };
 
+/// How a triangle that shines moves: its corners evenly to where they are at time 1, and then all of it as it is
+/// placed.
+struct TriangleMotion {
+    std::array<Vec3, 3> end;
+    std::shared_ptr<const Motion> placement;  ///< null: it stays where the corners are
+    bool flip = false;                        ///< of make_triangle_light()
+};
+
 /// A triangle that emits from the side its normal points to, or from both.
 struct TriangleLight {
-    Vec3 p0, p1, p2;
-    Vec3 normal;  ///< unit length, the emitting side
+    Vec3 p0, p1, p2;  ///< of one that moves, at time 0, before it is placed
+    Vec3 normal;      ///< unit length, the emitting side
     float area = 0;
     Rgb radiance;
     bool two_sided = false;
@@ -87,6 +104,8 @@ struct TriangleLight {
     /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
     std::shared_ptr<const LightPicture> picture = nullptr;
     Vec2 uv0{0, 0}, uv1{1, 0}, uv2{1, 1};
+    /// Null: it stands still. Of one that moves, `normal` and `area` are those at time 0.
+    std::shared_ptr<const TriangleMotion> motion = nullptr;
 };
 
 /// An emitting sphere or disk, sampled uniformly by area in its own space, a sphere from outside only on the side that
@@ -97,10 +116,12 @@ struct QuadricLight {
     Rgb radiance;
     bool two_sided = false;
     float object_area = 0;
-    float determinant = 1;  ///< absolute volume factor of the map to the world
+    float determinant = 1;  ///< absolute volume factor of the quadric's map to the world
     Presence presence = Presence::solid;
     /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
     std::shared_ptr<const LightPicture> picture = nullptr;
+    /// Of the quadric in its world; null: it stands still.
+    std::shared_ptr<const Motion> motion = nullptr;
 };
 
 /// A heterogeneous medium that glows. Connections lead to points in it, whose radiance is that of a line as long as
@@ -117,14 +138,18 @@ struct PortalInfiniteLight {
 
 using Light =
     std::variant<PointLight, DistantLight, UniformInfiniteLight, ImageInfiniteLight, TriangleLight, QuadricLight,
-                 MediumLight, SpotLight, GoniometricLight, ProjectionLight, PortalInfiniteLight>;
+                 MediumLight, SpotLight, GoniometricLight, ProjectionLight, PortalInfiniteLight, SkyDiskLight>;
 
-/// A connection from `p` to the light; none where it cannot shine. `u` places it on the light, `random` in its depth.
-std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random);
+/// A connection from `p` to the light as it stands at a time (Ray::time); none where it cannot shine. `u` places it on
+/// the light, `random` in its depth.
+std::optional<LightSample> sample_light(const Light& light, const Vec3& p, const Vec2& u, Pcg32& random,
+                                        float time = 0);
 
-/// Density with which sample_light(light, p) yields `direction` (LightSample), whose ray meets an area light at `hit`
-/// with unit normal `hit_normal` (both ignored for lights at infinity), or passes `hit` in a medium that glows.
-float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal);
+/// Density with which sample_light(light, p) yields `direction` (LightSample) at a time, whose ray meets an area light
+/// at `hit` with unit normal `hit_normal` (both ignored for lights at infinity), or passes `hit` in a medium that
+/// glows.
+float light_density(const Light& light, const Vec3& p, const Vec3& direction, const Vec3& hit, const Vec3& hit_normal,
+                    float time = 0);
 
 /// Radiance that leaves an area light at a point with the given unit geometric normal and surface parameters towards w,
 /// where the light's surface is there at all.
@@ -142,7 +167,7 @@ bool is_point_like(const Light& light);
 Presence presence_of(const Light& light);
 
 /// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at
-/// infinity reach.
+/// infinity reach. Of what moves, at time 0.
 float light_power(const Light& light, float scene_radius);
 
 /// Area light of a triangle; `flip` reverses its normal.

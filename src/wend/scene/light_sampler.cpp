@@ -1,5 +1,6 @@
 #include <wend/core/ray.h>
 #include <wend/scene/light_sampler.h>
+#include <wend/scene/moving_light.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,26 +103,24 @@ TreeLightSampler::Bounds TreeLightSampler::bounds_of(const Light& light) {
             return {Box3(l.position), {0, 0, 1}, -1, 0, light_power(l, 0), false};
         }
         Bounds operator()(const TriangleLight& l) const {
-            Box3 box(l.p0);
-            box.extendBy(l.p1);
-            box.extendBy(l.p2);
-            return {box, l.normal, 1, 0, light_power(l, 0), l.two_sided};
+            return of_area_light(extent_over_time(l), light_power(l, 0), l.two_sided);
         }
         Bounds operator()(const QuadricLight& l) const {
-            Bounds b{bounds(*l.quadric), {0, 0, 1}, -1, 0, light_power(l, 0), l.two_sided};
-            if (std::holds_alternative<Disk>(l.quadric->shape)) {
-                b.axis = normalize(l.quadric->object_from_world.transposed_vector({0, 0, 1})) * l.flip;
-                b.cos_o = 1;
-            }
-            return b;
+            return of_area_light(extent_over_time(l), light_power(l, 0), l.two_sided);
         }
         Bounds operator()(const MediumLight& l) const {
             return {l.grid->glow()->bounds(), {0, 0, 1}, -1, 0, light_power(l, 0), false};
         }
         Bounds operator()(const DistantLight&) const { return {}; }
         Bounds operator()(const UniformInfiniteLight&) const { return {}; }
+        Bounds operator()(const SkyDiskLight&) const { return {}; }
         Bounds operator()(const ImageInfiniteLight&) const { return {}; }
         Bounds operator()(const PortalInfiniteLight&) const { return {}; }
+
+        static Bounds of_area_light(const LightExtent& extent, float power, bool two_sided) {
+            const Vec3 axis = extent.axis.value_or(Vec3(0, 0, 1));
+            return {extent.box, axis, extent.axis ? 1.0f : -1.0f, 0, power, two_sided};
+        }
 
         /// Of a point that shines up to an outer angle around its own z axis. Who stands within it sees no less than
         /// of one that shines everywhere.

@@ -38,7 +38,8 @@ Bsdf bsdf_of(const DiffuseTransmissionMaterial& m, const Textures& textures, con
 ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p, float around) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     if (m.reflectance < 0) {
-        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y};
+        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y,
+                m.roughness.slopes};
     }
     // With eta = 1 the normal reflectance is k²/(4 + k²).
     Rgb k;
@@ -46,20 +47,29 @@ ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, con
     for (int c = 0; c < 3; ++c) {
         k[c] = 2 * std::sqrt(std::min(r[c], 0.9999f) / (1 - std::min(r[c], 0.9999f)));
     }
-    return {Rgb(1 / around), k / around, alpha.x, alpha.y};
+    return {Rgb(1 / around), k / around, alpha.x, alpha.y, m.roughness.slopes};
 }
 
 Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p) {
     return metal_of(m, textures, p, 1);
 }
 
-Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
-    const Alpha alpha = alpha_at(m.roughness, textures, p);
-    return DielectricBsdf{m.ior, alpha.x, alpha.y};
+/// 1 where there is no texture.
+Rgb factor_of(TextureId texture, const Textures& textures, const TexturePoint& p) {
+    return texture < 0 ? Rgb(1.0f) : clamp01(textures.evaluate(texture, p));
 }
 
-Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures&, const TexturePoint&) {
-    return ThinDielectricBsdf{m.ior};
+Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const Alpha alpha = alpha_at(m.roughness, textures, p);
+    DielectricBsdf bsdf{m.ior, alpha.x, alpha.y};
+    bsdf.slopes = m.roughness.slopes;
+    bsdf.reflectance = factor_of(m.reflectance, textures, p);
+    bsdf.transmittance = factor_of(m.transmittance, textures, p);
+    return bsdf;
+}
+
+Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures& textures, const TexturePoint& p) {
+    return ThinDielectricBsdf{m.ior, factor_of(m.reflectance, textures, p), factor_of(m.transmittance, textures, p)};
 }
 
 /// Different for different points.
@@ -68,12 +78,20 @@ std::uint64_t key_of(const Vec3& position) {
                    std::bit_cast<std::uint32_t>(position.z));
 }
 
+/// The reflectance r of which the series r + r² returned + ... is in proportion to the colour, and 1 for white.
+Rgb darkened(const Rgb& colour, float returned) {
+    const auto channel = [&](float c) { return c / (1 - returned + c * returned); };
+    return {channel(colour.r), channel(colour.g), channel(colour.b)};
+}
+
 Bsdf bsdf_of(const CoatedMaterial& m, const Textures& textures, const TexturePoint& p) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
     CoatedBsdf b;
     b.coat = {m.ior, alpha.x, alpha.y};
+    b.coat.slopes = m.roughness.slopes;
     if (const auto* diffuse = std::get_if<DiffuseMaterial>(&m.base)) {
-        b.base = LambertBsdf{clamp01(textures.evaluate(diffuse->reflectance, p))};
+        const Rgb colour = clamp01(textures.evaluate(diffuse->reflectance, p));
+        b.base = LambertBsdf{m.is_linear && m.returned >= 0 ? darkened(colour, m.returned) : colour};
     } else {
         b.base = metal_of(std::get<ConductorMaterial>(m.base), textures, p, m.ior);
     }

@@ -20,6 +20,7 @@ struct Roughness {
     TextureId u = 0;
     TextureId v = 0;
     bool remap = true;
+    FacetSlopes slopes = FacetSlopes::ggx;
 };
 
 struct ConductorMaterial {
@@ -37,6 +38,9 @@ struct DielectricMaterial {
     /// Of the medium inside, where a walk enters it: the albedo that the walk finds there until it enters anew, over
     /// that of the medium; -1: 1.
     TextureId relative_albedo = -1;
+    /// Those of DielectricBsdf; -1: 1.
+    TextureId reflectance = -1;
+    TextureId transmittance = -1;
 };
 
 struct DiffuseTransmissionMaterial {
@@ -47,6 +51,9 @@ struct DiffuseTransmissionMaterial {
 
 struct ThinDielectricMaterial {
     float ior = 1.5f;
+    /// As those of DielectricMaterial.
+    TextureId reflectance = -1;
+    TextureId transmittance = -1;
 };
 
 /// CoatedBsdf by textures.
@@ -60,6 +67,9 @@ struct CoatedMaterial {
     int max_depth = 10;
     int walks = 1;
     float returned = -1;  ///< CoatedBsdf::returned, where the thickness is the same everywhere
+    /// Whether what comes out is in proportion to the reflectance of a diffuse base, as if what the coat returns met
+    /// white.
+    bool is_linear = false;
 };
 
 /// HairBsdf by textures: absorption by one of three colours.

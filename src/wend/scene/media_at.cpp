@@ -187,8 +187,8 @@ private:
                 add_once(part.interiors, surface.interior);
                 add_once(part.exteriors, surface.exterior);
                 if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
-                    for (int k = 0; k < 3; ++k) {
-                        part.box.extendBy(mesh->vertex(i, k));
+                    for (const Vec3& corner : mesh->triangle(i, 0)) {
+                        part.box.extendBy(corner);
                     }
                 } else {
                     part.box.extendBy(bounds(surface.shape));
@@ -261,6 +261,9 @@ MediumRegions::MediumRegions(const SceneDescription& scene) {
         in_objects.push_back(Parts(scene, object.surfaces, parts_of).list());
     }
     bool is_moving = scene.camera.is_moving() && !regions.empty();
+    for (const Surface& surface : scene.surfaces) {
+        is_moving = is_moving || (surface.bounds_medium() && wend::is_moving(surface.shape));
+    }
     for (const Instance& instance : scene.instances) {
         first.push_back(static_cast<std::int32_t>(regions.size()));
         for (Part part : in_objects[static_cast<std::size_t>(instance.object)]) {

@@ -39,9 +39,9 @@ std::uint32_t flat_primitives(const Shape& shape) {
 Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     caster_ = std::make_unique<RayCaster>(d_);
     regions_ = MediumRegions(d_);
-    is_moving_ = d_.camera.is_moving() || std::any_of(d_.instances.begin(), d_.instances.end(), [](const Instance& i) {
-                     return i.world_from_object.is_moving();
-                 });
+    is_moving_ = d_.camera.is_moving() ||
+                 std::ranges::any_of(d_.instances, [](const Instance& i) { return i.world_from_object.is_moving(); }) ||
+                 std::ranges::any_of(d_.surfaces, [](const Surface& s) { return wend::is_moving(s.shape); });
     camera_medium_ = MediumState(d_.camera_medium);
     if (!regions_.is_empty()) {
         ways_out_of_camera_ = ways_out(d_.camera.middle());
@@ -61,13 +61,14 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     }
     flat_lights_.resize(lights_.size());
     light_alpha_.assign(lights_.size(), -1);
+    const std::vector<int> instance_of = instances_of_surfaces();
     for (std::size_t i = 0; i < d_.surfaces.size(); ++i) {
         const Surface& surface = d_.surfaces[i];
         const std::uint32_t flat = surface.first_light >= 0 ? flat_primitives(surface.shape) : 0;
         const auto first = static_cast<std::size_t>(std::max(surface.first_light, 0));
         flat_lights_.resize(std::max(flat_lights_.size(), first + flat));
         for (std::uint32_t k = 0; k < flat; ++k) {
-            flat_lights_[first + k] = {static_cast<std::uint32_t>(i), k};
+            flat_lights_[first + k] = {static_cast<std::uint32_t>(i), k, instance_of[i]};
         }
         for (std::size_t k = first; surface.first_light >= 0 && k < lights_.size() && k < first + lights_on(surface);
              ++k) {
@@ -137,6 +138,16 @@ MediumState Scene::medium_around(const Ray& camera_ray) const {
         }
     }
     return state;
+}
+
+std::vector<int> Scene::instances_of_surfaces() const {
+    std::vector<int> instances(d_.surfaces.size(), -1);
+    for (std::size_t i = 0; i < d_.instances.size(); ++i) {
+        for (const int surface : d_.objects[static_cast<std::size_t>(d_.instances[i].object)].surfaces) {
+            instances[static_cast<std::size_t>(surface)] = static_cast<int>(i);
+        }
+    }
+    return instances;
 }
 
 void Scene::add_emitting_media() {

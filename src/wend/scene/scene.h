@@ -35,7 +35,9 @@ struct Surface {
     MediumId exterior = vacuum;
     /// The geometric normal points against the shape's own orientation. A mesh with normals follows those instead.
     bool flip_normal = false;
-    int first_light = -1;  ///< area light of the first primitive, those of the others following; -1: none
+    /// Area light of the first primitive, those of the others following; -1: none. What shines is placed once at most,
+    /// by the motion that its lights have.
+    int first_light = -1;
     TextureId alpha = -1;  ///< probability of being there at all; -1: certain
 
     bool bounds_medium() const { return interior != exterior; }
@@ -87,6 +89,7 @@ struct Hit {
     Vec2 uv;        ///< surface parameters; not computed for interfaces
     const Surface* surface = nullptr;
     SurfaceElement element;
+    bool is_behind = false;        ///< the ray came from where the normal does not point to
     bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
     float clearance = 0;           ///< by how much rounding may have moved the position
     float thickness = 0;           ///< of a curve: what leaves it starts so far outside of it; 0: no curve
@@ -95,7 +98,7 @@ struct Hit {
 
 /// Where textures are evaluated for a hit.
 inline TexturePoint texture_point(const Hit& hit) {
-    return {hit.uv, hit.position, hit.normal};
+    return {hit.uv, hit.position, hit.normal, hit.is_behind};
 }
 
 /// Embree's structures over the scene's surfaces.
@@ -187,6 +190,8 @@ public:
 
 private:
     void add_emitting_media();
+    /// For each surface, the last instance that it is part of; -1: it is not placed.
+    std::vector<int> instances_of_surfaces() const;
     /// For each region of a medium that a ray starts in, where it leaves that.
     std::vector<Hit> ways_out(const Ray& ray) const;
     int material_id(const Hit& hit) const {

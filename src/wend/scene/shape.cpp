@@ -215,8 +215,10 @@ Box3 bounds(const CylinderShell& cylinder) {
 Box3 bounds(const Shape& shape) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
         Box3 box;
-        for (const Vec3& p : mesh->positions) {
-            box.extendBy(p);
+        for (const auto* const positions : {&mesh->positions, &mesh->end_positions}) {
+            for (const Vec3& p : *positions) {
+                box.extendBy(p);
+            }
         }
         return box;
     }

@@ -16,15 +16,37 @@
 namespace wend {
 
 /// Triangles in world space. `normals` and `uvs` are empty or have one entry a vertex.
+///
+/// A mesh may change its shape: then vertices and normals move evenly from where they are at time 0 to where they are
+/// at time 1 (Ray::time). Whoever does not ask for a time sees it at time 0.
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Vec2> uvs;
     std::vector<std::uint32_t> indices;  ///< three a triangle
+    std::vector<Vec3> end_positions{};   ///< at time 1; empty where nothing moves
+    std::vector<Vec3> end_normals{};     ///< at time 1; empty where nothing moves, or there are no normals
 
+    bool is_moving() const { return !end_positions.empty(); }
     std::size_t triangle_count() const { return indices.size() / 3; }
     Vec3 vertex(std::size_t triangle, int corner) const {
         return positions[indices[3 * triangle + static_cast<std::size_t>(corner)]];
+    }
+    /// The corners of a triangle at a time from 0 to 1.
+    std::array<Vec3, 3> triangle(std::size_t i, float time) const { return at(positions, end_positions, i, time); }
+    /// The normals there, not of unit length between the ends; there must be normals.
+    std::array<Vec3, 3> corner_normals(std::size_t i, float time) const { return at(normals, end_normals, i, time); }
+
+private:
+    std::array<Vec3, 3> at(const std::vector<Vec3>& start, const std::vector<Vec3>& end, std::size_t i,
+                           float time) const {
+        const std::uint32_t* const corner = &indices[3 * i];
+        std::array<Vec3, 3> values = {start[corner[0]], start[corner[1]], start[corner[2]]};
+        for (std::size_t k = 0; k < 3 && !end.empty(); ++k) {
+            // As Embree has it.
+            values[k] = values[k] * (1 - time) + end[corner[k]] * time;
+        }
+        return values;
     }
 };
 
@@ -125,7 +147,13 @@ Box3 bounds(const CylinderShell& cylinder);
 
 using Shape = std::variant<TriangleMesh, Quadric, CylinderShell, CurveSet>;
 
-/// Bounds in the world.
+/// Bounds in the world, at all times.
 Box3 bounds(const Shape& shape);
+
+/// Whether the shape itself changes with time.
+inline bool is_moving(const Shape& shape) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    return mesh && mesh->is_moving();
+}
 
 }  // namespace wend

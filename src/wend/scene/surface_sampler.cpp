@@ -45,15 +45,15 @@ SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2, float time
     // Of curves and cylinders there are none: see add_surface().
     Point point{&surface, {}, {}};
     if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
-        const Vec3 p0 = mesh->vertex(element.primitive, 0);
-        const Vec3 e1 = mesh->vertex(element.primitive, 1) - p0;
-        const Vec3 e2 = mesh->vertex(element.primitive, 2) - p0;
+        const auto [p0, p1, p2] = mesh->triangle(element.primitive, time);
+        const Vec3 e1 = p1 - p0;
+        const Vec3 e2 = p2 - p0;
         const Vec2 b = to_triangle(u2);
         point.position = p0 + e1 * b.x + e2 * b.y;
         point.normal = cross(e1, e2);
         if (mesh->normals.empty()) {
             point.normal = surface.flip_normal ? -point.normal : point.normal;
-        } else if (dot(point.normal, mesh->normals[mesh->indices[3 * element.primitive]]) < 0) {
+        } else if (dot(point.normal, mesh->corner_normals(element.primitive, time)[0]) < 0) {
             point.normal = -point.normal;
         }
     } else {

@@ -19,6 +19,10 @@ Rgb texel(const ImageTexture& t, int x, int y) {
     switch (t.wrap) {
         case ImageTexture::Wrap::repeat:
             return image.at(repeated(x, image.width), repeated(y, image.height));
+        case ImageTexture::Wrap::mirror: {
+            const int column = repeated(x, 2 * image.width), row = repeated(y, 2 * image.height);
+            return image.at(std::min(column, 2 * image.width - 1 - column), std::min(row, 2 * image.height - 1 - row));
+        }
         case ImageTexture::Wrap::black:
             if (x < 0 || y < 0 || x >= image.width || y >= image.height) {
                 return Rgb(0.0f);

@@ -44,6 +44,12 @@ struct DirectionMixTexture {
     Vec3 direction{0, 1, 0};  ///< in the world, of unit length
 };
 
+/// Two textures, for the sides of a surface: the normal points away from the front.
+struct SidesTexture {
+    TextureId front = 0;
+    TextureId back = 0;
+};
+
 /// Bilinear in texture coordinates, from the values at the corners of the unit square: at (0,0), (0,1), (1,0), (1,1).
 struct BilerpTexture {
     Rgb v00, v01, v10, v11;
@@ -52,9 +58,9 @@ struct BilerpTexture {
 
 /// A picture. t grows upwards: (0,0) is the lower left corner of the picture.
 struct ImageTexture {
-    /// What is beside it: the picture again, its border, black, or the rest of a sphere that the picture shows by the
-    /// octahedral mapping.
-    enum class Wrap { repeat, clamp, black, octahedral_sphere };
+    /// What is beside it: the picture again, the same mirrored, its border, black, or the rest of a sphere that the
+    /// picture shows by the octahedral mapping.
+    enum class Wrap { repeat, mirror, clamp, black, octahedral_sphere };
 
     std::shared_ptr<const Image> image;
     TextureMapping mapping;
@@ -106,8 +112,8 @@ struct RelativeAlbedoTexture {
 };
 
 using Texture =
-    std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, BilerpTexture, ImageTexture,
-                 CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture, RelativeAlbedoTexture>;
+    std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, SidesTexture, BilerpTexture,
+                 ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {
@@ -125,6 +131,9 @@ private:
     Rgb value_of(const ScaleTexture& t, const TexturePoint& p) const;
     Rgb value_of(const MixTexture& t, const TexturePoint& p) const;
     Rgb value_of(const DirectionMixTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const SidesTexture& t, const TexturePoint& p) const {
+        return evaluate(p.is_behind ? t.back : t.front, p);
+    }
     Rgb value_of(const BilerpTexture& t, const TexturePoint& p) const;
     Rgb value_of(const ImageTexture& t, const TexturePoint& p) const;
     Rgb value_of(const CheckerboardTexture& t, const TexturePoint& p) const;

@@ -11,15 +11,20 @@ namespace wend {
 /// What a texture is evaluated at.
 struct TexturePoint {
     Vec2 uv;
-    Vec3 position;         ///< in the world
-    Vec3 normal{0, 0, 0};  ///< geometric, of unit length; of no matter to most textures
+    Vec3 position;           ///< in the world
+    Vec3 normal{0, 0, 0};    ///< geometric, of unit length; of no matter to most textures
+    bool is_behind = false;  ///< whether it is seen from where the normal does not point to
 };
 
-/// By the surface's own parameters.
+/// By the surface's own parameters, an affine map of them.
 struct UvMapping {
     float su = 1, sv = 1, du = 0, dv = 0;
+    float sv_of_s = 0;  ///< what v adds to s
+    float su_of_t = 0;  ///< what u adds to t
 
-    Vec2 operator()(const TexturePoint& p) const { return {su * p.uv.x + du, sv * p.uv.y + dv}; }
+    Vec2 operator()(const TexturePoint& p) const {
+        return {su * p.uv.x + sv_of_s * p.uv.y + du, su_of_t * p.uv.x + sv * p.uv.y + dv};
+    }
 };
 
 /// By the angles from the z axis and about it in texture space, as parts of 180 and 360 degrees.

@@ -166,8 +166,8 @@ private:
         if (chosen.index < 0) {
             return std::nullopt;
         }
-        const auto light =
-            sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2, random);
+        const auto light = sample_light(scene_.lights()[static_cast<std::size_t>(chosen.index)], receiver.position, u2,
+                                        random, time_of_boundary_points);
         if (!light || scene_.is_occluded(start(light->direction), light->distance * (1 - 1e-3f))) {
             return std::nullopt;
         }

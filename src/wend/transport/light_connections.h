@@ -145,7 +145,7 @@ public:
 private:
     /// `u` in [0,1) chooses the light, and `u2` a point of it.
     std::optional<ChosenSample> choose(const Vertex& v, float u, const Vec2& u2) const {
-        return choose_light(scene_, lights_, v.receiver(), u, u2, sampler_.random());
+        return choose_light(scene_, lights_, v.receiver(), u, u2, sampler_.random(), path_.now.ray.time);
     }
 
     /// Counts what a connection has found; as many as `times` were made, as a mean.

@@ -2,6 +2,8 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
+#include <wend/io/load/sky_picture.h>
+#include <wend/scene/moving_light.h>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace wend {
 namespace {
@@ -79,6 +82,16 @@ Transform turned_to(const Vec3& axis) {
     return Transform(m);
 }
 
+/// "falloff", beyond pbrt: whether the light of a spot is less in proportion to the angle.
+bool load_linear_falloff(const pbrt::ParameterSet& p) {
+    const std::string falloff = p.get_string("falloff", "smooth");
+    if (falloff != "smooth" && falloff != "linear") {
+        throw InputError(p.place_of("falloff"),
+                         fmt::format("the falloff \"{}\" is unknown; known are smooth, linear", falloff));
+    }
+    return falloff == "linear";
+}
+
 SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
@@ -99,6 +112,7 @@ SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
     spot.light_from_world = AffineMap((light.world_from_light * turned_to(normalize(to - from))).inverse());
     spot.cos_outer = cos_degrees(outer);
     spot.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
+    spot.is_linear = load_linear_falloff(p);
     spot.intensity = load_scaled(context, p, "I") * power_factor(p, spread(spot));
     return spot;
 }
@@ -120,6 +134,25 @@ GoniometricLight load_goniometric(LoadContext& context, TextureLoader& textures,
     return source;
 }
 
+/// "profile", beyond pbrt: whether a wall across the beam is lit evenly, and not a sphere.
+bool load_even_profile(const pbrt::ParameterSet& p) {
+    const std::string profile = p.get_string("profile", "sphere");
+    if (profile != "sphere" && profile != "plane") {
+        throw InputError(p.place_of("profile"),
+                         fmt::format("the profile \"{}\" is unknown; known are sphere, plane", profile));
+    }
+    return profile == "plane";
+}
+
+/// "fovaxis", beyond pbrt: whether a field of view is that of the width, and not of the shorter side.
+bool load_fov_axis(const pbrt::ParameterSet& p) {
+    const std::string axis = p.get_string("fovaxis", "shorter");
+    if (axis != "shorter" && axis != "x") {
+        throw InputError(p.place_of("fovaxis"), fmt::format("the axis \"{}\" is unknown; known are shorter, x", axis));
+    }
+    return axis == "x";
+}
+
 ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     const float fov = p.get_float("fov", 90);
@@ -133,12 +166,18 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
     projector.light_from_world = AffineMap((light.world_from_light * Transform::scale(1, -1, 1)).inverse());
     const Image& image = projector.picture->image();
     const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
-    projector.half_size = Vec2(std::max(aspect, 1.0f), std::max(1 / aspect, 1.0f)) * std::tan(0.5f * fov * pi / 180);
+    const bool is_of_width = load_fov_axis(p);
+    projector.half_size =
+        (is_of_width ? Vec2(1, 1 / aspect) : Vec2(std::max(aspect, 1.0f), std::max(1 / aspect, 1.0f))) *
+        std::tan(0.5f * fov * pi / 180);
+    projector.lights_plane_evenly = load_even_profile(p);
     projector.intensity = Rgb(non_negative_float(p, "scale", 1) * power_factor(p, luminance(spread(projector))));
     return projector;
 }
 
-DistantLight load_distant(LoadContext& context, const pbrt::LightEntity& light) {
+/// A direction, or a disk of the sky where it has an angle: then what is given is the irradiance on a facing surface as
+/// well.
+Light load_distant(LoadContext& context, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     const Vec3 from = p.get_point3("from", {0, 0, 0});
     const Vec3 to = p.get_point3("to", {0, 0, 1});
@@ -150,7 +189,20 @@ DistantLight load_distant(LoadContext& context, const pbrt::LightEntity& light) 
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
         radiance *= illuminance;
     }
-    return {normalize(direction), radiance};
+    const float angle = p.get_float("angle", 0);
+    if (!(angle >= 0 && angle <= 180)) {
+        throw InputError(p.place_of("angle"),
+                         fmt::format("\"angle\" must lie between 0 and 180 degrees, not {}", angle));
+    }
+    const double half = double{angle} / 2 * std::numbers::pi / 180;
+    const double sine = std::sin(half), one_minus_cosine = 2 * std::pow(std::sin(half / 2), 2);
+    // Below, single precision does not tell one direction of the disk from another.
+    constexpr double smallest_half = 1e-5;
+    if (half < smallest_half) {
+        return DistantLight{normalize(direction), radiance};
+    }
+    return SkyDiskLight{normalize(direction), radiance / static_cast<float>(std::numbers::pi * sine * sine),
+                        static_cast<float>(one_minus_cosine)};
 }
 
 /// What pbrt takes for the illuminance that a picture of the sky puts on a plane whose normal is the light's z: half of
@@ -201,15 +253,29 @@ Light make_sky(const pbrt::LightEntity& light, Image image) {
     return ImageInfiniteLight(std::move(image), scale, light.world_from_light);
 }
 
+/// By "mapping", beyond pbrt: by longitude and latitude, or as pbrt has it.
+Image load_sky(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
+    const std::string mapping = light.parameters.get_string("mapping", "equalarea");
+    Image image = load_picture(context, textures, light);
+    if (mapping == "equirectangular") {
+        const bool has_poles = light.parameters.get_bool("rowsatpoles", false);
+        return equal_area_sky(image, has_poles ? SkyRows::on_nodes : SkyRows::in_strips);
+    }
+    if (mapping != "equalarea") {
+        throw InputError(light.parameters.place_of("mapping"),
+                         fmt::format("the mapping \"{}\" is unknown; known are equalarea, equirectangular", mapping));
+    }
+    require_square(image, light);
+    return image;
+}
+
 Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     if (p.has("filename")) {
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an infinite light takes either \"L\" or \"filename\"");
         }
-        Image image = load_picture(context, textures, light);
-        require_square(image, light);
-        return make_sky(light, std::move(image));
+        return make_sky(light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
         const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(Rgb(1.0f));
@@ -228,6 +294,7 @@ bool is_dark(const Light& light) {
         bool operator()(const ImageInfiniteLight& l) const { return is_black(l.mean_radiance()); }
         bool operator()(const DistantLight& l) const { return is_black(l.radiance); }
         bool operator()(const UniformInfiniteLight& l) const { return is_black(l.radiance); }
+        bool operator()(const SkyDiskLight& l) const { return is_black(l.radiance); }
         bool operator()(const TriangleLight& l) const { return is_black(l.radiance); }
         bool operator()(const QuadricLight& l) const { return is_black(l.radiance); }
         bool operator()(const SpotLight& l) const { return is_black(l.intensity); }
@@ -296,7 +363,9 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an area light takes either \"L\" or \"filename\"");
         }
-        result.picture = std::make_shared<const LightPicture>(load_picture(context, textures, light));
+        Image image = load_picture(context, textures, light);
+        result.picture =
+            std::make_shared<const LightPicture>(is_from_top(p, "origin") ? upside_down(image) : std::move(image));
     }
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
@@ -306,13 +375,15 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
 
 namespace {
 
-void attach_to_quadric(const AreaLight& light, Presence presence, const Transform& world_from_object,
-                       const Surface& surface, std::vector<Light>& lights) {
-    QuadricLight source = make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)),
-                                             world_from_object, surface.flip_normal, light.radiance, light.two_sided);
+void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surface& surface,
+                       std::vector<Light>& lights) {
+    QuadricLight source =
+        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), at.world_from_object,
+                           surface.flip_normal, light.radiance, light.two_sided);
+    source.motion = at.motion;
     // Exact where the transform keeps shapes similar.
-    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(source.determinant)));
-    source.presence = presence;
+    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(PlacedQuadric(source, 0).area_factor())));
+    source.presence = at.presence;
     source.picture = light.picture;
     lights.push_back(std::move(source));
 }
@@ -327,45 +398,57 @@ void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& sou
     }
 }
 
-/// `shapes`: of how many of pbrt's shapes the mesh consists, of equally many triangles each.
-void attach_to_mesh(const AreaLight& light, Presence presence, std::size_t shapes, const Surface& surface,
-                    std::vector<Light>& lights) {
+/// A triangle of a mesh, which moves as the mesh does.
+TriangleLight lamp_of(const AreaLight& light, const LampPlace& at, const Surface& surface, std::size_t triangle) {
+    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const bool flip = flips(surface, mesh, triangle);
+    TriangleLight source = make_triangle_light(mesh.vertex(triangle, 0), mesh.vertex(triangle, 1),
+                                               mesh.vertex(triangle, 2), flip, light.radiance, light.two_sided);
+    if (at.motion || mesh.is_moving()) {
+        source.motion =
+            std::make_shared<const TriangleMotion>(TriangleMotion{mesh.triangle(triangle, 1), at.motion, flip});
+        const PlacedTriangle placed = placed_at(source, 0);
+        source.normal = placed.normal;
+        source.area = placed.area;
+    }
+    source.presence = at.presence;
+    source.picture = light.picture;
+    copy_uvs(mesh, triangle, source);
+    return source;
+}
+
+void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& surface, std::vector<Light>& lights) {
     const auto& mesh = std::get<TriangleMesh>(surface.shape);
     // Below, the area's inverse and its products leave the range of floats.
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
-    const std::size_t together = shapes > 0 && triangles % shapes == 0 ? triangles / shapes : 1;
+    const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
     for (std::size_t first = 0; first < triangles; first += together) {
         const std::size_t begin = lights.size();
         float area = 0;
         for (std::size_t i = first; i < first + together; ++i) {
-            TriangleLight source = make_triangle_light(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2),
-                                                       flips(surface, mesh, i), light.radiance, light.two_sided);
-            source.presence = presence;
-            source.picture = light.picture;
-            copy_uvs(mesh, i, source);
+            TriangleLight source = lamp_of(light, at, surface, i);
             area += source.area;
             lights.push_back(std::move(source));
         }
         for (std::size_t i = begin; i < lights.size(); ++i) {
             auto& source = std::get<TriangleLight>(lights[i]);
-            source.radiance = source.area > smallest_area ? light.radiance_of(area) : Rgb(0.0f);
+            source.radiance = source.area > smallest_area || source.motion ? light.radiance_of(area) : Rgb(0.0f);
         }
     }
 }
 
 }  // namespace
 
-void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
-            Surface& surface, std::vector<Light>& lights) {
+void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights) {
     if (is_black(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance)) {
         return;
     }
     surface.first_light = static_cast<int>(lights.size());
     if (std::holds_alternative<Quadric>(surface.shape)) {
-        attach_to_quadric(light, presence, world_from_object, surface, lights);
+        attach_to_quadric(light, at, surface, lights);
     } else {
-        attach_to_mesh(light, presence, shapes, surface, lights);
+        attach_to_mesh(light, at, surface, lights);
     }
 }
 

@@ -30,10 +30,17 @@ struct AreaLight {
 };
 AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light);
 
+/// Where a surface shines, and how.
+struct LampPlace {
+    Presence presence = Presence::solid;
+    /// How many shapes the surface's triangles are to pbrt, each with the power of one; 0: as many as triangles.
+    std::size_t shapes = 0;
+    Transform world_from_object;           ///< of the surface's quadric
+    std::shared_ptr<const Motion> motion;  ///< of the surface in its world; null: it stands still
+};
+
 /// Makes a surface shine: appends a light for each of its primitives and lets the surface refer to them. Triangles
-/// without area stay dark. `shapes`: how many shapes the surface's triangles are to pbrt, each with the power of one;
-/// 0: as many as triangles.
-void attach(const AreaLight& light, Presence presence, std::size_t shapes, const Transform& world_from_object,
-            Surface& surface, std::vector<Light>& lights);
+/// without area stay dark.
+void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights);
 
 }  // namespace wend

@@ -5,9 +5,9 @@
 #include <wend/io/load/load_scene.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/parse_scene.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/shapes.h>
-#include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
 
@@ -219,7 +219,8 @@ private:
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
         const std::size_t first = scene_.lights.size();
-        attach(area_lights_[*entity.area_light], presence, patches, entity.world_from_object, surface, scene_.lights);
+        attach(area_lights_[*entity.area_light], {presence, patches, entity.world_from_object, entity.motion}, surface,
+               scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
     }
 
@@ -279,7 +280,7 @@ private:
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides) {
-    return load_scene(pbrt::parse_file(file), overrides);
+    return load_scene(parse_scene(file), overrides);
 }
 
 LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {

@@ -1,6 +1,7 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/mixtures.h>
 #include <wend/io/spectrum/metal.h>
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -77,14 +77,21 @@ private:
                                             non_negative_float(p, "scale", 1)}};
     }
 
+    /// What multiplies what Fresnel's equations say; -1: nothing.
+    TextureId load_factor(const pbrt::MaterialEntity& entity, const char* name) {
+        return textures_.find_colour(entity.parameters, name, SpectrumKind::reflectance).value_or(-1);
+    }
+
     LoadedMaterial load_thin_dielectric(const pbrt::MaterialEntity& entity) {
-        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f)}};
+        return {ThinDielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_factor(entity, "reflectance"),
+                                       load_factor(entity, "transmittance")}};
     }
 
     LoadedMaterial load_coated_diffuse(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
         CoatedMaterial material = load_coat(p, "");
         material.base = DiffuseMaterial{textures_.colour(p, "reflectance", Rgb(0.5f))};
+        material.is_linear = p.get_bool("linear", false);
         return {material};
     }
 
@@ -198,7 +205,11 @@ private:
             if (displacement) {
                 context_.warnings.add(p.place_of("displacement"), "\"displacement\" is ignored beside \"normalmap\"");
             }
-            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"), "linear", entity.place);
+            detail.normal_map = textures_.picture(required_file(context_, entity, "normalmap"),
+                                                  is_from_top(p, "normalmaporigin") ? "raw" : "linear", entity.place);
+            if (is_from_top(p, "normalmaporigin")) {
+                detail.normal_map = std::make_shared<const Image>(upside_down(*detail.normal_map));
+            }
         } else if (displacement && textures_.varies(*displacement)) {
             detail.displacement = *displacement;
         }
@@ -208,7 +219,10 @@ private:
     LoadedMaterial load_conductor(const pbrt::MaterialEntity& entity) { return {load_metal(entity.parameters, "", 1)}; }
 
     LoadedMaterial load_dielectric(const pbrt::MaterialEntity& entity) {
-        return {DielectricMaterial{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")}};
+        DielectricMaterial material{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")};
+        material.reflectance = load_factor(entity, "reflectance");
+        material.transmittance = load_factor(entity, "transmittance");
+        return {material};
     }
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
@@ -315,7 +329,18 @@ private:
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
         const TextureId both = textures_.real(p, prefix + "roughness", 0);
         return {textures_.find_real(p, prefix + "uroughness").value_or(both),
-                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true)};
+                textures_.find_real(p, prefix + "vroughness").value_or(both), p.get_bool("remaproughness", true),
+                load_slopes(p)};
+    }
+
+    /// "facets", beyond pbrt.
+    static FacetSlopes load_slopes(const pbrt::ParameterSet& p) {
+        const std::string name = p.get_string("facets", "ggx");
+        if (name != "ggx" && name != "beckmann") {
+            throw InputError(p.place_of("facets"),
+                             fmt::format("the facets \"{}\" are unknown; known are ggx, beckmann", name));
+        }
+        return name == "ggx" ? FacetSlopes::ggx : FacetSlopes::beckmann;
     }
 
     /// A number or a spectrum: a glass at the d line, of others the mean. There is no dispersion.
@@ -340,52 +365,6 @@ private:
     const std::vector<pbrt::MaterialEntity>& all_;
     std::map<float, std::shared_ptr<const FacetAlbedo>> facets_;  // by index
 };
-
-/// What a mixture becomes of which a part is an interface: the other part. Shadow rays could not tell which it is.
-void leave_out_interfaces(LoadContext& context, std::vector<LoadedMaterial>& loaded, std::size_t index,
-                          const pbrt::MaterialEntity& entity) {
-    auto& mix = std::get<MixMaterial>(loaded[index].material);
-    const auto is_interface = [&](int part) {
-        return std::holds_alternative<InterfaceMaterial>(loaded[static_cast<std::size_t>(part)].material);
-    };
-    const bool first = is_interface(mix.first), second = is_interface(mix.second);
-    if (first && second) {
-        loaded[index].material = InterfaceMaterial{};
-    } else if (first || second) {
-        context.warnings.add(entity.parameters.place_of("materials"),
-                             "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
-                             "shape leaves a share of it out)");
-        (first ? mix.first : mix.second) = first ? mix.second : mix.first;
-    }
-}
-
-/// Throws InputError where a mixture is made of itself; what fills a part of a mixture fills it all.
-void check_mixtures(LoadContext& context, std::vector<LoadedMaterial>& loaded,
-                    const std::vector<pbrt::MaterialEntity>& materials) {
-    enum class State : char { unseen, open, done };
-    std::vector<State> states(loaded.size(), State::unseen);
-    const std::function<void(std::size_t)> visit = [&](std::size_t index) {
-        const auto* mix = std::get_if<MixMaterial>(&loaded[index].material);
-        if (!mix || states[index] == State::done) {
-            return;
-        }
-        if (states[index] == State::open) {
-            throw InputError(materials[index].parameters.place_of("materials"), "\"mix\" is made of itself");
-        }
-        states[index] = State::open;
-        for (const int part : {mix->first, mix->second}) {
-            visit(static_cast<std::size_t>(part));
-            if (!loaded[index].inside) {
-                loaded[index].inside = loaded[static_cast<std::size_t>(part)].inside;
-            }
-        }
-        states[index] = State::done;
-        leave_out_interfaces(context, loaded, index, materials[index]);
-    };
-    for (std::size_t i = 0; i < loaded.size(); ++i) {
-        visit(i);
-    }
-}
 
 /// The share of light, even from above, that is scattered.
 Rgb hemispherical_albedo(const Bsdf& bsdf) {

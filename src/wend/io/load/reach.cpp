@@ -28,9 +28,11 @@ void require_near(const Place& place, std::string_view what, const Vec3& point) 
 Box3 require_near(const Place& place, std::string_view what, const Shape& shape) {
     Box3 box;
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-        for (const Vec3& position : mesh->positions) {
-            require_near(place, what, position);
-            box.extendBy(position);
+        for (const auto* const positions : {&mesh->positions, &mesh->end_positions}) {
+            for (const Vec3& position : *positions) {
+                require_near(place, what, position);
+                box.extendBy(position);
+            }
         }
         return box;
     }

@@ -1,6 +1,7 @@
 #include <wend/io/load/curves.h>
+#include <wend/io/load/mesh_parameters.h>
 #include <wend/io/load/shapes.h>
-#include <wend/io/load/subdivision.h>
+#include <wend/io/load/subdivision_shapes.h>
 #include <wend/io/ply.h>
 
 #include <fmt/format.h>
@@ -8,106 +9,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace wend {
 namespace {
 
-template <class Vector>
-std::vector<Vector> take_vectors(pbrt::ParameterSet& p, std::string_view name, pbrt::ParameterType type) {
-    const std::vector<float> numbers = p.take_numbers(name, type);
-    constexpr std::size_t n = Vector::dimensions();
-    std::vector<Vector> vectors(numbers.size() / n);
-    for (std::size_t i = 0; i < vectors.size(); ++i) {
-        for (std::size_t axis = 0; axis < n; ++axis) {
-            vectors[i][static_cast<int>(axis)] = numbers[n * i + axis];
-        }
-    }
-    return vectors;
-}
-
-/// Drops values that are not one a vertex, as pbrt does.
-template <class Vector>
-void require_one_a_vertex(LoadContext& context, const pbrt::ShapeEntity& shape, std::vector<Vector>& values,
-                          std::size_t vertices, std::string_view name) {
-    if (!values.empty() && values.size() != vertices) {
-        context.warnings.add(shape.parameters.place_of(name),
-                             fmt::format("\"{}\" has not one value a vertex and is ignored", name));
-        values.clear();
-    }
-}
-
-/// The parameters P and indices, `corners` of these a face. Without indices the vertices are a single face.
-TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners) {
-    pbrt::ParameterSet& p = shape.parameters;
-    const pbrt::Location positions_place = p.place_of("P");
-    const pbrt::Location indices_place = p.place_of("indices");
-    TriangleMeshData mesh;
-    mesh.positions = take_vectors<Vec3>(p, "P", pbrt::ParameterType::point3);
-    if (mesh.positions.empty()) {
-        throw InputError(positions_place, fmt::format("Shape \"{}\" needs the parameter \"point3 P\"", shape.type));
-    }
-    const std::vector<int> indices = p.take_ints("indices");
-    if (indices.empty()) {
-        if (mesh.positions.size() != corners) {
-            throw InputError(indices_place,
-                             fmt::format("Shape \"{}\" needs the parameter \"integer indices\"", shape.type));
-        }
-        mesh.indices.resize(corners);
-        std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
-        return mesh;
-    }
-    if (indices.size() % corners != 0) {
-        throw InputError(indices_place,
-                         fmt::format("\"indices\" has {} values, which is no multiple of {}", indices.size(), corners));
-    }
-    mesh.indices.reserve(indices.size());
-    for (const int index : indices) {
-        if (index < 0 || static_cast<std::size_t>(index) >= mesh.positions.size()) {
-            throw InputError(indices_place, fmt::format("the index {} is out of range: there are {} vertices", index,
-                                                        mesh.positions.size()));
-        }
-        mesh.indices.push_back(static_cast<std::uint32_t>(index));
-    }
-    return mesh;
-}
-
-/// take_faces(), and the parameters N and uv.
-TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners) {
-    TriangleMeshData mesh = take_faces(shape, corners);
-    mesh.normals = take_vectors<Vec3>(shape.parameters, "N", pbrt::ParameterType::normal3);
-    mesh.uvs = take_vectors<Vec2>(shape.parameters, "uv", pbrt::ParameterType::point2);
-    require_one_a_vertex(context, shape, mesh.normals, mesh.positions.size(), "N");
-    require_one_a_vertex(context, shape, mesh.uvs, mesh.positions.size(), "uv");
-    return mesh;
-}
-
-/// To the world; normals that are given turn with ReverseOrientation.
-TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
-    TriangleMesh mesh;
-    mesh.positions = std::move(raw.positions);
-    mesh.normals = std::move(raw.normals);
-    mesh.uvs = std::move(raw.uvs);
-    mesh.indices = std::move(raw.indices);
-    for (Vec3& v : mesh.positions) {
-        v = shape.world_from_object.point(v);
-        if (!is_finite(v)) {
-            throw InputError(shape.place, fmt::format("Shape \"{}\" has a vertex that is not finite", shape.type));
-        }
-    }
-    for (Vec3& n : mesh.normals) {
-        const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
-        // A normal that is no direction leaves its part of the surface flat.
-        n = is_finite(mapped) && length_squared(mapped) > 0 ? normalize(mapped) : Vec3(0, 0, 0);
-    }
-    return mesh;
-}
-
 Shape load_triangle_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     // Faces are numbered for Ptex textures only.
     static_cast<void>(shape.parameters.take_ints("faceIndices"));
-    return place(shape, take_mesh(context, shape, 3));
+    TriangleMeshData mesh = take_mesh(context, shape, 3);
+    take_motion(shape, mesh);
+    return place(shape, std::move(mesh));
 }
 
 Shape load_ply_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
@@ -209,26 +121,6 @@ Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     return place(shape, std::move(mesh));
 }
 
-Shape load_subdivision_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
-    const int levels = shape.parameters.get_int("levels", 3);
-    const pbrt::Location levels_place = shape.parameters.place_of("levels");
-    const TriangleMeshData control = take_faces(shape, 3);
-    // Refining takes a quarter of a kilobyte for each.
-    constexpr double most_triangles = 1 << 21;
-    const double triangles = static_cast<double>(control.indices.size() / 3) * std::pow(4.0, levels);
-    context.subdivided += triangles;
-    if (levels < 0 || !(context.subdivided <= most_triangles)) {
-        throw InputError(levels_place, fmt::format("\"levels\" is {}: it must not be negative, and all \"loopsubdiv\" "
-                                                   "together lead to {:.0f} triangles at most",
-                                                   levels, most_triangles));
-    }
-    std::optional<TriangleMeshData> limit = subdivide(control.positions, control.indices, levels);
-    if (!limit) {
-        throw InputError(shape.place, "no triangle of the \"loopsubdiv\" has three different vertices");
-    }
-    return place(shape, *std::move(limit));
-}
-
 float load_sweep(const pbrt::ParameterSet& p) {
     return std::min(positive_float(p, "phimax", 360), 360.0f) * pi / 180;
 }
@@ -318,14 +210,12 @@ std::optional<Shape> load_shape(LoadContext& context, pbrt::ShapeEntity& shape, 
         std::string_view type;
         Shape (*load)(LoadContext&, pbrt::ShapeEntity&);
     };
-    static constexpr Loader loaders[] = {{"bilinearmesh", load_bilinear_mesh},
-                                         {"curve", load_curve},
-                                         {"cylinder", load_cylinder},
-                                         {"disk", load_disk},
-                                         {"plymesh", load_ply_mesh},
-                                         {"sphere", load_sphere},
-                                         {"loopsubdiv", load_subdivision_surface},
-                                         {"trianglemesh", load_triangle_mesh}};
+    static constexpr Loader loaders[] = {
+        {"bilinearmesh", load_bilinear_mesh}, {"curve", load_curve},
+        {"cylinder", load_cylinder},          {"disk", load_disk},
+        {"plymesh", load_ply_mesh},           {"sphere", load_sphere},
+        {"loopsubdiv", load_loop_surface},    {"subdivision", load_subdivision_surface},
+        {"trianglemesh", load_triangle_mesh}};
     for (const Loader& loader : loaders) {
         if (loader.type == shape.type) {
             Shape loaded =
@@ -339,7 +229,8 @@ std::optional<Shape> load_shape(LoadContext& context, pbrt::ShapeEntity& shape, 
         }
     }
     refuse_type("Shape", shape,
-                {"bilinearmesh", "curve", "cylinder", "disk", "loopsubdiv", "plymesh", "sphere", "trianglemesh"});
+                {"bilinearmesh", "curve", "cylinder", "disk", "loopsubdiv", "plymesh", "sphere", "subdivision",
+                 "trianglemesh"});
 }
 
 bool flips_normal(const pbrt::ShapeEntity& shape) {

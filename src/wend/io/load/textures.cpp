@@ -1,4 +1,3 @@
-#include <wend/io/exr_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/textures.h>
@@ -6,73 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
 #include <cmath>
-#include <cstdlib>
 
 namespace wend {
 namespace {
-
-/// The exponent in "gamma X"; none for another text.
-std::optional<float> gamma_of(const std::string& encoding) {
-    constexpr std::string_view prefix = "gamma ";
-    if (!encoding.starts_with(prefix)) {
-        return std::nullopt;
-    }
-    const char* text = encoding.c_str() + prefix.size();
-    char* end = nullptr;
-    const float gamma = std::strtof(text, &end);
-    return end != text && *end == '\0' && gamma > 0 && std::isfinite(gamma) ? std::optional(gamma) : std::nullopt;
-}
-
-/// By a gamma, of PNG files alone. Their opacity is encoded as the colours are.
-void apply_gamma(ImageWithOpacity& picture, float gamma) {
-    for (Rgb& c : picture.image.pixels) {
-        c = {std::pow(c.r, gamma), std::pow(c.g, gamma), std::pow(c.b, gamma)};
-    }
-    for (float& opacity : picture.opacity) {
-        opacity = std::pow(opacity, gamma);
-    }
-}
-
-ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::string& encoding, const Place& place) {
-    if (encoding == "sRGB") {
-        return read_image_with_opacity(file, ColourEncoding::srgb);
-    }
-    const std::optional<float> gamma = gamma_of(encoding);
-    if (!gamma && encoding != "linear") {
-        throw InputError(place,
-                         fmt::format("the encoding \"{}\" is unknown; known are sRGB, linear, gamma X", encoding));
-    }
-    ImageWithOpacity picture = read_image_with_opacity(file, ColourEncoding::linear);
-    if (gamma && is_png(file)) {
-        apply_gamma(picture, *gamma);
-    }
-    return picture;
-}
-
-/// That of a picture which is not PNG.
-std::string_view implied_encoding(const std::filesystem::path& file) {
-    const bool holds_floats = is_exr(file) || file.extension() == ".hdr" || file.extension() == ".pfm";
-    return holds_floats ? "linear" : "sRGB";
-}
-
-/// A picture's colours, or one number a pixel in all channels.
-Image reduce(ImageWithOpacity picture, TextureLoader::Channels channels) {
-    std::vector<Rgb>& pixels = picture.image.pixels;
-    for (std::size_t i = 0; i < pixels.size() && channels != TextureLoader::Channels::colours; ++i) {
-        const bool is_first = channels == TextureLoader::Channels::first;
-        const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
-        const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
-        pixels[i] = Rgb(is_first || picture.opacity.empty() ? colour : picture.opacity[i]);
-    }
-    return std::move(picture.image);
-}
 
 ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     const std::string wrap = p.get_string("wrap", "repeat");
     if (wrap == "repeat") {
         return ImageTexture::Wrap::repeat;
+    }
+    if (wrap == "mirror") {
+        return ImageTexture::Wrap::mirror;
     }
     if (wrap == "clamp") {
         return ImageTexture::Wrap::clamp;
@@ -85,7 +29,7 @@ ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
     }
     throw InputError(
         p.place_of("wrap"),
-        fmt::format("the wrap mode \"{}\" is unknown; known are repeat, clamp, black, octahedralsphere", wrap));
+        fmt::format("the wrap mode \"{}\" is unknown; known are repeat, mirror, clamp, black, octahedralsphere", wrap));
 }
 
 /// Pictures are interpolated bilinearly unless the nearest pixel is wanted: with many samples a pixel, the finer
@@ -144,8 +88,8 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
         {"dots", &TextureLoader::load_dots},         {"fbm", &TextureLoader::load_fractal},
         {"imagemap", &TextureLoader::load_imagemap}, {"marble", &TextureLoader::load_marble},
         {"mix", &TextureLoader::load_mix},           {"ptex", &TextureLoader::load_ptex},
-        {"scale", &TextureLoader::load_scale},       {"windy", &TextureLoader::load_windy},
-        {"wrinkled", &TextureLoader::load_wrinkled},
+        {"scale", &TextureLoader::load_scale},       {"sides", &TextureLoader::load_sides},
+        {"windy", &TextureLoader::load_windy},       {"wrinkled", &TextureLoader::load_wrinkled},
     };
     for (const Loader& loader : loaders) {
         if (loader.type == texture.type) {
@@ -154,7 +98,7 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
     }
     refuse_type("Texture", texture,
                 {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mix",
-                 "ptex", "scale", "windy", "wrinkled"});
+                 "ptex", "scale", "sides", "windy", "wrinkled"});
 }
 
 TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
@@ -174,17 +118,29 @@ TextureId TextureLoader::load_mix(const pbrt::TextureEntity& texture) {
     return add_node(MixTexture{first, second, amount}, {first, second, amount}, texture.place);
 }
 
+TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& texture, const std::string& filter) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    const std::string channels = p.get_string("channels", "");
+    if (channels != "" && channels != "luminance") {
+        throw InputError(p.place_of("channels"),
+                         fmt::format("the channels \"{}\" are unknown; known is luminance", channels));
+    }
+    return texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
+           : channels == "luminance"                       ? Channels::luminance
+           : filter == "bilinear" || filter == "trilinear" ? Channels::number
+                                                           : Channels::first;
+}
+
 TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     ImageTexture image;
     const std::string filter = load_filter(p);
     image.nearest = filter == "point";
-    const Channels channels = texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
-                              : filter == "bilinear" || filter == "trilinear" ? Channels::number
-                                                                              : Channels::first;
+    const Channels channels = load_channels(texture, filter);
     const std::filesystem::path file = required_file(context_, texture, "filename");
     image.image = picture(file, p.get_string("encoding", "sRGB"), p.place_of("encoding"), channels);
-    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != implied_encoding(file)) {
+    if (p.has("encoding") && !is_png(file) && p.get_string("encoding", "") != "raw" &&
+        p.get_string("encoding", "") != implied_encoding(file)) {
         context_.warnings.add(p.place_of("encoding"),
                               "the encoding of a picture that is not PNG is not asked for: "
                               "numbers of 8 bits are sRGB, others linear");
@@ -222,6 +178,11 @@ TextureId TextureLoader::load_checkerboard(const pbrt::TextureEntity& texture) {
                          fmt::format("a checkerboard has 2 or 3 dimensions, not {}", board.dimensions));
     }
     return add_node(board, {board.even, board.odd}, texture.place);
+}
+
+TextureId TextureLoader::load_sides(const pbrt::TextureEntity& texture) {
+    const SidesTexture sides{operand(texture, "tex1", 0), operand(texture, "tex2", 1)};
+    return add_node(sides, {sides.front, sides.back}, texture.place);
 }
 
 TextureId TextureLoader::load_direction_mix(const pbrt::TextureEntity& texture) {
@@ -288,6 +249,12 @@ TextureId TextureLoader::load_ptex(const pbrt::TextureEntity& texture) {
 TextureMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     const std::string kind = p.get_string("mapping", "uv");
+    if (const std::vector<float> m = p.get_floats("uvmatrix"); kind == "uv" && !m.empty()) {
+        if (m.size() != 6 || !std::all_of(m.begin(), m.end(), [](float x) { return std::isfinite(x); })) {
+            throw InputError(p.place_of("uvmatrix"), "\"uvmatrix\" is six finite numbers");
+        }
+        return UvMapping{m[0], m[4], m[2], m[5], m[1], m[3]};
+    }
     if (kind == "uv") {
         return UvMapping{finite_float(p, "uscale", 1), finite_float(p, "vscale", 1), finite_float(p, "udelta", 0),
                          finite_float(p, "vdelta", 0)};
@@ -393,7 +360,7 @@ std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path&
                                                     const Place& place, Channels channels) {
     std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding, channels}];
     if (!image) {
-        image = std::make_shared<const Image>(reduce(read_encoded(file, encoding, place), channels));
+        image = std::make_shared<const Image>(reduce_picture(read_encoded(file, encoding, place), channels));
     }
     return image;
 }

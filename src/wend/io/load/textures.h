@@ -1,6 +1,7 @@
 #pragma once
 
 #include <wend/io/load/context.h>
+#include <wend/io/load/pictures.h>
 #include <wend/io/spectrum/colorimetry.h>
 #include <wend/scene/texture.h>
 
@@ -43,13 +44,10 @@ public:
     /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
     Rgb mean(TextureId id) const;
 
-    /// What of a picture is wanted: its colours, or the one number that pbrt takes of it for a float texture. That is
-    /// the opacity if there is one that is not 1 everywhere, or else the mean of the colours; but the first of them by
-    /// the filters that take single pixels.
-    enum class Channels { colours, number, first };
+    using Channels = PictureChannels;
 
     /// Reads a picture file once however often it is asked for. `encoding` is pbrt's, of PNG files: "sRGB", "linear" or
-    /// "gamma X". A number is in all three channels.
+    /// "gamma X"; or "raw", of any file, whose numbers are taken as they are. A number is in all three channels.
     std::shared_ptr<const Image> picture(const std::filesystem::path& file, const std::string& encoding,
                                          const Place& place, Channels channels = Channels::colours);
 
@@ -60,6 +58,7 @@ private:
     TextureId load_mix(const pbrt::TextureEntity& texture);
     TextureId load_imagemap(const pbrt::TextureEntity& texture);
     TextureId load_checkerboard(const pbrt::TextureEntity& texture);
+    TextureId load_sides(const pbrt::TextureEntity& texture);
     TextureId load_direction_mix(const pbrt::TextureEntity& texture);
     TextureId load_bilerp(const pbrt::TextureEntity& texture);
     TextureId load_dots(const pbrt::TextureEntity& texture);
@@ -74,6 +73,7 @@ private:
     /// A parameter of the texture's own kind.
     TextureId operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
     TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place) const;
+    static Channels load_channels(const pbrt::TextureEntity& texture, const std::string& filter);
     TextureMapping load_mapping(const pbrt::TextureEntity& texture);
     /// A value that cannot be a texture itself.
     Rgb plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback);

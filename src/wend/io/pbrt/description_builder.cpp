@@ -365,10 +365,7 @@ void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const 
         warn(place, "shapes of object instances cannot be area lights: they do not shine");
         area_light.reset();
     }
-    if (area_light && moved->is_moving()) {
-        warn(place, "area lights do not move: the shape stays where it is at the start");
-    }
-    const bool moves = moved->is_moving() && !area_light;
+    const bool moves = moved->is_moving();
     description_.shapes.push_back({{std::move(type), std::move(parameters), place},
                                    moves ? Transform() : moved->start(),
                                    moves ? moved : nullptr,

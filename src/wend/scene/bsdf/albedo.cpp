@@ -14,11 +14,11 @@ Rgb albedo(const ConductorBsdf& b, const Vec3& wo) {
     return {fresnel_conductor(cosine, b.eta.r, b.k.r), fresnel_conductor(cosine, b.eta.g, b.k.g),
             fresnel_conductor(cosine, b.eta.b, b.k.b)};
 }
-Rgb albedo(const DielectricBsdf&, const Vec3&) {
-    return Rgb(1.0f);
+Rgb albedo(const DielectricBsdf& b, const Vec3& wo) {
+    return b.transmittance + (b.reflectance - b.transmittance) * fresnel_dielectric(wo.z, b.ior);
 }
-Rgb albedo(const ThinDielectricBsdf&, const Vec3&) {
-    return Rgb(1.0f);
+Rgb albedo(const ThinDielectricBsdf& b, const Vec3& wo) {
+    return b.transmittance + (b.reflectance - b.transmittance) * b.reflected_share(wo);
 }
 Rgb albedo(const DiffuseTransmissionBsdf& b, const Vec3&) {
     return b.reflectance + b.transmittance;

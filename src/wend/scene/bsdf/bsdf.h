@@ -5,6 +5,7 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
+#include <wend/medium/microfacet.h>
 #include <wend/sampling/axial_lobes.h>
 
 #include <array>
@@ -52,6 +53,7 @@ struct ConductorBsdf {
     Rgb k;
     float alpha_x = 0;
     float alpha_y = 0;
+    FacetSlopes slopes = FacetSlopes::ggx;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
@@ -69,6 +71,10 @@ struct DielectricBsdf {
     float odds = 1;
     /// Of all samples, in (0,1], what is left to Fresnel's equations all the same.
     float fresnel_share = 0.25f;
+    FacetSlopes slopes = FacetSlopes::ggx;
+    /// Factors of what is reflected and of what passes, up to 1: glass that is coloured at its surface.
+    Rgb reflectance{1.0f};
+    Rgb transmittance{1.0f};
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
@@ -91,13 +97,16 @@ private:
 /// A sheet of glass so thin that light goes on straight, reflected inside any number of times; `ior` of the glass.
 struct ThinDielectricBsdf {
     float ior = 1.5f;
+    /// As those of DielectricBsdf.
+    Rgb reflectance{1.0f};
+    Rgb transmittance{1.0f};
 
     Rgb evaluate(const Vec3&, const Vec3&) const { return Rgb(0.0f); }
     float density(const Vec3&, const Vec3&) const { return 0; }
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const { return true; }
-    /// Share of light from wo that is reflected.
-    float reflectance(const Vec3& wo) const;
+    /// Share of light from wo that clear glass reflects.
+    float reflected_share(const Vec3& wo) const;
 };
 
 /// A diffuse or metal base under a dielectric coat, smooth or rough, which is filled with a medium of extinction 1.

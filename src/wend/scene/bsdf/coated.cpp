@@ -302,7 +302,8 @@ float CoatedBsdf::density(const Vec3& wo, const Vec3& wi) const {
     float p = share.diffuse * cosine_hemisphere_density(i.z);
     if (!coat.is_specular()) {
         const Vec3 m = normalize(o + i);
-        p += share.coat * Microfacets(coat.alpha_x, coat.alpha_y).visible_density(o, m) / (4 * abs_dot(o, m));
+        p += share.coat * Microfacets(coat.alpha_x, coat.alpha_y, coat.slopes).visible_density(o, m) /
+             (4 * abs_dot(o, m));
     }
     return share.base > 0 ? p + share.base * base_density(o, i) : p;
 }

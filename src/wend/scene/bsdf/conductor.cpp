@@ -25,7 +25,7 @@ Rgb ConductorBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
         return Rgb(0.0f);
     }
     const Vec3 m = normalize(sum);
-    const Microfacets facets(alpha_x, alpha_y);
+    const Microfacets facets(alpha_x, alpha_y, slopes);
     return reflectance(*this, abs_dot(wo, m)) * (facets.d(m) * facets.g(wo, wi) / (4 * std::abs(wo.z)));
 }
 
@@ -39,7 +39,7 @@ float ConductorBsdf::density(const Vec3& wo, const Vec3& wi) const {
     }
     m = normalize(m);
     m = m.z < 0 ? -m : m;
-    return Microfacets(alpha_x, alpha_y).visible_density(wo, m) / (4 * abs_dot(wo, m));
+    return Microfacets(alpha_x, alpha_y, slopes).visible_density(wo, m) / (4 * abs_dot(wo, m));
 }
 
 std::optional<BsdfSample> ConductorBsdf::sample(const Vec3& wo, float, const Vec2& u2) const {
@@ -49,7 +49,11 @@ std::optional<BsdfSample> ConductorBsdf::sample(const Vec3& wo, float, const Vec
     if (is_specular()) {
         return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance(*this, std::abs(wo.z)), 1, true};
     }
-    const Vec3 m = Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
+    const Microfacets facets(alpha_x, alpha_y, slopes);
+    const Vec3 m = facets.sample_visible(wo, u2);
+    if (!facets.is_visible(wo, m)) {
+        return std::nullopt;
+    }
     const Vec3 wi = m * (2 * dot(wo, m)) - wo;
     const float p = density(wo, wi);
     if (!(p > 0)) {

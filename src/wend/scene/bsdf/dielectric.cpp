@@ -54,17 +54,17 @@ Rgb DielectricBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     if (!facet) {
         return Rgb(0.0f);
     }
-    const Microfacets facets(alpha_x, alpha_y);
+    const Microfacets facets(alpha_x, alpha_y, slopes);
     const Vec3& m = facet->normal;
     const float f = fresnel_dielectric(dot(wo, m), ior);
     if (facet->reflects) {
-        return Rgb(facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
+        return reflectance * (facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
     }
     const float n = facet->index_ratio;
     const float denominator = sqr(dot(wi, m) + dot(wo, m) / n);
     // The factor 1/n² is that of radiance.
-    return Rgb((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) /
-               (denominator * std::abs(wo.z) * n * n));
+    return transmittance * ((1 - f) * facets.d(m) * facets.g(wo, wi) * abs_dot(wi, m) * abs_dot(wo, m) /
+                            (denominator * std::abs(wo.z) * n * n));
 }
 
 float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
@@ -75,7 +75,7 @@ float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
     if (!facet) {
         return 0;
     }
-    const Microfacets facets(alpha_x, alpha_y);
+    const Microfacets facets(alpha_x, alpha_y, slopes);
     const Vec3& m = facet->normal;
     const float f = fresnel_dielectric(dot(wo, m), ior);
     const float reflection = reflection_probability(f);
@@ -93,30 +93,35 @@ float DielectricBsdf::refraction_density(const Vec3& wo, const Vec3& wi) const {
     }
     const Vec3& m = facet->normal;
     const float denominator = sqr(dot(wi, m) + dot(wo, m) / facet->index_ratio);
-    return Microfacets(alpha_x, alpha_y).visible_density(wo, m) * abs_dot(wi, m) / denominator;
+    return Microfacets(alpha_x, alpha_y, slopes).visible_density(wo, m) * abs_dot(wi, m) / denominator;
 }
 
 Vec3 DielectricBsdf::sample_facet(const Vec3& wo, const Vec2& u2) const {
-    return is_specular() ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
+    return is_specular() ? Vec3(0, 0, 1) : Microfacets(alpha_x, alpha_y, slopes).sample_visible(wo, u2);
 }
 
 std::optional<BsdfSample> DielectricBsdf::reflected(const Vec3& wo, const Vec3& m) const {
+    if (!Microfacets(alpha_x, alpha_y, slopes).is_visible(wo, m)) {
+        return std::nullopt;
+    }
     const Vec3 wi = m * (2 * dot(wo, m)) - wo;
     if (is_specular()) {
-        return BsdfSample{wi, Rgb(fresnel_dielectric(dot(wo, m), ior)), 1, true};
+        return BsdfSample{wi, reflectance * fresnel_dielectric(dot(wo, m), ior), 1, true};
     }
-    const float p = Microfacets(alpha_x, alpha_y).visible_density(wo, m) / (4 * abs_dot(wo, m));
+    const float p = Microfacets(alpha_x, alpha_y, slopes).visible_density(wo, m) / (4 * abs_dot(wo, m));
     return wo.z * wi.z > 0 && p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
 }
 
 std::optional<BsdfSample> DielectricBsdf::refracted(const Vec3& wo, const Vec3& m) const {
     const auto refraction = refract(wo, m, ior);
-    if (!refraction || wo.z * refraction->direction.z > 0 || refraction->direction.z == 0) {
+    if (!Microfacets(alpha_x, alpha_y, slopes).is_visible(wo, m) || !refraction || wo.z * refraction->direction.z > 0 ||
+        refraction->direction.z == 0) {
         return std::nullopt;
     }
     const Vec3& wi = refraction->direction;
     if (is_specular()) {
-        return BsdfSample{wi, Rgb((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1, true};
+        return BsdfSample{wi, transmittance * ((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1,
+                          true};
     }
     const float p = refraction_density(wo, wi);
     return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;

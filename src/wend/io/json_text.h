@@ -1,0 +1,17 @@
+// JSON as this program writes it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace wend {
+
+/// Numbers as JSON has them: null where not finite.
+nlohmann::json json_number(double value);
+
+/// JSON as text; what is not UTF-8 in it (file names may be anything) is replaced. No line breaks if `indent` is
+/// negative.
+std::string json_text(const nlohmann::json& value, int indent = -1);
+
+}  // namespace wend

@@ -1,0 +1,55 @@
+#include <wend/io/load/mixtures.h>
+
+#include <functional>
+
+namespace wend {
+namespace {
+
+/// What a mixture becomes of which a part is an interface: the other part. Shadow rays could not tell which it is.
+void leave_out_interfaces(LoadContext& context, std::vector<LoadedMaterial>& loaded, std::size_t index,
+                          const pbrt::MaterialEntity& entity) {
+    auto& mix = std::get<MixMaterial>(loaded[index].material);
+    const auto is_interface = [&](int part) {
+        return std::holds_alternative<InterfaceMaterial>(loaded[static_cast<std::size_t>(part)].material);
+    };
+    const bool first = is_interface(mix.first), second = is_interface(mix.second);
+    if (first && second) {
+        loaded[index].material = InterfaceMaterial{};
+    } else if (first || second) {
+        context.warnings.add(entity.parameters.place_of("materials"),
+                             "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
+                             "shape leaves a share of it out)");
+        (first ? mix.first : mix.second) = first ? mix.second : mix.first;
+    }
+}
+
+}  // namespace
+
+void check_mixtures(LoadContext& context, std::vector<LoadedMaterial>& loaded,
+                    const std::vector<pbrt::MaterialEntity>& materials) {
+    enum class State : char { unseen, open, done };
+    std::vector<State> states(loaded.size(), State::unseen);
+    const std::function<void(std::size_t)> visit = [&](std::size_t index) {
+        const auto* mix = std::get_if<MixMaterial>(&loaded[index].material);
+        if (!mix || states[index] == State::done) {
+            return;
+        }
+        if (states[index] == State::open) {
+            throw InputError(materials[index].parameters.place_of("materials"), "\"mix\" is made of itself");
+        }
+        states[index] = State::open;
+        for (const int part : {mix->first, mix->second}) {
+            visit(static_cast<std::size_t>(part));
+            if (!loaded[index].inside) {
+                loaded[index].inside = loaded[static_cast<std::size_t>(part)].inside;
+            }
+        }
+        states[index] = State::done;
+        leave_out_interfaces(context, loaded, index, materials[index]);
+    };
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        visit(i);
+    }
+}
+
+}  // namespace wend

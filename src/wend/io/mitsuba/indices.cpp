@@ -1,0 +1,106 @@
+#include <wend/core/error.h>
+#include <wend/io/mitsuba/indices.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace wend::mitsuba {
+namespace {
+
+constexpr auto indices = std::to_array<std::pair<std::string_view, double>>({
+    {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
+    {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
+    {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+    {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+    {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+    {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+    {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+    {"pet", 1.575},       {"diamond", 2.419},
+});
+
+struct MetalRow {
+    std::string_view name;
+    Rgb eta, k;
+};
+
+// As Mitsuba 3.9.1 has them in its variant scalar_rgb.
+constexpr auto metals = std::to_array<MetalRow>({
+    {"none", Rgb(0.0f), Rgb(1.0f)},
+    {"a-C", {2.94405f, 2.22714f, 1.96816f}, {0.887465f, 0.799299f, 0.81529f}},
+    {"Ag", {0.155276f, 0.116728f, 0.138388f}, {4.82835f, 3.12222f, 2.1469f}},
+    {"Al", {1.6575f, 0.880405f, 0.521244f}, {9.22381f, 6.2695f, 4.837f}},
+    {"AlAs", {3.6053f, 3.23294f, 2.21632f}, {0.000679437f, 0.0f, 0.00751271f}},
+    {"AlSb", {0.0f, 4.13937f, 4.66925f}, {0.0f, 0.0940091f, 1.30057f}},
+    {"Au", {0.143036f, 0.375307f, 1.44205f}, {3.983f, 2.38556f, 1.60336f}},
+    {"Be", {4.18501f, 3.18503f, 2.78406f}, {3.83547f, 3.01012f, 2.86899f}},
+    {"Cr", {4.36967f, 2.91651f, 1.6549f}, {5.20655f, 4.23131f, 3.7547f}},
+    {"CsI", {2.1449f, 1.70232f, 1.66243f}, {0.0f, 0.0f, 0.0f}},
+    {"Cu", {0.201005f, 0.92375f, 1.10222f}, {3.91326f, 2.45305f, 2.14209f}},
+    {"Cu2O", {3.55177f, 2.94987f, 2.75188f}, {0.114207f, 0.193897f, 0.606134f}},
+    {"CuO", {3.24754f, 2.44781f, 2.21022f}, {0.52109f, 0.570031f, 0.722179f}},
+    {"d-C", {2.70872f, 2.31883f, 2.2289f}, {0.0f, 0.0f, 0.0f}},
+    {"Hg", {2.39894f, 1.44003f, 0.90957f}, {6.32759f, 4.37192f, 3.42176f}},
+    {"HgTe", {4.77904f, 3.2312f, 2.6599f}, {1.63161f, 1.58081f, 1.72929f}},
+    {"Ir", {3.0863f, 2.08219f, 1.61791f}, {5.59215f, 4.06709f, 3.26731f}},
+    {"K", {0.0640432f, 0.0464098f, 0.0381849f}, {2.1042f, 1.34894f, 0.913126f}},
+    {"Li", {0.265791f, 0.195618f, 0.220949f}, {3.54015f, 2.31112f, 1.66861f}},
+    {"MgO", {2.08958f, 1.65072f, 1.59488f}, {4.3327e-12f, 0.0f, 2.49865e-11f}},
+    {"Mo", {4.48397f, 3.52513f, 2.77631f}, {4.11144f, 3.42083f, 3.15061f}},
+    {"Na_palik", {0.0602694f, 0.0561409f, 0.0619884f}, {3.17927f, 2.11249f, 1.57904f}},
+    {"Nb", {3.42007f, 2.79009f, 2.39563f}, {3.44139f, 2.73767f, 2.57975f}},
+    {"Ni_palik", {2.3673f, 1.66337f, 1.46708f}, {4.49881f, 3.05015f, 2.34544f}},
+    {"Rh", {2.58579f, 1.86022f, 1.55426f}, {6.78226f, 4.70299f, 3.97607f}},
+    {"Se", {4.05831f, 2.84294f, 2.82085f}, {0.75405f, 0.638444f, 0.521808f}},
+    {"SiC", {3.17234f, 2.52597f, 2.47937f}, {7.53766e-07f, 0.0f, 1.01925e-05f}},
+    {"SnTe", {4.52425f, 1.98164f, 1.28159f}, {0.0f, 0.0f, 0.0f}},
+    {"Ta", {2.06272f, 2.39294f, 2.62793f}, {2.40836f, 1.74149f, 1.94703f}},
+    {"Te", {7.39023f, 4.4821f, 2.63711f}, {3.25602f, 3.52706f, 3.29205f}},
+    {"ThF4", {1.83071f, 1.44223f, 1.38765f}, {0.0f, 0.0f, 0.0f}},
+    {"TiC", {3.70053f, 2.83742f, 2.58229f}, {3.26564f, 2.35159f, 2.17279f}},
+    {"TiN", {1.64845f, 1.15052f, 1.37982f}, {3.36833f, 1.9435f, 1.10207f}},
+    {"TiO2", {3.45661f, 2.80174f, 2.90517f}, {0.000105265f, 0.0f, 0.000652887f}},
+    {"VC", {3.65757f, 2.75274f, 2.53267f}, {3.0683f, 2.19869f, 1.96319f}},
+    {"V_palik", {4.27758f, 3.51295f, 2.76107f}, {3.4913f, 2.88945f, 3.11152f}},
+    {"VN", {2.8656f, 2.11919f, 1.94009f}, {3.03224f, 2.05612f, 1.61631f}},
+    {"W", {4.37082f, 3.30025f, 2.99841f}, {3.50064f, 2.60487f, 2.27323f}},
+});
+
+/// The row of a name.
+template <class Rows, class Name>
+auto& row_of(const Rows& rows, std::string_view name, const pbrt::Location& place, const Name& name_of) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return name_of(r) == name; });
+    if (row == rows.end()) {
+        std::string known;
+        for (const auto& r : rows) {
+            known += fmt::format("{}{}", known.empty() ? "" : ", ", name_of(r));
+        }
+        throw InputError(place, fmt::format("the material \"{}\" is unknown; known are {}", name, known));
+    }
+    return *row;
+}
+
+double named_index(std::string_view name, const pbrt::Location& place) {
+    return row_of(indices, name, place, [](const auto& row) { return row.first; }).second;
+}
+
+}  // namespace
+
+double index_of(const Object& object, std::string_view name, std::string_view fallback) {
+    const Element* given = object.find(name);
+    const pbrt::Location& place = object.place_of(name);
+    if (!given || given->tag == "string") {
+        return named_index(given ? given->attribute("value") : fallback, place);
+    }
+    return object.positive(name, 1);
+}
+
+MetalIndex metal_index(std::string_view name, const pbrt::Location& place) {
+    const MetalRow& row = row_of(metals, name, place, [](const MetalRow& r) { return r.name; });
+    return {row.eta, row.k};
+}
+
+}  // namespace wend::mitsuba

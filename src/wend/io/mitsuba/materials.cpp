@@ -1,0 +1,343 @@
+#include <wend/core/error.h>
+#include <wend/io/mitsuba/indices.h>
+#include <wend/io/mitsuba/materials.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace wend::mitsuba {
+namespace {
+
+constexpr std::string_view known_types =
+    "blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, normalmap, null, plastic, principled, roughconductor, "
+    "roughdielectric, roughplastic, thindielectric, twosided";
+
+bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), type) != names.end();
+}
+
+/// The BSDFs in one that wraps others.
+std::vector<const Element*> inner_of(const Object& bsdf, std::size_t least, std::size_t most) {
+    std::vector<const Element*> inner = bsdf.nested("bsdf");
+    if (inner.size() < least || inner.size() > most) {
+        throw InputError(
+            bsdf.place(),
+            fmt::format("{} has {} <bsdf> in it, not {}", bsdf.title(),
+                        least == most ? fmt::format("{}", least) : fmt::format("{} or {}", least, most), inner.size()));
+    }
+    return inner;
+}
+
+}  // namespace
+
+SurfaceLook Materials::look_of(const Element* element, const pbrt::Location& shape, bool shines) {
+    if (!element) {
+        if (shines) {
+            return {black(), {}};
+        }
+        if (default_.empty()) {
+            const auto plain = std::make_unique<Element>(Element{"bsdf", {{"type", "diffuse"}}, {}, shape});
+            default_ = make(Object(context_, *plain), {});
+        }
+        return {default_, {}};
+    }
+    const Object bsdf(context_, *element);
+    if (auto look = masked(bsdf)) {
+        return *look;
+    }
+    return {name_of(*element, {}), {}};
+}
+
+/// Where a part of a surface is not there: `mask`, or a blend with `null`.
+std::optional<SurfaceLook> Materials::masked(const Object& bsdf) {
+    if (bsdf.type() == "mask") {
+        const Element* inner = inner_of(bsdf, 1, 1).front();
+        const SurfaceLook look{name_of(*inner, {}), textures_.number(bsdf, "opacity", 0.5)};
+        bsdf.warn_of_unused();
+        return look;
+    }
+    if (bsdf.type() != "blendbsdf") {
+        return std::nullopt;
+    }
+    const std::vector<const Element*> inner = inner_of(bsdf, 2, 2);
+    const bool first = inner[0]->attribute("type") == "null", second = inner[1]->attribute("type") == "null";
+    if (first == second) {
+        return std::nullopt;
+    }
+    const NumberOrTexture weight = textures_.number(bsdf, "weight", 0.5);
+    const auto* texture = std::get_if<TextureRef>(&weight);
+    const NumberOrTexture rest = texture ? NumberOrTexture(textures_.inverted(*texture, bsdf.place()))
+                                         : NumberOrTexture(1 - std::get<float>(weight));
+    bsdf.warn_of_unused();
+    return SurfaceLook{name_of(*inner[first ? 1 : 0], {}), first ? weight : rest};
+}
+
+std::string Materials::name_of(const Element& element, const Setting& setting) {
+    const std::tuple key(&element, setting.is_two_sided, setting.detail);
+    if (const auto known = names_.find(key); known != names_.end()) {
+        return known->second;
+    }
+    constexpr int deepest = 32;
+    if (++depth_ > deepest) {
+        throw InputError(element.place, "BSDFs are made of each other, too deeply or in a circle");
+    }
+    const Object bsdf(context_, element);
+    std::string name = make(bsdf, setting);
+    bsdf.warn_of_unused();
+    --depth_;
+    names_.emplace(key, name);
+    return name;
+}
+
+std::string Materials::make(const Object& bsdf, const Setting& setting) {
+    const std::string_view type = bsdf.type();
+    if (type == "twosided") {
+        return two_sided(bsdf, setting);
+    }
+    if (type == "bumpmap" || type == "normalmap") {
+        return detailed(bsdf, setting);
+    }
+    if (type == "blendbsdf") {
+        return blended(bsdf, setting);
+    }
+    if (type == "mask") {
+        context_.warn(bsdf.place(), "a \"mask\" within other BSDFs is ignored: what it holds is there everywhere");
+        bsdf.ignore("opacity");
+        return name_of(*inner_of(bsdf, 1, 1).front(), setting);
+    }
+    return add_leaf(bsdf, leaf_of(bsdf), setting);
+}
+
+std::string Materials::add(const Object& bsdf, const std::string& type, Parameters& p) {
+    std::string name = context_.new_name();
+    p.text("type", type);
+    context_.builder.make_named_material(name, p.take(), bsdf.place());
+    return name;
+}
+
+std::string Materials::add_leaf(const Object& bsdf, Leaf leaf, const Setting& setting) {
+    if (setting.detail) {
+        set_detail(*setting.detail, leaf.parameters);
+    }
+    const std::string name = add(bsdf, leaf.type, leaf.parameters);
+    return leaf.is_one_sided && !setting.is_two_sided ? mix(bsdf, name, black(), textures_.behind(bsdf.place())) : name;
+}
+
+std::string Materials::mix(const Object& bsdf, const std::string& first, const std::string& second,
+                           const NumberOrTexture& amount) {
+    Parameters p(bsdf.place());
+    p.add(pbrt::ParameterType::string, "materials", std::vector<std::string>{first, second}).real("amount", amount);
+    return add(bsdf, "mix", p);
+}
+
+std::string Materials::black() {
+    if (black_.empty()) {
+        black_ = context_.new_name();
+        Parameters p({});
+        p.text("type", "diffuse").colour("reflectance", Rgb(0.0f));
+        context_.builder.make_named_material(black_, p.take(), {});
+    }
+    return black_;
+}
+
+std::string Materials::two_sided(const Object& bsdf, Setting setting) {
+    const std::vector<const Element*> inner = inner_of(bsdf, 1, 2);
+    setting.is_two_sided = true;
+    const std::string front = name_of(*inner.front(), setting);
+    return inner.size() == 1 ? front
+                             : mix(bsdf, front, name_of(*inner.back(), setting), textures_.behind(bsdf.place()));
+}
+
+std::string Materials::detailed(const Object& bsdf, Setting setting) {
+    if (setting.detail) {
+        context_.warn(bsdf.place(), fmt::format("{} is ignored within another one", bsdf.title()));
+        bsdf.warn_of_unused();
+    } else {
+        setting.detail = &bsdf.element();
+    }
+    return name_of(*inner_of(bsdf, 1, 1).front(), setting);
+}
+
+std::string Materials::blended(const Object& bsdf, const Setting& setting) {
+    const std::vector<const Element*> inner = inner_of(bsdf, 2, 2);
+    const NumberOrTexture weight = textures_.number(bsdf, "weight", 0.5);
+    const std::string first = name_of(*inner[0], setting);
+    return mix(bsdf, first, name_of(*inner[1], setting), weight);
+}
+
+void Materials::set_detail(const Element& element, Parameters& p) {
+    const Object detail(context_, element);
+    if (detail.flag("use_shadowing_function", true)) {
+        context_.warn(detail.place_of("use_shadowing_function"),
+                      fmt::format("light on a {} is not weakened where it grazes what the normals show "
+                                  "(\"use_shadowing_function\")",
+                                  detail.type()));
+    }
+    detail.ignore("flip_invalid_normals");
+    const std::vector<const Element*> maps = detail.nested("texture");
+    if (maps.size() != 1) {
+        throw InputError(detail.place(), fmt::format("{} has one <texture>, not {}", detail.title(), maps.size()));
+    }
+    if (detail.type() == "normalmap") {
+        const Object map(context_, *maps.front());
+        if (map.type() != "bitmap") {
+            throw InputError(map.place(), "a \"normalmap\" has a <texture type=\"bitmap\">");
+        }
+        if (!map.flag("raw", false)) {
+            context_.warn(map.place(), "the bitmap of a normalmap is taken for \"raw\"");
+        }
+        p.text("normalmap", map.file("filename").string()).text("normalmaporigin", "top");
+        map.warn_of_unused();
+        return;
+    }
+    const TextureRef height = textures_.add_numbers(*maps.front());
+    p.real("displacement", NumberOrTexture(textures_.scaled(height, detail.number("scale", 1), detail.place())));
+}
+
+Materials::Leaf Materials::leaf_of(const Object& bsdf) {
+    const std::string_view type = bsdf.type();
+    if (type == "diffuse") {
+        return diffuse(bsdf);
+    }
+    if (is_one_of(type, {"dielectric", "roughdielectric", "thindielectric"})) {
+        return dielectric(bsdf);
+    }
+    if (is_one_of(type, {"conductor", "roughconductor"})) {
+        return conductor(bsdf);
+    }
+    if (is_one_of(type, {"plastic", "roughplastic", "pplastic"})) {
+        return plastic(bsdf);
+    }
+    if (type == "principled") {
+        return principled(bsdf);
+    }
+    if (type == "null") {
+        return {"interface", Parameters(bsdf.place()), false};
+    }
+    return replaced(bsdf);
+}
+
+Materials::Leaf Materials::diffuse(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.colour("reflectance", textures_.colour(bsdf, "reflectance", Rgb(0.5f)));
+    return {"diffuse", std::move(p)};
+}
+
+/// Colours that make nature's laws others.
+void Materials::require_one(const Object& bsdf, std::string_view name) {
+    if (const Element* given = bsdf.find(name)) {
+        if (is_texture(*given) || colour_of(context_, *given, SpectrumUse::unbounded) != Rgb(1.0f)) {
+            context_.warn(given->place, fmt::format("\"{}\" of {} is ignored: it is 1", name, bsdf.title()));
+        }
+    }
+}
+
+void Materials::set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p) {
+    const std::string facets = bsdf.text("distribution", "beckmann");
+    if (facets != "beckmann" && facets != "ggx") {
+        throw InputError(bsdf.place_of("distribution"),
+                         fmt::format("\"{}\" is no distribution of facets; known are beckmann, ggx", facets));
+    }
+    bsdf.ignore("sample_visible");
+    p.flag("remaproughness", false).text("facets", facets);
+    if (bsdf.has("alpha_u") || bsdf.has("alpha_v")) {
+        p.real(prefix + "uroughness", textures_.number(bsdf, "alpha_u", 0.1))
+            .real(prefix + "vroughness", textures_.number(bsdf, "alpha_v", 0.1));
+    } else {
+        p.real(prefix + "roughness", textures_.number(bsdf, "alpha", 0.1));
+    }
+}
+
+Materials::Leaf Materials::dielectric(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.real("eta", index_of(bsdf, "int_ior", "bk7") / index_of(bsdf, "ext_ior", "air"));
+    for (const auto& [name, parameter] :
+         {std::pair{"specular_reflectance", "reflectance"}, std::pair{"specular_transmittance", "transmittance"}}) {
+        if (bsdf.has(name)) {
+            p.colour(parameter, textures_.colour(bsdf, name, Rgb(1.0f)));
+        }
+    }
+    if (bsdf.type() == "thindielectric") {
+        return {"thindielectric", std::move(p), false};
+    }
+    if (bsdf.type() == "roughdielectric") {
+        set_roughness(bsdf, "", p);
+    }
+    return {"dielectric", std::move(p), false};
+}
+
+Materials::Leaf Materials::conductor(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    require_one(bsdf, "specular_reflectance");
+    if (bsdf.has("eta") || bsdf.has("k")) {
+        if (bsdf.has("material")) {
+            throw InputError(bsdf.place_of("material"), "a conductor takes either a \"material\" or \"eta\" and \"k\"");
+        }
+        p.colour("eta", colour_of(bsdf, "eta", SpectrumUse::unbounded, Rgb(0.0f)))
+            .colour("k", colour_of(bsdf, "k", SpectrumUse::unbounded, Rgb(1.0f)));
+    } else {
+        const MetalIndex metal = metal_index(bsdf.text("material", "none"), bsdf.place_of("material"));
+        p.colour("eta", metal.eta).colour("k", metal.k);
+    }
+    if (bsdf.type() == "roughconductor") {
+        set_roughness(bsdf, "", p);
+    }
+    return {"conductor", std::move(p)};
+}
+
+Materials::Leaf Materials::plastic(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.real("eta", index_of(bsdf, "int_ior", "polypropylene") / index_of(bsdf, "ext_ior", "air"));
+    require_one(bsdf, "specular_reflectance");
+    p.colour("reflectance", textures_.colour(bsdf, "diffuse_reflectance", Rgb(0.5f)))
+        .real("thickness", 0)
+        .integer("maxdepth", 100)
+        .flag("linear", !bsdf.flag("nonlinear", false));
+    if (bsdf.type() == "plastic") {
+        p.real("roughness", 0);
+    } else {
+        set_roughness(bsdf, "", p);
+    }
+    return {"coateddiffuse", std::move(p)};
+}
+
+Materials::Leaf Materials::principled(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.colour("reflectance", textures_.colour(bsdf, "base_color", Rgb(0.5f)))
+        .real("roughness", textures_.number(bsdf, "roughness", 0.5))
+        .real("metallic", textures_.number(bsdf, "metallic", 0));
+    // The reflectance at normal incidence is 0.08 times "specular".
+    const double specular = bsdf.non_negative("specular", 0.5);
+    const double root = std::sqrt(0.08 * std::min(specular, 12.0));
+    p.real("eta", bsdf.has("eta") ? bsdf.positive("eta", 1.5) : (1 + root) / (1 - root));
+    // A coat is a quarter as strong as one of glass.
+    if (bsdf.has("clearcoat")) {
+        const double gloss = bsdf.number("clearcoat_gloss", 0);
+        p.real("coat", textures_.number(bsdf, "clearcoat", 0))
+            .real("coatroughness", std::sqrt(0.1 + gloss * (0.001 - 0.1)));
+    }
+    for (const char* name :
+         {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"}) {
+        bsdf.ignore(name);
+    }
+    context_.warn(bsdf.place(),
+                  "<bsdf type=\"principled\"> is a material of Wend's own, of the same colour, roughness, "
+                  "metal and coat: it loses no energy");
+    return {"principled", std::move(p)};
+}
+
+Materials::Leaf Materials::replaced(const Object& bsdf) {
+    if (!is_one_of(bsdf.type(),
+                   {"circular", "hair", "measured", "measured_polarized", "polarizer", "principledthin", "retarder"})) {
+        refuse_type(bsdf, std::string(known_types));
+    }
+    context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse one takes its place", bsdf.title()));
+    Parameters p(bsdf.place());
+    p.colour("reflectance", Rgb(0.5f));
+    return {"diffuse", std::move(p)};
+}
+
+}  // namespace wend::mitsuba

@@ -1,0 +1,72 @@
+// BSDFs of Mitsuba scenes as materials.
+#pragma once
+
+#include <wend/io/mitsuba/textures.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace wend::mitsuba {
+
+/// What a surface is made of.
+struct SurfaceLook {
+    std::string material;                  ///< name of a material
+    std::optional<NumberOrTexture> alpha;  ///< the probability that the surface is there at all; none: 1
+};
+
+/// Adds materials to the scene when they are first asked for.
+class Materials {
+public:
+    /// Both must outlive this.
+    Materials(Context& context, Textures& textures) : context_(context), textures_(textures) {}
+
+    /// Of a BSDF; null: the one that shapes have without any, which is black where they shine. Throws InputError for a
+    /// BSDF that there is not; what Mitsuba has and Wend lacks is replaced by a diffuse one, with a warning.
+    SurfaceLook look_of(const Element* bsdf, const pbrt::Location& shape, bool shines);
+
+private:
+    /// What is around a BSDF.
+    struct Setting {
+        bool is_two_sided = false;
+        const Element* detail = nullptr;  ///< a bumpmap or normalmap
+    };
+    struct Leaf {
+        std::string type;
+        Parameters parameters;
+        bool is_one_sided = true;
+    };
+
+    std::string name_of(const Element& bsdf, const Setting& setting);
+    std::string make(const Object& bsdf, const Setting& setting);
+    std::string add(const Object& bsdf, const std::string& type, Parameters& p);
+    std::string add_leaf(const Object& bsdf, Leaf leaf, const Setting& setting);
+    std::string mix(const Object& bsdf, const std::string& first, const std::string& second,
+                    const NumberOrTexture& amount);
+    std::string black();
+
+    std::string two_sided(const Object& bsdf, Setting setting);
+    std::string detailed(const Object& bsdf, Setting setting);
+    std::string blended(const Object& bsdf, const Setting& setting);
+    std::optional<SurfaceLook> masked(const Object& bsdf);
+    Leaf leaf_of(const Object& bsdf);
+    Leaf diffuse(const Object& bsdf);
+    Leaf dielectric(const Object& bsdf);
+    Leaf conductor(const Object& bsdf);
+    Leaf plastic(const Object& bsdf);
+    Leaf principled(const Object& bsdf);
+    Leaf replaced(const Object& bsdf);
+    void set_detail(const Element& detail, Parameters& p);
+    void set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p);
+    void require_one(const Object& bsdf, std::string_view name);
+
+    Context& context_;
+    Textures& textures_;
+    std::map<std::tuple<const Element*, bool, const Element*>, std::string> names_;
+    std::string black_, default_;
+    int depth_ = 0;
+};
+
+}  // namespace wend::mitsuba

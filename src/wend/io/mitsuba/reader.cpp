@@ -1,0 +1,60 @@
+#include <wend/core/error.h>
+#include <wend/io/mitsuba/document.h>
+#include <wend/io/mitsuba/emitters.h>
+#include <wend/io/mitsuba/reader.h>
+#include <wend/io/mitsuba/sensor.h>
+#include <wend/io/mitsuba/shapes.h>
+
+#include <utility>
+#include <vector>
+
+namespace wend::mitsuba {
+namespace {
+
+pbrt::Description translate(const Document& document, const std::string& name) {
+    pbrt::DescriptionBuilder builder(document.base_directory);
+    Context context{document, builder};
+    Media media(context);
+    Textures textures(context);
+    Materials materials(context, textures);
+    Shapes shapes(context, materials, media);
+    const Object scene(context, *document.root);
+    const std::vector<const Element*> sensors = scene.nested("sensor");
+    if (sensors.empty()) {
+        throw InputError(scene.place(), "the scene has no <sensor>");
+    }
+    if (sensors.size() > 1) {
+        context.warn(sensors[1]->place, "the scene has several sensors: the first one is taken");
+    }
+    add_integrator(context, scene.nested_one("integrator"));
+    add_sensor(context, media, *sensors.front(), std::filesystem::path(name).stem().string() + ".exr");
+    builder.world_begin(scene.place());
+    for (const Element* emitter : scene.nested("emitter")) {
+        add_emitter(context, *emitter);
+    }
+    for (const Element* shape : scene.nested("shape")) {
+        shapes.add(*shape);
+    }
+    // What others refer to.
+    for (const char* tag : {"bsdf", "medium", "phase", "spectrum", "texture", "volume"}) {
+        static_cast<void>(scene.nested(tag));
+    }
+    scene.warn_of_unused();
+    pbrt::Description description = builder.finish(scene.place());
+    description.files = document.files;
+    description.files.insert(description.files.end(), context.files.begin(), context.files.end());
+    return description;
+}
+
+}  // namespace
+
+pbrt::Description read_scene(const std::filesystem::path& file) {
+    return translate(read_document(file), file.string());
+}
+
+pbrt::Description read_scene(const std::string& text, const std::filesystem::path& folder, const std::string& name,
+                             bool allow_includes) {
+    return translate(read_document(text, folder, name, allow_includes), name);
+}
+
+}  // namespace wend::mitsuba

@@ -1,0 +1,190 @@
+#include <wend/core/error.h>
+#include <wend/core/frame.h>
+#include <wend/io/mitsuba/emitters.h>
+#include <wend/io/mitsuba/meshes.h>
+#include <wend/io/mitsuba/shapes.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wend::mitsuba {
+namespace {
+
+bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), type) != names.end();
+}
+
+/// Whether a texture is in an object, or in what it refers to.
+bool has_texture(const Object& object, int depth = 0) {
+    constexpr int deepest = 8;
+    if (depth > deepest || !object.nested("texture").empty()) {
+        return true;
+    }
+    const std::vector<const Element*> inner = object.nested("bsdf");
+    return std::any_of(inner.begin(), inner.end(),
+                       [&](const Element* bsdf) { return has_texture(Object(object.context(), *bsdf), depth + 1); });
+}
+
+/// Disks with textures are: their texture coordinates are others than those of a disk of pbrt.
+bool is_mesh(const Object& shape) {
+    return is_one_of(shape.type(), {"cube", "obj", "ply", "rectangle", "serialized"}) ||
+           (shape.type() == "disk" && has_texture(shape));
+}
+
+/// Of the map from the unit sphere, disk or cylinder, whose axis is z.
+struct Quadric {
+    std::string type;
+    Transform to_world;
+};
+
+Transform translate(const Vec3& by) {
+    return Transform::translate(by.x, by.y, by.z);
+}
+
+Quadric sphere_of(const Object& shape, Parameters& p) {
+    p.real("radius", shape.positive("radius", 1));
+    const Vec3 center = shape.vector("center").value_or(Vec3(0, 0, 0));
+    // v = 0 is at the top, where pbrt's is 1.
+    return {"sphere", shape.transform("to_world") * translate(center) * Transform::scale(1, 1, -1)};
+}
+
+Quadric cylinder_of(const Object& shape, Parameters& p) {
+    const Vec3 p0 = shape.vector("p0").value_or(Vec3(0, 0, 0)), p1 = shape.vector("p1").value_or(Vec3(0, 0, 1));
+    const float height = length(p1 - p0);
+    if (!(height > 0)) {
+        throw InputError(shape.place_of("p1"), "the ends of a cylinder, \"p0\" and \"p1\", must differ");
+    }
+    p.real("radius", shape.positive("radius", 1)).real("zmin", 0).real("zmax", height);
+    const Frame frame = Frame::from_z((p1 - p0) / height);
+    const Transform::Matrix turned = {{frame.s.x, frame.t.x, frame.n.x, p0.x},
+                                      {frame.s.y, frame.t.y, frame.n.y, p0.y},
+                                      {frame.s.z, frame.t.z, frame.n.z, p0.z},
+                                      {0, 0, 0, 1}};
+    return {"cylinder", shape.transform("to_world") * Transform(turned)};
+}
+
+Quadric quadric_of(const Object& shape, Parameters& p) {
+    return shape.type() == "sphere"     ? sphere_of(shape, p)
+           : shape.type() == "cylinder" ? cylinder_of(shape, p)
+                                        : Quadric{"disk", shape.transform("to_world")};
+}
+
+}  // namespace
+
+void Shapes::add(const Element& element) {
+    constexpr int deepest = 32;
+    if (depth_ >= deepest) {
+        throw InputError(element.place, "shapes are merged of each other, too deeply or in a circle");
+    }
+    ++depth_;
+    const Object shape(context_, element);
+    const std::string_view type = shape.type();
+    if (is_mesh(shape) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
+        add_object(shape);
+    } else if (type == "instance") {
+        add_instance(shape);
+    } else if (type == "shapegroup") {
+        static_cast<void>(group_name(element));
+    } else if (type == "merge") {
+        for (const Element* inner : shape.nested("shape")) {
+            add(*inner);
+        }
+    } else if (is_one_of(type, {"bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"})) {
+        context_.warn(shape.place(), fmt::format("{} is not implemented: it is left out", shape.title()));
+        --depth_;
+        return;
+    } else {
+        refuse_type(shape,
+                    "cube, cylinder, disk, instance, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
+    }
+    shape.warn_of_unused();
+    --depth_;
+}
+
+void Shapes::add_object(const Object& shape) {
+    Parameters p(shape.place());
+    Transform to_world;
+    std::string type = "trianglemesh";
+    if (is_mesh(shape)) {
+        const TriangleMeshData mesh = mesh_of(shape);
+        if (mesh.indices.empty()) {
+            context_.warn(shape.place(), fmt::format("{} has no triangles: it is left out", shape.title()));
+            return;
+        }
+        set_mesh(mesh, p);
+    } else {
+        Quadric quadric = quadric_of(shape, p);
+        type = std::move(quadric.type);
+        to_world = quadric.to_world;
+    }
+    const Element* emitter = shape.nested_one("emitter");
+    const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr);
+    if (shape.element().has("id")) {
+        p.text("name", std::string(shape.element().attribute("id")));
+    }
+    if (look.alpha) {
+        p.real("alpha", *look.alpha);
+    }
+    const auto medium = [&](std::string_view name) {
+        const Element* element = shape.find(name);
+        if (element && element->tag != "medium") {
+            throw InputError(element->place,
+                             fmt::format("\"{}\" of {} is a <medium>, not a <{}>", name, shape.title(), element->tag));
+        }
+        return element ? media_.name_of(*element) : std::string();
+    };
+    const std::string interior = medium("interior"), exterior = medium("exterior");
+    // pbrt turns normals where a transform mirrors; Mitsuba's stay outside.
+    const bool is_turned = shape.flag("flip_normals", false) != to_world.swaps_handedness();
+    shape.ignore("silhouette_sampling_weight");
+    in_block(context_, to_world, shape.place(), [&] {
+        pbrt::DescriptionBuilder& builder = context_.builder;
+        builder.named_material(look.material, shape.place());
+        builder.medium_interface(interior, exterior, shape.place());
+        if (emitter) {
+            add_area_emitter(context_, *emitter);
+        }
+        if (is_turned) {
+            builder.reverse_orientation(shape.place());
+        }
+        builder.shape(type, p.take(), shape.place());
+    });
+}
+
+std::string Shapes::group_name(const Element& element) {
+    if (in_group_) {
+        throw InputError(element.place, "a \"shapegroup\" cannot be in another one");
+    }
+    const auto [known, is_new] = groups_.try_emplace(&element);
+    if (!is_new) {
+        return known->second;
+    }
+    const Object group(context_, element);
+    known->second = context_.new_name();
+    const std::string name = known->second;
+    in_group_ = true;
+    context_.builder.object_begin(name, group.place());
+    for (const Element* shape : group.nested("shape")) {
+        add(*shape);
+    }
+    context_.builder.object_end(group.place());
+    in_group_ = false;
+    group.warn_of_unused();
+    return name;
+}
+
+void Shapes::add_instance(const Object& shape) {
+    if (in_group_) {
+        throw InputError(shape.place(), "an \"instance\" cannot be in a \"shapegroup\"");
+    }
+    const Element* group = shape.nested_one("shape");
+    if (!group || group->attribute("type") != "shapegroup") {
+        throw InputError(shape.place(), "an \"instance\" needs a <shape type=\"shapegroup\">");
+    }
+    const std::string name = group_name(*group);
+    in_block(context_, shape.transform("to_world"), shape.place(),
+             [&] { context_.builder.object_instance(name, shape.place()); });
+}
+
+}  // namespace wend::mitsuba

@@ -1,0 +1,19 @@
+// What is known of a point of a surface: place, normals, parameters, and how these change along the surface.
+#pragma once
+
+#include <wend/core/motion.h>
+#include <wend/scene/scene.h>
+
+namespace wend {
+
+/// What a ray has met on a surface, in the world. `placement`: where the surface's object stands at the time of the
+/// ray; null for what is no instance. `has_uv`: whether anybody asks for the parameters of quadrics and cylinders.
+Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const Placement* placement, bool has_uv);
+
+/// Of the shading normal (Scene::normal_change).
+Vec3 normal_change(const Hit& hit, const Placement* placement, const Vec3& displacement);
+
+/// How place and shading normal change with the surface parameters.
+SurfaceDerivatives surface_derivatives(const Hit& hit, const Placement* placement);
+
+}  // namespace wend

@@ -1,0 +1,285 @@
+#include <wend/core/random.h>
+#include <wend/decision/guided_distance.h>
+#include <wend/io/json_text.h>
+#include <wend/light/beams.h>
+#include <wend/light/next_event.h>
+#include <wend/view/pixel_report.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace wend {
+namespace {
+
+using Json = nlohmann::json;
+
+// Of the plots.
+constexpr std::size_t flight_bins = 64;
+constexpr int flights = 4096;
+constexpr int directions_around = 64, directions_down = 32;
+constexpr std::size_t most_cells = 160;
+
+Json vector_json(const Vec3& v) {
+    return {json_number(v.x), json_number(v.y), json_number(v.z)};
+}
+
+/// The first flight of a pixel: from the camera to the first surface or interface.
+struct Segment {
+    Ray ray;
+    std::optional<Hit> hit;
+    MediumId medium = vacuum;
+    float length = longest_segment;
+    float shown = 0;  ///< of the length, what is worth showing
+};
+
+/// How far a ray goes before it leaves a box, or 0.
+float way_through(const Box3& box, const Ray& ray) {
+    float t_in = 0, t_out = infinity;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float a = (box.min[axis] - ray.origin[axis]) / ray.direction[axis];
+        const float b = (box.max[axis] - ray.origin[axis]) / ray.direction[axis];
+        t_in = std::max(t_in, std::min(a, b));
+        t_out = std::min(t_out, std::max(a, b));
+    }
+    return t_in < t_out && std::isfinite(t_out) ? t_out : 0.0f;
+}
+
+Segment first_segment(const Scene& scene, const Vec2i& pixel) {
+    const Vec2 middle(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
+    Segment segment;
+    segment.ray = scene.camera().ray(middle, {0.5f, 0.5f});
+    TracedRay ray(segment.ray);
+    MediumState medium = scene.medium_around(segment.ray);
+    segment.hit = scene.intersect(ray);
+    // Through vacuum nothing happens: what counts is the flight that begins at the first boundary. There a ray may meet
+    // two triangles in their edge.
+    const auto begins_later = [&] {
+        return segment.hit && scene.is_interface(*segment.hit) &&
+               (medium.id == vacuum || segment.hit->distance <= segment.hit->clearance);
+    };
+    for (int met = 0; met < most_interfaces && begins_later(); ++met) {
+        medium = scene.medium_beyond(*segment.hit, ray.direction, medium);
+        segment.ray.origin = segment.hit->position;
+        ray.pass(*segment.hit);
+        segment.hit = scene.intersect(ray);
+    }
+    segment.medium = medium.id;
+    segment.length = segment.hit ? segment.hit->distance : longest_segment;
+    segment.shown = segment.hit ? segment.length : way_through(scene.bounds(), segment.ray);
+    return segment;
+}
+
+Json segment_json(const Scene& scene, const Segment& segment) {
+    const char* end = !segment.hit ? "nothing" : scene.is_interface(*segment.hit) ? "interface" : "surface";
+    return {{"origin", vector_json(segment.ray.origin)},
+            {"direction", vector_json(segment.ray.direction)},
+            {"length", segment.hit ? json_number(segment.length) : Json(nullptr)},
+            {"end", end},
+            {"in_medium", segment.medium != vacuum}};
+}
+
+/// Where flights end, as drawn with evenly spread random numbers.
+struct Ends {
+    std::vector<float> distances;  ///< of collisions
+    std::array<int, flight_bins> bins{};
+
+    double share() const { return static_cast<double>(distances.size()) / flights; }
+    Json json() const { return {{"scatters", share()}, {"bins", bins}}; }
+};
+
+template <class Distance>
+Ends draw(const Distance& distance, const Medium& medium, const FlightStart& start, float shown) {
+    Ends ends;
+    Pcg32 random(0);
+    for (int i = 0; i < flights; ++i) {
+        const Flight flight =
+            distance.sample(medium, start, (static_cast<float>(i) + 0.5f) / static_cast<float>(flights), random);
+        if (flight.scatters) {
+            ends.distances.push_back(flight.distance);
+            const auto bin = static_cast<std::size_t>(flight.distance / shown * static_cast<float>(flight_bins));
+            if (bin < flight_bins) {
+                ++ends.bins[bin];
+            }
+        }
+    }
+    return ends;
+}
+
+struct FlightEnds {
+    Ends classical;
+    std::optional<Ends> guided;
+};
+
+FlightEnds ends_of_flights(const Scene& scene, const Segment& segment, const guide::Fields* fields) {
+    const Medium& medium = scene.medium(segment.medium);
+    FlightStart start;
+    start.ray = segment.ray;
+    start.length = segment.length;
+    if (segment.hit) {
+        const bool is_interface = scene.is_interface(*segment.hit);
+        const Vec3 normal = segment.hit->normal;
+        start.end = {is_interface ? FlightEnd::Kind::interface : FlightEnd::Kind::surface, segment.hit->position,
+                     dot(normal, segment.ray.direction) < 0 ? normal : -normal, 0};
+    }
+    FlightEnds ends{draw(ClassicalDistance(), medium, start, segment.shown), std::nullopt};
+    if (fields && fields->volume.is_trained()) {
+        // As a render has it that guides distances.
+        constexpr float classical_flights = 0.25f;
+        const std::vector<Beam> beams = beams_of(scene.lights());
+        ends.guided = draw(GuidedDistance(&fields->surface, &fields->volume, classical_flights,
+                                          DistanceGuiding::scatter_and_distance, std::span<const Beam>(beams)),
+                           medium, start, segment.shown);
+    }
+    return ends;
+}
+
+/// Where a flight of these most likely ends: in the middle of its collisions, or at the surface.
+std::optional<float> likely_end(const FlightEnds& ends) {
+    std::vector<float> distances = (ends.guided ? *ends.guided : ends.classical).distances;
+    if (2 * distances.size() < flights) {
+        return std::nullopt;
+    }
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    return *middle;
+}
+
+/// The mean over all records of the fluence that those of a direction found, over its solid angle.
+Json radiance_of_records(const guide::Records& records) {
+    std::vector<double> sums(static_cast<std::size_t>(directions_around) * directions_down);
+    for (const guide::Record& record : records) {
+        const Vec3& w = record.direction;
+        const float around = (std::atan2(w.y, w.x) / (2 * pi) + 0.5f) * directions_around;
+        const float down = std::acos(std::clamp(w.z, -1.0f, 1.0f)) / pi * directions_down;
+        const int x = std::clamp(static_cast<int>(around), 0, directions_around - 1);
+        const int y = std::clamp(static_cast<int>(down), 0, directions_down - 1);
+        sums[static_cast<std::size_t>(y * directions_around + x)] += guide::weight_of(record);
+    }
+    Json map = Json::array();
+    for (int y = 0; y < directions_down; ++y) {
+        const double solid_angle =
+            2.0 * pi / directions_around *
+            (std::cos(double{pi} * y / directions_down) - std::cos(double{pi} * (y + 1) / directions_down));
+        const double scale = 1 / (solid_angle * static_cast<double>(std::max<std::size_t>(records.size(), 1)));
+        for (int x = 0; x < directions_around; ++x) {
+            map.push_back(
+                json_number(static_cast<float>(sums[static_cast<std::size_t>(y * directions_around + x)] * scale)));
+        }
+    }
+    return {{"count", records.size()}, {"around", directions_around}, {"down", directions_down}, {"radiance", map}};
+}
+
+Json guide_json(const guide::Field& field, const Vec3& position, const SharedRecords* records, bool is_surface) {
+    const guide::Region* region = field.find(position);
+    if (!region) {
+        return nullptr;
+    }
+    const guide::VmfMixture incident = region->incident(position);
+    Json lobes = Json::array();
+    for (int i = 0; i < incident.size(); ++i) {
+        const auto [weight, vmf] = incident.lobe(i);
+        const auto inverse = static_cast<double>(region->inverse_distance()[i]);
+        const Rgb colour = region->colours()[i];
+        lobes.push_back({{"weight", json_number(weight)},
+                         {"mean", vector_json(vmf.mean)},
+                         {"kappa", json_number(vmf.kappa)},
+                         {"colour", {json_number(colour.r), json_number(colour.g), json_number(colour.b)}},
+                         {"distance", inverse > 0 ? json_number(1 / inverse) : Json(nullptr)}});
+    }
+    const Box3& bounds = field.bounds();
+    bool is_inside = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        is_inside = is_inside && position[axis] >= bounds.min[axis] && position[axis] <= bounds.max[axis];
+    }
+    return {{"fluence", json_number(region->fluence())},
+            {"classical_share", json_number(region->defensive_fraction())},
+            {"is_inside", is_inside},
+            {"lobes", std::move(lobes)},
+            {"records", records ? radiance_of_records(records->in(field, region, is_surface)) : Json(nullptr)}};
+}
+
+/// The cells nearest to a point.
+Json cells_json(const guide::Field& field, const Vec3& position) {
+    struct Cell {
+        Box3 box;
+        float distance, fluence, classical_share;
+        double records;
+        bool is_here;
+    };
+    std::vector<Cell> cells;
+    const guide::Region* here = field.find(position);
+    field.for_each_cell([&](const Box3& box, const guide::Region& region, double records) {
+        Vec3 away(0, 0, 0);
+        for (int axis = 0; axis < 3; ++axis) {
+            away[axis] = std::max({box.min[axis] - position[axis], position[axis] - box.max[axis], 0.0f});
+        }
+        cells.push_back({box, length(away), region.fluence(), region.defensive_fraction(), records, &region == here});
+    });
+    const auto end = cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), most_cells));
+    std::partial_sort(cells.begin(), end, cells.end(),
+                      [](const Cell& a, const Cell& b) { return a.distance < b.distance; });
+    Json list = Json::array();
+    for (auto cell = cells.begin(); cell != end; ++cell) {
+        list.push_back({{"min", vector_json(cell->box.min)},
+                        {"max", vector_json(cell->box.max)},
+                        {"fluence", json_number(cell->fluence)},
+                        {"classical_share", json_number(cell->classical_share)},
+                        {"records", json_number(cell->records)},
+                        {"is_here", cell->is_here}});
+    }
+    return {{"all", cells.size()}, {"nearest", std::move(list)}};
+}
+
+}  // namespace
+
+void SharedRecords::add(std::span<const guide::PathRecords> records) {
+    const std::lock_guard lock(mutex_);
+    samples_.add(records);
+}
+
+guide::Records SharedRecords::in(const guide::Field& field, const guide::Region* region, bool is_surface) const {
+    const std::lock_guard lock(mutex_);
+    return records_in(is_surface ? samples_.surface : samples_.volume, field, region);
+}
+
+Json pixel_report(const Scene& scene, const PixelQuestion& question) {
+    const Segment segment = first_segment(scene, question.pixel);
+    Json report = {{"segment", segment_json(scene, segment)},
+                   {"flight", nullptr},
+                   {"at", nullptr},
+                   {"guide", nullptr},
+                   {"cells", nullptr}};
+    std::optional<float> distance = question.distance;
+    const bool has_flight = segment.medium != vacuum && segment.shown > 0;
+    if (has_flight) {
+        const FlightEnds ends = ends_of_flights(scene, segment, question.fields);
+        report["flight"] = {{"length", json_number(segment.shown)},
+                            {"flights", flights},
+                            {"classical", ends.classical.json()},
+                            {"guided", ends.guided ? ends.guided->json() : Json(nullptr)}};
+        distance = distance ? distance : likely_end(ends);
+    }
+    const bool is_surface = !has_flight || !distance || *distance >= segment.length;
+    if (is_surface && !segment.hit) {
+        return report;
+    }
+    const float at = is_surface ? segment.length : std::max(*distance, 0.0f);
+    const Vec3 position = is_surface ? segment.hit->position : segment.ray.origin + segment.ray.direction * at;
+    report["at"] = {{"distance", json_number(at)},
+                    {"position", vector_json(position)},
+                    {"part", is_surface ? "surface" : "volume"},
+                    {"normal", is_surface ? vector_json(segment.hit->normal) : Json(nullptr)}};
+    if (question.fields) {
+        const guide::Field& field = is_surface ? question.fields->surface : question.fields->volume;
+        report["guide"] = guide_json(field, position, question.records, is_surface);
+        report["cells"] = field.is_trained() ? cells_json(field, position) : Json(nullptr);
+    }
+    return report;
+}
+
+}  // namespace wend

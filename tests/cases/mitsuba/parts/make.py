@@ -1,0 +1,68 @@
+"""Writes the volumes, meshes and pictures beside it, which the scenes refer to: `python make.py`. Wants mitsuba."""
+
+import struct
+import zlib
+from pathlib import Path
+
+import mitsuba
+import numpy as np
+
+HERE = Path(__file__).parent
+
+
+def write_volume(name: str, values: np.ndarray, low: tuple[float, ...], high: tuple[float, ...]) -> None:
+    """`values` by z, y, x and channel."""
+    depth, height, width, channels = values.shape
+    head = b"VOL\x03" + struct.pack("<5i", 1, width, height, depth, channels) + struct.pack("<6f", *low, *high)
+    (HERE / name).write_bytes(head + values.astype("<f4").tobytes())
+
+
+def write_sky(name: str) -> None:
+    """A picture by longitude and latitude, with a coloured sun to the left of its middle. Rows from below, as PFM has
+    them."""
+    row, column = np.mgrid[0:32, 0:64]
+    longitude, latitude = (column + 0.5) / 64, (row + 0.5) / 32
+    sun = 6 * np.exp(-(((longitude - 0.4) / 0.08) ** 2) - ((latitude - 0.3) / 0.12) ** 2)
+    sky = np.stack([0.2 + sun, 0.3 + 0.6 * sun, 0.2 + 0.5 * (1 - latitude)], axis=-1)
+    (HERE / name).write_bytes(b"PF\n64 32\n-1\n" + sky[::-1].astype("<f4").tobytes())
+
+
+def write_serialized(name: str) -> None:
+    """Two meshes, of version 4: a triangle, and a square with texture coordinates, in double precision."""
+
+    def mesh(flags: int, arrays: list[np.ndarray], vertices: int, triangles: np.ndarray) -> bytes:
+        body = struct.pack("<I", flags) + b"part\0" + struct.pack("<QQ", vertices, len(triangles))
+        body += b"".join(a.tobytes() for a in arrays) + triangles.astype("<u4").tobytes()
+        return struct.pack("<HH", 0x041C, 4) + zlib.compress(body)
+
+    triangle = mesh(0x1000, [np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")], 3, np.array([[0, 1, 2]]))
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0.5], [-1, 1, 0]], "<f8")
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], "<f8")
+    square = mesh(0x2002, [corners, uvs], 4, np.array([[0, 1, 2], [0, 2, 3]]))
+    table = struct.pack("<QQI", 0, len(triangle), 2)
+    (HERE / name).write_bytes(triangle + square + table)
+
+
+def write_pictures() -> None:
+    """No two corners are alike, and no rotation or reflection leaves the mean over a part."""
+    row, column = np.mgrid[0:12, 0:16]
+    v, u = (row + 0.5) / 12, (column + 0.5) / 16
+    picture = np.stack([u, v * (1 - u), 0.2 + 0.7 * (u > 0.6) * (v < 0.4)], axis=-1)
+    tilt = np.stack([0.5 + 0.3 * np.sin(7 * u), 0.5 + 0.4 * np.sin(5 * v + 1), np.full_like(u, 0.9)], axis=-1)
+    for name, values in (("picture.png", picture), ("picture.jpg", picture), ("normals.png", tilt)):
+        bitmap = mitsuba.Bitmap((255 * values).astype(np.uint8))
+        bitmap.write(str(HERE / name), quality=100 if name.endswith("jpg") else -1)
+
+
+def main() -> None:
+    random = np.random.default_rng(1)
+    write_volume("density.vol", random.uniform(0.2, 2, (3, 4, 5, 1)), (-0.5, -0.5, 0), (1, 0.5, 1))
+    write_volume("albedo.vol", random.uniform(0.3, 1, (3, 4, 5, 3)), (0, 0, 0), (1, 1, 1))
+    write_sky("sky.pfm")
+    write_serialized("meshes.serialized")
+    write_pictures()
+
+
+if __name__ == "__main__":
+    mitsuba.set_variant("scalar_rgb")
+    main()

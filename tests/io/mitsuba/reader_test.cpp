@@ -1,0 +1,175 @@
+// What of Mitsuba scenes is read, replaced and refused. What they look like: tests/cases/mitsuba.
+#include "mitsuba_support.h"
+
+#include <wend/io/load/load_scene.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+namespace wend::mitsuba {
+namespace {
+
+pbrt::Description read_text(const std::string& content) {
+    return read_scene(scene_with(content), "/tmp", "scene.xml");
+}
+
+std::string error_of(const std::string& content) {
+    return message_of([&] { read_text(content); });
+}
+
+const pbrt::Entity& material_of(const pbrt::Description& scene, std::size_t shape) {
+    return scene.materials[scene.shapes[shape].material];
+}
+
+TEST(MitsubaReader, ASceneIsLoadedByItsExtension) {
+    const MitsubaFiles files;
+    files.write("scene.xml", scene_with("<shape type=\"cube\"/><emitter type=\"constant\"/>"));
+    const LoadedScene loaded = load_scene(files.path("scene.xml"));
+    EXPECT_EQ(loaded.scene.surfaces.size(), 1u);
+    EXPECT_EQ(loaded.scene.lights.size(), 1u);
+    EXPECT_EQ(loaded.resolution, Vec2i(768, 576));
+    EXPECT_EQ(loaded.film_file, "scene.exr");
+    EXPECT_EQ(loaded.files.size(), 1u);
+    EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(MitsubaReader, UnknownPluginsStopWithThoseThatThereAre) {
+    for (const char* content :
+         {"<shape type=\"frob\"/>", "<emitter type=\"frob\"/>", "<shape type=\"sphere\"><bsdf type=\"frob\"/></shape>",
+          "<shape type=\"sphere\"><medium name=\"interior\" type=\"frob\"/></shape>",
+          "<shape type=\"sphere\"><emitter type=\"frob\"/></shape>",
+          "<shape type=\"sphere\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+          "type=\"frob\"/></bsdf></shape>",
+          "<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"><phase "
+          "type=\"frob\"/></medium></shape>",
+          "<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"><volume "
+          "name=\"sigma_t\" type=\"frob\"/></medium></shape>"}) {
+        SCOPED_TRACE(content);
+        EXPECT_PRED2(contains, error_of(content), "type=\"frob\"> is unknown; known are ");
+        EXPECT_PRED2(contains, error_of(content), "scene.xml:3:");
+    }
+}
+
+TEST(MitsubaReader, WhatWendLacksIsNamed) {
+    EXPECT_PRED2(contains, warnings_of(read_text("<emitter type=\"sunsky\"/>")),
+                 "scene.xml:3:1: warning: <emitter type=\"sunsky\"> is not implemented: it is left out");
+    EXPECT_PRED2(contains, warnings_of(read_text("<shape type=\"sdfgrid\"/>")), "it is left out");
+    const auto scene = read_text("<shape type=\"sphere\"><bsdf type=\"hair\"/></shape>");
+    EXPECT_PRED2(contains, warnings_of(scene), "<bsdf type=\"hair\"> is not implemented: a diffuse one");
+    EXPECT_PRED2(contains, warnings_of(read_scene(scene_with("<integrator type=\"ptracer\"/>"), "/tmp", "scene.xml")),
+                 "\"volpath\" takes its place");
+}
+
+TEST(MitsubaReader, WhatNobodyAskedForIsNamed) {
+    const auto scene = read_text(
+        "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/><bsdf type=\"diffuse\"><float name=\"alpha\" "
+        "value=\"1\"/></bsdf></shape>");
+    EXPECT_PRED2(contains, warnings_of(scene), "\"raduis\" of <shape type=\"sphere\"> is not used");
+    EXPECT_PRED2(contains, warnings_of(scene), "\"alpha\" of <bsdf type=\"diffuse\"> is not used");
+}
+
+TEST(MitsubaReader, DefaultsAreMitsubas) {
+    const auto scene = read_text(
+        "<shape type=\"sphere\"><bsdf type=\"dielectric\"/></shape>"
+        "<shape type=\"sphere\"><bsdf type=\"twosided\"><bsdf type=\"plastic\"/></bsdf></shape>"
+        "<shape type=\"sphere\"><bsdf type=\"twosided\"><bsdf type=\"roughconductor\"/></bsdf></shape>");
+    EXPECT_NEAR(material_of(scene, 0).parameters.get_float("eta", 0), 1.50418, 1e-5);
+    EXPECT_NEAR(material_of(scene, 1).parameters.get_float("eta", 0), 1.48959, 1e-5);
+    const pbrt::ParameterSet& metal = material_of(scene, 2).parameters;
+    EXPECT_EQ(std::get<pbrt::RgbColour>(*metal.get_colour("eta")).value, Rgb(0.0f));
+    EXPECT_EQ(std::get<pbrt::RgbColour>(*metal.get_colour("k")).value, Rgb(1.0f));
+    EXPECT_EQ(metal.get_float("roughness", 0), 0.1f);
+    EXPECT_EQ(metal.get_string("facets", ""), "beckmann");
+}
+
+TEST(MitsubaReader, DepthIsOneLess) {
+    const auto depth = [](const std::string& value) {
+        return read_text("<integrator type=\"volpath\"><integer name=\"max_depth\" value=\"" + value +
+                         "\"/></integrator>")
+            .integrator.parameters.get_int("maxdepth", 0);
+    };
+    EXPECT_EQ(depth("1"), 0);
+    EXPECT_EQ(depth("6"), 5);
+    EXPECT_GT(depth("-1"), 1'000'000);
+    EXPECT_PRED2(contains, message_of([&] { depth("0"); }), "at least 1, or -1");
+}
+
+TEST(MitsubaReader, BadValuesAreNamed) {
+    struct Wrong {
+        const char* content;
+        const char* message;
+    };
+    const Wrong cases[] = {
+        {"<shape type=\"sphere\"><float name=\"radius\" value=\"0\"/></shape>", "\"radius\" must be above 0"},
+        {"<shape type=\"cylinder\"><point name=\"p1\" x=\"0\" y=\"0\" z=\"0\"/></shape>", "must differ"},
+        {"<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"2\"/></bsdf></shape>",
+         "a reflectance must lie between 0 and 1"},
+        {"<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"#ff0000\"/></bsdf></shape>",
+         "no \"#rrggbb\""},
+        {"<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>", "not negative"},
+        {"<emitter type=\"constant\"><spectrum name=\"radiance\" type=\"blackbody\"/></emitter>",
+         "is for Mitsuba's spectral variants"},
+        {"<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"500:1, 400:2\"/></emitter>",
+         "wavelengths of a spectrum must increase"},
+        {"<emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"200\"/></emitter>", "between 0 and 180"},
+        {"<shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"milk\"/></bsdf></shape>",
+         "the material \"milk\" is unknown; known are vacuum"},
+        {"<shape type=\"sphere\"><bsdf type=\"conductor\"><string name=\"material\" value=\"Xx\"/></bsdf></shape>",
+         "the material \"Xx\" is unknown; known are none"},
+        {"<shape type=\"sphere\"><bsdf type=\"twosided\"/></shape>", "has 1 or 2 <bsdf> in it, not 0"},
+        {"<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"><float name=\"albedo\" value=\"2\"/>"
+         "</medium></shape>",
+         "an albedo must lie between 0 and 1"},
+        {"<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"><phase type=\"hg\"><float name=\"g\" "
+         "value=\"1\"/></phase></medium></shape>",
+         "\"g\" must lie between -1 and 1"},
+        {"<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"><phase type=\"tabphase\"><string "
+         "name=\"values\" value=\"1\"/></phase></medium></shape>",
+         "two or more \"values\""},
+        {"<shape type=\"instance\"/>", "needs a <shape type=\"shapegroup\">"},
+    };
+    for (const Wrong& wrong : cases) {
+        SCOPED_TRACE(wrong.content);
+        EXPECT_PRED2(contains, error_of(wrong.content), wrong.message);
+        EXPECT_PRED2(contains, error_of(wrong.content), "scene.xml:3:");
+    }
+}
+
+TEST(MitsubaReader, SensorsAreChecked) {
+    const auto error = [](const std::string& sensor) {
+        return message_of(
+            [&] { read_scene("<scene version=\"3.0.0\">\n" + sensor + "</scene>", "/tmp", "scene.xml"); });
+    };
+    EXPECT_PRED2(contains, error("<sensor type=\"radiancemeter\"/>"), "known are orthographic, perspective, thinlens");
+    EXPECT_PRED2(contains, error("<sensor type=\"perspective\"/>"), "needs a \"fov\" between 0 and 180");
+    EXPECT_PRED2(contains,
+                 error("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"hdrfilm\"><integer "
+                       "name=\"width\" value=\"0\"/></film></sensor>"),
+                 "\"width\" must be at least 1");
+    EXPECT_PRED2(contains,
+                 error("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"hdrfilm\"><integer "
+                       "name=\"crop_width\" value=\"2000000000\"/></film></sensor>"),
+                 "the crop is not within the film");
+    EXPECT_PRED2(contains, error("<sensor type=\"perspective\"><film type=\"specfilm\"/></sensor>"),
+                 "known are hdrfilm");
+}
+
+TEST(MitsubaReader, MediaAreAroundShapesAndTheCamera) {
+    const auto scene = read_scene(
+        "<scene version=\"3.0.0\"><medium type=\"homogeneous\" id=\"fog\"/><sensor type=\"perspective\"><float "
+        "name=\"fov\" "
+        "value=\"40\"/><ref id=\"fog\"/></sensor><shape type=\"sphere\"><ref name=\"exterior\" id=\"fog\"/><medium "
+        "name=\"interior\" type=\"homogeneous\"/></shape></scene>",
+        "/tmp", "scene.xml");
+    ASSERT_EQ(scene.media.size(), 2u);
+    ASSERT_TRUE(scene.camera.medium);
+    EXPECT_EQ(scene.media[*scene.camera.medium].name, "fog");
+    EXPECT_EQ(scene.shapes[0].exterior, scene.camera.medium);
+    EXPECT_NE(scene.shapes[0].interior, scene.camera.medium);
+}
+
+}  // namespace
+}  // namespace wend::mitsuba

@@ -1,0 +1,58 @@
+#include <wend/io/load/sky_picture.h>
+#include <wend/scene/light.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// Each pixel of a sky by longitude and latitude is the direction towards it.
+Image directions(int width, int height) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float phi = 2 * pi * (0.5f - (static_cast<float>(x) + 0.5f) / static_cast<float>(width));
+            const float theta = pi * (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
+            image.at(x, y) = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+        }
+    }
+    return image;
+}
+
+TEST(SkyPicture, ShowsWhatIsInADirection) {
+    const Image sky = equal_area_sky(directions(256, 128), SkyRows::in_strips);
+    ASSERT_EQ(sky.width, sky.height);
+    for (int y = 0; y < sky.height; y += 7) {
+        for (int x = 0; x < sky.width; x += 7) {
+            const Vec3 d =
+                equal_area_square_to_sphere({(static_cast<float>(x) + 0.5f) / static_cast<float>(sky.width),
+                                             (static_cast<float>(y) + 0.5f) / static_cast<float>(sky.height)});
+            const Rgb& shown = sky.at(x, y);
+            EXPECT_LT(length(Vec3(shown.r, shown.g, shown.b) - d), 0.03f) << d;
+        }
+    }
+}
+
+TEST(SkyPicture, RowsMayBeginAtThePole) {
+    Image rows(8, 3);
+    for (int x = 0; x < 8; ++x) {
+        rows.at(x, 0) = Rgb(1.0f);
+        rows.at(x, 2) = Rgb(1.0f);
+    }
+    // Triangles of the latitude against steps that are as wide at the poles.
+    const auto mean_of = [](const Image& image) {
+        double sum = 0;
+        for (const Rgb& pixel : image.pixels) {
+            sum += static_cast<double>(pixel.r);
+        }
+        return sum / static_cast<double>(image.pixels.size());
+    };
+    // ∫ |1 - 2 theta / pi| sin(theta) dtheta / 2 over [0, pi].
+    EXPECT_NEAR(mean_of(equal_area_sky(rows, SkyRows::on_nodes)), 1 - 2 / static_cast<double>(pi), 0.01);
+    EXPECT_NE(mean_of(equal_area_sky(rows, SkyRows::in_strips)), mean_of(equal_area_sky(rows, SkyRows::on_nodes)));
+}
+
+}  // namespace
+}  // namespace wend
