@@ -72,7 +72,7 @@ TEST(SlowColouredGlass, WhatScattersInsideIsLitAsThroughGlassThatIsNearlySmooth)
         const MediumId inside = test::add_homogeneous(s, Rgb(0.2f), Rgb(1.0f));
         test::add_box(s, Box3(Vec3(-3, -1, -3), Vec3(3, 0, 3)), add_coloured_glass(s, 1.3f, rough ? 0.01f : 0), inside);
         test::add_lamp(s, {-4, 3, -3}, 6, Rgb(5.0f), test::add_diffuse(s, Rgb(0.0f)));
-        lit[rough] = means(s, "classical", 512);
+        lit[rough] = means(s, "classical", 8192);
     }
     for (std::size_t c = 0; c < 3; ++c) {
         const Moments &smooth = lit[0][c], &rough = lit[1][c];
