@@ -79,7 +79,8 @@ TEST_F(LayersOption, PartsAddUpAndThePictureStays) {
 }
 
 TEST_F(LayersOption, CheckpointsKeepThem) {
-    const std::vector<std::string> layers = {"--layers", "direct,indirect,volume,emission,lights,halves"};
+    const std::vector<std::string> layers = {
+        "--layers", "direct,indirect,volume,emission,background,lights,halves,geometry,cryptomatte"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.end(), layers.begin(), layers.end());
         return more;

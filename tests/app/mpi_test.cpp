@@ -79,6 +79,16 @@ TEST_F(SlowMpiRender, IsTheSameFileForAnyNumberOfRanks) {
     }
 }
 
+TEST_F(SlowMpiRender, LayersAreTheSameToo) {
+    const std::string layers = "direct,indirect,volume,emission,background,lights,halves,geometry,cryptomatte";
+    ASSERT_EQ(test::run_wend({"render", scene_, "--resolution", "48x36", "--quiet", "--spp", "20", "--layers", layers,
+                              "-o", folder_.file("one.exr")})
+                  .status,
+              0);
+    ASSERT_EQ(render(3, "all.exr", "--spp 20 --threads 1 --layers " + layers), 0) << bytes("errors.txt");
+    EXPECT_TRUE(bytes("all.exr") == bytes("one.exr"));
+}
+
 TEST_F(SlowMpiRender, FramesAreTheSameFilesToo) {
     for (const char* frame : {"film.1.pbrt", "film.2.pbrt"}) {
         std::filesystem::copy_file(scene_, folder_.file(frame));

@@ -78,7 +78,7 @@ nlohmann::json summary_json(const Summary& s, const Box3& bounds) {
             {"lobes", s.lobes},
             {"samples", json_number(s.samples)},
             {"bytes", s.bytes},
-            {"bounds", {vector_json(bounds.min), vector_json(bounds.max)}}};
+            {"bounds", {json_vector(bounds.min), json_vector(bounds.max)}}};
 }
 
 Vec3 parse_position(const std::string& text) {
@@ -191,11 +191,11 @@ nlohmann::json flight_json(const PixelFlight& flight) {
     const std::optional<double> guided = flight.guided_collides();
     nlohmann::json surface;
     if (flight.surface) {
-        surface = {{"position", vector_json(flight.surface->position)},
-                   {"normal", vector_json(flight.surface->normal)}};
+        surface = {{"position", json_vector(flight.surface->position)},
+                   {"normal", json_vector(flight.surface->normal)}};
     }
-    return {{"origin", vector_json(flight.ray.origin)},
-            {"direction", vector_json(flight.ray.direction)},
+    return {{"origin", json_vector(flight.ray.origin)},
+            {"direction", json_vector(flight.ray.direction)},
             {"length", flight.length},
             {"surface", std::move(surface)},
             {"scatters", 1 - flight.reaches_end},

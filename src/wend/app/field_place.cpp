@@ -82,25 +82,21 @@ nlohmann::json place_json(const FieldPlace& place) {
     nlohmann::json lobes = nlohmann::json::array();
     for (const LobeFacts& lobe : lobe_facts(place)) {
         lobes.push_back({{"weight", lobe.share},
-                         {"mean", vector_json(lobe.mean)},
+                         {"mean", json_vector(lobe.mean)},
                          {"kappa", lobe.concentration},
                          {"records", json_number(lobe.records)},
                          {"misfit", json_number(lobe.misfit)},
                          {"colour", {lobe.colour.r, lobe.colour.g, lobe.colour.b}},
                          {"distance", lobe.distance ? nlohmann::json(*lobe.distance) : nlohmann::json(nullptr)}});
     }
-    return {{"position", vector_json(place.position)},
+    return {{"position", json_vector(place.position)},
             {"part", place.part.name},
             {"outside", place.outside},
             {"fluence", place.region->fluence()},
             {"classical_share", place.region->defensive_fraction()},
             {"connected_fluence", place.connected_fluence},
-            {"reference", vector_json(place.region->reference())},
+            {"reference", json_vector(place.region->reference())},
             {"lobes", std::move(lobes)}};
-}
-
-nlohmann::json vector_json(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 }  // namespace wend

@@ -45,7 +45,4 @@ std::string lobe_table(const FieldPlace& place);
 /// All that is known of the place.
 nlohmann::json place_json(const FieldPlace& place);
 
-/// A vector as JSON: three numbers.
-nlohmann::json vector_json(const Vec3& v);
-
 }  // namespace wend

@@ -40,7 +40,7 @@ std::string data_text(const LobePage& page, const ColourScale& scale) {
         nlohmann::json json = place_json(one.place);
         json["marks"] = nlohmann::json::array();
         if (page.flight) {
-            json["marks"].push_back({{"name", "camera"}, {"direction", vector_json(-page.flight->ray.direction)}});
+            json["marks"].push_back({{"name", "camera"}, {"direction", json_vector(-page.flight->ray.direction)}});
         }
         places.push_back(std::move(json));
     }

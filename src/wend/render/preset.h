@@ -7,6 +7,9 @@
 
 namespace wend {
 
+/// The share of guided flights that follow the medium alone, whatever the guide says (docs/theory/distance.md).
+inline constexpr float classical_flights = 0.25f;
+
 /// Which decisions follow what was learned.
 struct Preset {
     bool scatter = false;   ///< whether to scatter in a medium or reach its end

@@ -49,9 +49,6 @@ Image as_in_scene(Image picture, const ColourMatrix& balance) {
     return picture;
 }
 
-// A quarter of the flights follow the medium alone, whatever the guide says (docs/theory/distance.md).
-constexpr float classical_flights = 0.25f;
-
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
         throw std::runtime_error(std::to_string(counts.rejected) + " of " + std::to_string(counts.paths) +

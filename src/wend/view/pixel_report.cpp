@@ -3,6 +3,8 @@
 #include <wend/io/json_text.h>
 #include <wend/light/beams.h>
 #include <wend/light/next_event.h>
+#include <wend/render/preset.h>
+#include <wend/view/direction_bins.h>
 #include <wend/view/pixel_report.h>
 
 #include <nlohmann/json.hpp>
@@ -21,12 +23,8 @@ using Json = nlohmann::json;
 // Of the plots.
 constexpr std::size_t flight_bins = 64;
 constexpr int flights = 4096;
-constexpr int directions_around = 64, directions_down = 32;
+constexpr DirectionBins bins_of_records{64, 32};
 constexpr std::size_t most_cells = 160;
-
-Json vector_json(const Vec3& v) {
-    return {json_number(v.x), json_number(v.y), json_number(v.z)};
-}
 
 /// The first flight of a pixel: from the camera to the first surface or interface.
 struct Segment {
@@ -76,8 +74,8 @@ Segment first_segment(const Scene& scene, const Vec2i& pixel) {
 
 Json segment_json(const Scene& scene, const Segment& segment) {
     const char* end = !segment.hit ? "nothing" : scene.is_interface(*segment.hit) ? "interface" : "surface";
-    return {{"origin", vector_json(segment.ray.origin)},
-            {"direction", vector_json(segment.ray.direction)},
+    return {{"origin", json_vector(segment.ray.origin)},
+            {"direction", json_vector(segment.ray.direction)},
             {"length", segment.hit ? json_number(segment.length) : Json(nullptr)},
             {"end", end},
             {"in_medium", segment.medium != vacuum}};
@@ -128,8 +126,6 @@ FlightEnds ends_of_flights(const Scene& scene, const Segment& segment, const gui
     }
     FlightEnds ends{draw(ClassicalDistance(), medium, start, segment.shown), std::nullopt};
     if (fields && fields->volume.is_trained()) {
-        // As a render has it that guides distances.
-        constexpr float classical_flights = 0.25f;
         const std::vector<Beam> beams = beams_of(scene.lights());
         ends.guided = draw(GuidedDistance(&fields->surface, &fields->volume, classical_flights,
                                           DistanceGuiding::scatter_and_distance, std::span<const Beam>(beams)),
@@ -149,29 +145,15 @@ std::optional<float> likely_end(const FlightEnds& ends) {
     return *middle;
 }
 
-/// The mean over all records of the fluence that those of a direction found, over its solid angle.
 Json radiance_of_records(const guide::Records& records) {
-    std::vector<double> sums(static_cast<std::size_t>(directions_around) * directions_down);
-    for (const guide::Record& record : records) {
-        const Vec3& w = record.direction;
-        const float around = (std::atan2(w.y, w.x) / (2 * pi) + 0.5f) * directions_around;
-        const float down = std::acos(std::clamp(w.z, -1.0f, 1.0f)) / pi * directions_down;
-        const int x = std::clamp(static_cast<int>(around), 0, directions_around - 1);
-        const int y = std::clamp(static_cast<int>(down), 0, directions_down - 1);
-        sums[static_cast<std::size_t>(y * directions_around + x)] += guide::weight_of(record);
-    }
     Json map = Json::array();
-    for (int y = 0; y < directions_down; ++y) {
-        const double solid_angle =
-            2.0 * pi / directions_around *
-            (std::cos(double{pi} * y / directions_down) - std::cos(double{pi} * (y + 1) / directions_down));
-        const double scale = 1 / (solid_angle * static_cast<double>(std::max<std::size_t>(records.size(), 1)));
-        for (int x = 0; x < directions_around; ++x) {
-            map.push_back(
-                json_number(static_cast<float>(sums[static_cast<std::size_t>(y * directions_around + x)] * scale)));
-        }
+    for (const float radiance : radiance_by_direction(records, bins_of_records)) {
+        map.push_back(json_number(radiance));
     }
-    return {{"count", records.size()}, {"around", directions_around}, {"down", directions_down}, {"radiance", map}};
+    return {{"count", records.size()},
+            {"around", bins_of_records.columns},
+            {"down", bins_of_records.rows},
+            {"radiance", std::move(map)}};
 }
 
 Json guide_json(const guide::Field& field, const Vec3& position, const SharedRecords* records, bool is_surface) {
@@ -186,7 +168,7 @@ Json guide_json(const guide::Field& field, const Vec3& position, const SharedRec
         const auto inverse = static_cast<double>(region->inverse_distance()[i]);
         const Rgb colour = region->colours()[i];
         lobes.push_back({{"weight", json_number(weight)},
-                         {"mean", vector_json(vmf.mean)},
+                         {"mean", json_vector(vmf.mean)},
                          {"kappa", json_number(vmf.kappa)},
                          {"colour", {json_number(colour.r), json_number(colour.g), json_number(colour.b)}},
                          {"distance", inverse > 0 ? json_number(1 / inverse) : Json(nullptr)}});
@@ -225,8 +207,8 @@ Json cells_json(const guide::Field& field, const Vec3& position) {
                       [](const Cell& a, const Cell& b) { return a.distance < b.distance; });
     Json list = Json::array();
     for (auto cell = cells.begin(); cell != end; ++cell) {
-        list.push_back({{"min", vector_json(cell->box.min)},
-                        {"max", vector_json(cell->box.max)},
+        list.push_back({{"min", json_vector(cell->box.min)},
+                        {"max", json_vector(cell->box.max)},
                         {"fluence", json_number(cell->fluence)},
                         {"classical_share", json_number(cell->classical_share)},
                         {"records", json_number(cell->records)},
@@ -271,9 +253,9 @@ Json pixel_report(const Scene& scene, const PixelQuestion& question) {
     const float at = is_surface ? segment.length : std::max(*distance, 0.0f);
     const Vec3 position = is_surface ? segment.hit->position : segment.ray.origin + segment.ray.direction * at;
     report["at"] = {{"distance", json_number(at)},
-                    {"position", vector_json(position)},
+                    {"position", json_vector(position)},
                     {"part", is_surface ? "surface" : "volume"},
-                    {"normal", is_surface ? vector_json(segment.hit->normal) : Json(nullptr)}};
+                    {"normal", is_surface ? json_vector(segment.hit->normal) : Json(nullptr)}};
     if (question.fields) {
         const guide::Field& field = is_surface ? question.fields->surface : question.fields->volume;
         report["guide"] = guide_json(field, position, question.records, is_surface);

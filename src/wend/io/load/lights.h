@@ -1,13 +1,11 @@
+// Directives of lights.
 #pragma once
 
+#include <wend/io/load/area_lights.h>
 #include <wend/io/load/textures.h>
 #include <wend/scene/light.h>
-#include <wend/scene/scene.h>
 
-#include <cstddef>
-#include <memory>
 #include <optional>
-#include <vector>
 
 namespace wend {
 
@@ -15,32 +13,7 @@ namespace wend {
 /// or unsuitable pictures, and values that are negative or not finite.
 std::optional<Light> load_light(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light);
 
-/// What an AreaLightSource directive asks of the shapes that follow it.
-struct AreaLight {
-    Rgb radiance;
-    /// Multiplies the radiance; null: 1.
-    std::shared_ptr<const LightPicture> picture;
-    /// Where positive, the power that each of pbrt's shapes (of a mesh, each triangle) emits if `radiance` has
-    /// luminance 1, and whatever the picture's is.
-    float power = 0;
-    bool two_sided = false;
-
-    /// Radiance of a shape of this area, where the picture is 1.
-    Rgb radiance_of(float area) const;
-};
+/// Throws InputError, as above.
 AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light);
-
-/// Where a surface shines, and how.
-struct LampPlace {
-    Presence presence = Presence::solid;
-    /// How many shapes the surface's triangles are to pbrt, each with the power of one; 0: as many as triangles.
-    std::size_t shapes = 0;
-    Transform world_from_object;           ///< of the surface's quadric
-    std::shared_ptr<const Motion> motion;  ///< of the surface in its world; null: it stands still
-};
-
-/// Makes a surface shine: appends a light for each of its primitives and lets the surface refer to them. Triangles
-/// without area stay dark.
-void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights);
 
 }  // namespace wend

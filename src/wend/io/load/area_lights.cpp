@@ -1,0 +1,105 @@
+#include <wend/io/load/area_lights.h>
+#include <wend/scene/moving_light.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace wend {
+namespace {
+
+/// Whether a triangle's normal must be reversed to lie on the side of its vertices' normals, or else as the surface
+/// says.
+bool flips(const Surface& surface, const TriangleMesh& mesh, std::size_t triangle) {
+    if (mesh.normals.empty()) {
+        return surface.flip_normal;
+    }
+    const std::uint32_t* i = &mesh.indices[3 * triangle];
+    const Vec3 face = cross(mesh.positions[i[1]] - mesh.positions[i[0]], mesh.positions[i[2]] - mesh.positions[i[0]]);
+    return dot(face, mesh.normals[i[0]] + mesh.normals[i[1]] + mesh.normals[i[2]]) < 0;
+}
+
+void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surface& surface,
+                       std::vector<Light>& lights) {
+    QuadricLight source =
+        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), at.world_from_object,
+                           surface.flip_normal, light.radiance, light.two_sided);
+    source.motion = at.motion;
+    // Exact where the transform keeps shapes similar.
+    source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(PlacedQuadric(source, 0).area_factor())));
+    source.presence = at.presence;
+    source.picture = light.picture;
+    lights.push_back(std::move(source));
+}
+
+/// Parameters of a triangle's corners, by default those of pbrt.
+void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& source) {
+    if (!mesh.uvs.empty()) {
+        const std::uint32_t* i = &mesh.indices[3 * triangle];
+        source.uv0 = mesh.uvs[i[0]];
+        source.uv1 = mesh.uvs[i[1]];
+        source.uv2 = mesh.uvs[i[2]];
+    }
+}
+
+/// A triangle of a mesh, which moves as the mesh does.
+TriangleLight lamp_of(const AreaLight& light, const LampPlace& at, const Surface& surface, std::size_t triangle) {
+    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const bool flip = flips(surface, mesh, triangle);
+    TriangleLight source = make_triangle_light(mesh.vertex(triangle, 0), mesh.vertex(triangle, 1),
+                                               mesh.vertex(triangle, 2), flip, light.radiance, light.two_sided);
+    if (at.motion || mesh.is_moving()) {
+        source.motion =
+            std::make_shared<const TriangleMotion>(TriangleMotion{mesh.triangle(triangle, 1), at.motion, flip});
+        const PlacedTriangle placed = placed_at(source, 0);
+        source.normal = placed.normal;
+        source.area = placed.area;
+    }
+    source.presence = at.presence;
+    source.picture = light.picture;
+    copy_uvs(mesh, triangle, source);
+    return source;
+}
+
+void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& surface, std::vector<Light>& lights) {
+    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    // Below, the area's inverse and its products leave the range of floats.
+    constexpr float smallest_area = 1e-30f;
+    const std::size_t triangles = mesh.triangle_count();
+    const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
+    for (std::size_t first = 0; first < triangles; first += together) {
+        const std::size_t begin = lights.size();
+        float area = 0;
+        for (std::size_t i = first; i < first + together; ++i) {
+            TriangleLight source = lamp_of(light, at, surface, i);
+            area += source.area;
+            lights.push_back(std::move(source));
+        }
+        for (std::size_t i = begin; i < lights.size(); ++i) {
+            auto& source = std::get<TriangleLight>(lights[i]);
+            source.radiance = source.area > smallest_area || source.motion ? light.radiance_of(area) : Rgb(0.0f);
+        }
+    }
+}
+
+}  // namespace
+
+Rgb AreaLight::radiance_of(float area) const {
+    const float brightness = picture ? luminance(picture->mean_colour()) : 1.0f;
+    const float unscaled = area * pi * (two_sided ? 2.0f : 1.0f) * brightness;
+    return !(power > 0) ? radiance : unscaled > 0 ? radiance * (power / unscaled) : Rgb(0.0f);
+}
+
+void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights) {
+    if (is_black(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance)) {
+        return;
+    }
+    surface.first_light = static_cast<int>(lights.size());
+    if (std::holds_alternative<Quadric>(surface.shape)) {
+        attach_to_quadric(light, at, surface, lights);
+    } else {
+        attach_to_mesh(light, at, surface, lights);
+    }
+}
+
+}  // namespace wend
