@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """How a picture by several processes scales: measured on this machine, and worked out for clusters.
 
-Measures one render by 1 and 2 threads and by 1, 2 and 4 ranks of one thread each, and fits the model of docs/scaling.md
-to those of 1 and 2 ranks. What it says of 4 ranks on two cores is held against the measurement. Then tiles of a large
+Measures one render by 1 and 2 threads and by 1, 2 and 4 ranks of one thread each: by the clock, and by the time of
+processors, which others on the machine do not change, less what starting costs. The model of docs/scaling.md is fitted to
+those of 1 and 2 ranks. What it says of 4 ranks is held against the measurement. Then tiles of a large
 picture are shared out among up to 4,096 ranks as the renderer does, by the work that they were in one render, and loaded
 by the work that they are in another: so imbalance is counted, not assumed. Messages are as large as they are there.
 
@@ -14,6 +15,7 @@ import heapq
 import json
 import math
 import os
+import resource
 import statistics
 import subprocess
 import tempfile
@@ -35,34 +37,37 @@ def render(wend, scene, ranks, threads, options, folder):
         command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                        OMPI_MCA_mpi_yield_when_idle="1")
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True, env=environment)
-    return json.loads(told.read_text())
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return dict(json.loads(told.read_text()), cpu=cpu)
 
 
 def measure(wend, scene, repetitions, folder):
     """Medians of each way to use the machine, which take turns."""
     ways = [(1, 1), (1, 2), (2, 1), (4, 1)]
-    told = {way: [] for way in ways}
+    told, starts = {way: [] for way in ways}, {way: [] for way in ways}
     for _ in range(repetitions):
-        for ranks, threads in ways:
-            told[ranks, threads].append(
-                render(wend, scene, ranks, threads, ["--resolution", "160x90", "--spp", 31, "--sampling",
-                                                     "direction+roulette+splitting"], folder))
+        for way in ways:
+            starts[way].append(render(wend, scene, *way, ["--resolution", "16x9", "--spp", 1, "--sampling", "classical"],
+                                      folder)["cpu"])
+            told[way].append(render(wend, scene, *way, ["--resolution", "160x90", "--spp", 31, "--sampling",
+                                                        "direction+roulette+splitting"], folder))
     return [{"scene": scene, "ranks": ranks, "threads": threads,
              "seconds": statistics.median(t["seconds"] for t in told[ranks, threads]),
+             "cpu": statistics.median(t["cpu"] for t in told[ranks, threads]) -
+                    statistics.median(starts[ranks, threads]),
              "training": statistics.median(t["training_seconds"] for t in told[ranks, threads]),
              "passes": len(told[ranks, threads][0]["settings"]["passes"]),
+             "field_bytes": told[ranks, threads][0]["field_bytes"],
              "bytes_per_pass": told[ranks, threads][0].get("bytes_per_pass", 0)} for ranks, threads in ways]
 
 
-def predicted(rows, ranks, cores):
-    """Seconds by the model, whose serial part is fitted to the run of two ranks."""
+def predicted(rows, ranks):
+    """Seconds of processors by the model: what is shared out, and what every other rank adds for itself."""
     one, two = (next(r for r in rows if r["ranks"] == n and r["threads"] == 1) for n in (1, 2))
-    # one = walks + serial; two = walks / 2 + serial: what every rank does for itself, training above all.
-    serial = 2 * two["seconds"] - one["seconds"]
-    walks = one["seconds"] - serial
-    # More ranks than cores take turns, and what each does for itself is done so many times.
-    return walks / min(ranks, cores) + serial * max(1, ranks / cores)
+    return one["cpu"] + (ranks - 1) * (two["cpu"] - one["cpu"])
 
 
 def tile_work(wend, scene, seed, folder):
@@ -90,30 +95,33 @@ def imbalance(before, now, ranks):
     return max(actual) * ranks / sum(actual)
 
 
-def simulate(scene, before, now, segments_per_second, seconds_to_fit, cores_of_rank=16):
+def simulate(scene, before, now, segments_per_second, seconds_to_fit, field_bytes, cores_of_rank=16):
     """Seconds of a pass of 32 samples of a large picture while fields learn."""
     pixels, samples = 1920 * 1080, 32
     work = sum(now) * samples / 4 / segments_per_second / cores_of_rank
-    message = pixels * BYTES_OF_PIXEL + MOST_RECORDS * BYTES_OF_RECORD
     for ranks in (1, 4, 16, 64, 256, 1024, 4096):
         balance = imbalance(before, now, ranks)
         row = {"scene": scene, "simulated_ranks": ranks, "imbalance": balance, "walks": work * balance / ranks,
-               "fit": seconds_to_fit}
+               "fit": seconds_to_fit / ranks}
+        # Each gets all pixels and all cells, but of the records those of its own cells.
+        message = pixels * BYTES_OF_PIXEL + field_bytes + MOST_RECORDS * BYTES_OF_RECORD / ranks
         for name, (latency, bandwidth) in CLUSTERS.items():
-            # One broadcast of each rank's part, pipelined along a tree.
-            row[f"messages, {name}"] = 0 if ranks == 1 else ranks * latency * math.log2(ranks) + message / bandwidth
+            # Of the film and of both fields one broadcast of each rank's part, pipelined along a tree; records go from
+            # each to each.
+            latencies = ranks * latency * (3 * math.log2(ranks) + 1)
+            row[f"messages, {name}"] = 0 if ranks == 1 else latencies + message / bandwidth
         yield row
 
 
 def tables(rows):
-    lines = ["| scene | ranks × threads | seconds | over one | model |", "|---|---|---|---|---|"]
+    lines = ["| scene | ranks × threads | seconds | of processors | over two threads | model |", "|---|---|---|---|---|---|"]
     for scene in SCENES:
         measured = [r for r in rows if r["scene"] == scene and "ranks" in r]
-        one = measured[0]["seconds"]
+        threads = next(r for r in measured if r["threads"] == 2)["cpu"]
         for row in measured:
-            model = f"{predicted(measured, row['ranks'], 2):.2f}" if row["threads"] == 1 else ""
-            lines.append(f"| `{scene}` | {row['ranks']} × {row['threads']} | {row['seconds']:.2f} | "
-                         f"{one / row['seconds']:.2f} | {model} |")
+            model = f"{predicted(measured, row['ranks']):.2f}" if row["threads"] == 1 else ""
+            lines.append(f"| `{scene}` | {row['ranks']} × {row['threads']} | {row['seconds']:.2f} | {row['cpu']:.2f} | "
+                         f"{row['cpu'] / threads:.3f} | {model} |")
     lines += ["", "| scene | ranks | imbalance | walks, s | fit, s | " +
               " | ".join(f"messages at {name}, s" for name in CLUSTERS) + " | efficiency |",
               "|---|---|---|---|---|" + "---|" * (len(CLUSTERS) + 1)]
@@ -153,7 +161,8 @@ def main():
                           folder)
             # Two million records a pass, by as many threads as a rank has.
             fit = measured[0]["training"] / measured[0]["passes"] / 4
-            rows += simulate(scene, before, now, told["segments"] / told["seconds"], fit)
+            rows += simulate(scene, before, now, told["segments"] / told["seconds"], fit,
+                             measured[0]["field_bytes"])
     (ROOT / "bench/results/scaling.json").write_text(json.dumps({"commit": commit, "rows": rows}, indent=1) + "\n")
     write_page(tables(rows), commit)
     print(tables(rows))

@@ -204,5 +204,57 @@ TEST_F(Frames, CarryWhatTheyHaveLearned) {
     EXPECT_TRUE(bytes("carried.09.exr") == bytes("loaded.exr"));
 }
 
+class SeveralScenes : public Frames {
+protected:
+    SeveralScenes() { std::filesystem::create_directory(folder_.file("out")); }
+};
+
+TEST_F(SeveralScenes, HaveTheirPicturesInAFolder) {
+    const std::string out = folder_.file("out");
+    ASSERT_EQ(run_wend({"render", folder_.file("room.10.pbrt"), folder_.file("room.08.pbrt"), "-o", out, "--spp", "2",
+                        "--json", folder_.file("#.json"), "--quiet"})
+                  .status,
+              0);
+    ASSERT_EQ(run_wend({"render", folder_.file("room.08.pbrt"), "-o", folder_.file("alone.exr"), "--spp", "2"}).status,
+              0);
+    EXPECT_TRUE(bytes("out/room.08.exr") == bytes("alone.exr"));
+    EXPECT_TRUE(exists("out/room.10.exr") && exists("1.json") && exists("2.json"));
+    // One scene as well.
+    ASSERT_EQ(run_wend({"render", folder_.file("room.09.pbrt"), "-o", out + "/", "--spp", "2"}).status, 0);
+    EXPECT_TRUE(exists("out/room.09.exr"));
+}
+
+TEST_F(SeveralScenes, ABadOneIsToldAndTheOthersAreRendered) {
+    folder_.write("room.08.pbrt", "Nonsense");
+    const auto result = run_wend({"render", folder_.file("room.08.pbrt"), folder_.file("room.09.pbrt"), "-o",
+                                  folder_.file("out"), "--spp", "1", "--quiet"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, "room.08.pbrt:1") && contains(result.err, "1 of 2 scenes failed: ")) << result.err;
+    EXPECT_TRUE(!exists("out/room.08.exr") && exists("out/room.09.exr"));
+}
+
+TEST_F(SeveralScenes, AreRefusedBeforeAnythingIsRendered) {
+    const std::string a = folder_.file("room.08.pbrt"), b = folder_.file("room.09.pbrt"), out = folder_.file("out");
+    std::filesystem::create_directory(folder_.file("other"));
+    const std::string same = folder_.write("other/room.08.pbrt", test::small_scene());
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string expected;
+    };
+    for (const Case& c :
+         {Case{{a, b, "-o", folder_.file("out.exr")}, "is no folder"},
+          Case{{a, b, "-o", folder_.file("none/")}, "no folder"}, Case{{a, same, "-o", out}, "room.08.exr"},
+          Case{{a, folder_.file("no.pbrt"), "-o", out}, "no.pbrt"},
+          Case{{a, b, "-o", out, "--json", folder_.file("a.json")}, "all scenes would write it"},
+          Case{{a, b, "-o", out, "--frames", "1-2"}, "a second scene"}}) {
+        std::vector<std::string> arguments = c.arguments;
+        arguments.insert(arguments.begin(), "render");
+        const auto result = run_wend(arguments);
+        EXPECT_EQ(result.status, 2) << result.err;
+        EXPECT_TRUE(contains(result.err, c.expected)) << c.expected << " in: " << result.err;
+        EXPECT_TRUE(std::filesystem::is_empty(out));
+    }
+}
+
 }  // namespace
 }  // namespace wend

@@ -1,6 +1,8 @@
 // Several processes that render one picture.
 #include "program_support.h"
 
+#include <wend/core/random.h>
+
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -143,6 +145,44 @@ TEST_F(SlowMpiRender, ALostRankEndsTheJobAndAnyNumberResumes) {
             << bytes("errors.txt");
         EXPECT_TRUE(bytes("all.exr") == bytes("one.exr")) << ranks << " ranks";
     }
+}
+
+// Jobs of 1 to 3 ranks, one of which is killed after a while; each goes on with what the last one has kept.
+TEST_F(SlowMpiRender, KilledAgainAndAgainItIsTheSameFile) {
+    constexpr int kills = 20;
+    const std::string options = " --resolution 48x36 --quiet --spp 400 ";
+    ASSERT_EQ(test::run_wend(
+                  {"render", scene_, "--resolution", "48x36", "--quiet", "--spp", "400", "-o", folder_.file("one.exr")})
+                  .status,
+              0);
+    const std::string checkpoint = folder_.file("room.checkpoint");
+    // The rank VICTIM is killed DELAY seconds after it has begun.
+    const std::string killed = folder_.write("killed.sh",
+                                             "if [ $OMPI_COMM_WORLD_RANK = $VICTIM ]; then\n"
+                                             "  (sleep $DELAY; kill -9 $$) > /dev/null 2>&1 &\n"
+                                             "fi\nexec \"$@\"\n");
+    Pcg32 random(5);
+    const auto run_job = [&](const std::string& before) {
+        const int ranks = 1 + static_cast<int>(random.next() % 3);
+        const int victim = static_cast<int>(random.next()) & 1 ? ranks - 1 : 0;
+        const double delay = 0.2 + 0.6 * random.uniform_double();
+        const std::string resume =
+            std::filesystem::exists(checkpoint) ? " --resume '" + checkpoint + "'" : std::string();
+        const std::string command =
+            "VICTIM=" + std::to_string(victim) + " DELAY=" + std::to_string(delay) + " mpirun -n " +
+            std::to_string(ranks) + ' ' + before + " '" + test::wend_program() + "' render '" + scene_ + "'" + options +
+            "--threads 1 -o '" + folder_.file("all.exr") + "' --checkpoint '" + checkpoint +
+            "' --checkpoint-every 0.05" + resume + " > /dev/null 2> '" + folder_.file("errors.txt") + "'";
+        return WEXITSTATUS(std::system(command.c_str()));
+    };
+    int times = 0;
+    for (int i = 0; i < kills && !std::filesystem::exists(folder_.file("all.exr")); ++i) {
+        times += run_job("bash '" + killed + "'") != 0 ? 1 : 0;
+    }
+    EXPECT_GT(times, 2) << "the render is too short for the test";
+    ASSERT_TRUE(std::filesystem::exists(checkpoint));
+    ASSERT_EQ(run_job(""), 0) << bytes("errors.txt");
+    EXPECT_TRUE(bytes("all.exr") == bytes("one.exr")) << "killed " << times << " times";
 }
 
 }  // namespace

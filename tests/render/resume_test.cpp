@@ -1,17 +1,19 @@
 // A render that is divided into steps, saved and resumed gives the picture of one that never stopped, bit for bit.
 #include <tests/support/scenes.h>
+#include <tests/support/thread_ranks.h>
 
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
+#include <wend/guide/serialization.h>
 #include <wend/render/render.h>
 
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <barrier>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -132,52 +134,18 @@ TEST_P(Resumed, WalksThatWereDroppedAreWalkedAgain) {
 INSTANTIATE_TEST_SUITE_P(Presets, Resumed,
                          testing::Values("classical", "direction", "full", "distance+direction+roulette+splitting"));
 
-/// Ranks that are threads of this process.
-class ThreadRanks : public Ranks {
-public:
-    struct Table {
-        explicit Table(int size) : said(static_cast<std::size_t>(size)), barrier(size) {}
-        std::vector<std::string> said;
-        std::barrier<> barrier;
-    };
-
-    ThreadRanks(Table& table, int rank) : table_(table), rank_(rank) {}
-
-    int rank() const override { return rank_; }
-    int size() const override { return static_cast<int>(table_.said.size()); }
-    std::vector<std::string> gather(const std::string& mine) override {
-        table_.said[static_cast<std::size_t>(rank_)] = mine;
-        table_.barrier.arrive_and_wait();
-        std::vector<std::string> all = table_.said;
-        table_.barrier.arrive_and_wait();
-        return all;
-    }
-
-private:
-    Table& table_;
-    int rank_;
-};
-
 /// What each of so many ranks has in the end; `work` is done by each, with its render and its film.
 template <class Work>
-std::vector<std::string> by_ranks(int count, const Scene& scene, RenderSettings settings, const Work& work) {
-    ThreadRanks::Table table(count);
+std::vector<std::string> by_ranks(int count, const Scene& scene, const RenderSettings& settings, const Work& work) {
     std::vector<std::string> films(static_cast<std::size_t>(count));
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < count; ++rank) {
-        threads.emplace_back([&, rank] {
-            ThreadRanks ranks(table, rank);
-            RenderSettings own = settings;
-            own.ranks = &ranks;
-            Film film = new_film();
-            Render render(scene, film, own);
-            work(render, ranks);
-            films[static_cast<std::size_t>(rank)] = bytes_of(film);
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
+    test::by_thread_ranks(count, [&](Ranks& ranks) {
+        RenderSettings own = settings;
+        own.ranks = &ranks;
+        Film film = new_film();
+        Render render(scene, film, own);
+        work(render, ranks);
+        films[static_cast<std::size_t>(ranks.rank())] = bytes_of(film);
+    });
     return films;
 }
 
@@ -221,6 +189,45 @@ TEST_P(Resumed, RanksStopTogetherAndAnyNumberGoesOn) {
         });
         EXPECT_TRUE(films.front() == expected) << count << " ranks";
     }
+}
+
+TEST(SlowRanksOfARender, LearnTheSameAndShowAllRecordsToWhoAsks) {
+    const Scene scene(table_top());
+    RenderSettings settings = settings_of("full", 1);
+    settings.keeps_fields = true;
+    // Notes of techniques inside dense media have bytes between their members that mean nothing.
+    settings.subsurface = parse_subsurface("classical");
+    std::size_t expected_records = 0;
+    const auto count_into = [](std::size_t& sum) {
+        return [&sum](std::span<const guide::PathRecords> records) {
+            for (const guide::PathRecords& of_tile : records) {
+                sum += of_tile.size();
+            }
+        };
+    };
+    settings.on_records = count_into(expected_records);
+    Film alone = new_film();
+    const RenderStatistics expected = render(scene, alone, settings);
+    std::vector<guide::Fields> learned(3, *expected.fields);
+    std::size_t records = 0;
+    test::by_thread_ranks(3, [&](Ranks& ranks) {
+        RenderSettings own = settings;
+        own.ranks = &ranks;
+        own.on_records = {};
+        if (ranks.rank() == 1) {
+            own.on_records = count_into(records);
+        }
+        Film film = new_film();
+        const RenderStatistics statistics = render(scene, film, own);
+        learned[static_cast<std::size_t>(ranks.rank())] = *statistics.fields;
+    });
+    for (const guide::Fields& one : learned) {
+        EXPECT_TRUE(guide::to_bytes(one.surface) == guide::to_bytes(expected.fields->surface));
+        EXPECT_TRUE(guide::to_bytes(one.volume) == guide::to_bytes(expected.fields->volume));
+        EXPECT_TRUE(one.notes == expected.fields->notes);
+    }
+    EXPECT_GT(expected_records, 1000u);
+    EXPECT_EQ(records, expected_records);
 }
 
 TEST(Ranks, GetSharesOfLikeWork) {

@@ -5,9 +5,7 @@
 #include <wend/app/frames.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/mpi_ranks.h>
-#include <wend/app/picture_options.h>
-#include <wend/app/session.h>
-#include <wend/app/watched_render.h>
+#include <wend/app/render_series.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/field_file.h>
@@ -26,29 +24,6 @@ namespace wend {
 namespace {
 
 constexpr int most_samples = 1 << 30;
-
-struct RenderOptions {
-    CommonOptions common;
-    SceneOptions scene;
-    WatchOptions watch;
-    PictureOptions picture;
-    std::string output;
-    int samples = 0;
-    double seconds = 0;
-    double noise = 0;
-    bool denoise = false;
-    std::string denoiser;  ///< the library's file or folder
-    std::string adaptive;  ///< "on", "off", or as `sampling` says
-    std::string sampling = "full";
-    std::string subsurface = "auto";
-    std::optional<std::string> passes;
-    std::string load_field, save_field, save_records;
-    bool half = false;
-    bool record_time = false;
-    std::string layers;
-    std::string frames;
-    bool carry_field = false;
-};
 
 using FieldsPointer = std::shared_ptr<const guide::Fields>;
 
@@ -126,29 +101,8 @@ void check(const RenderOptions& options, const Preset& preset) {
     options.watch.check();
 }
 
-/// What renders read and write.
-struct Paths {
-    std::vector<std::string> read, resumed, written, checkpoints;
-
-    void add(const RenderOptions& options, const std::string& output) {
-        read.insert(read.end(), {options.scene.file, options.load_field});
-        resumed.push_back(options.watch.resume);
-        written.insert(written.end(), {output, options.common.json, options.save_field, options.save_records,
-                                       options.watch.progress_file});
-        checkpoints.push_back(options.watch.checkpoint);
-    }
-
-    /// The paths that are written differ, and are not read. A checkpoint may be the one that is resumed.
-    void check() const {
-        require_distinct(resumed, written);
-        std::vector<std::string> all = written;
-        all.insert(all.end(), checkpoints.begin(), checkpoints.end());
-        require_distinct(read, all);
-    }
-};
-
 void check_paths(const RenderOptions& options, const std::string& output) {
-    Paths paths;
+    RenderPaths paths;
     paths.add(options, output);
     paths.check();
 }
@@ -268,77 +222,27 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     return statistics.fields;
 }
 
-/// The options that name files: these differ from frame to frame.
-std::vector<std::string*> names_read(RenderOptions& options) {
-    return {&options.scene.file, &options.load_field, &options.watch.resume};
-}
-std::vector<std::string*> names_written(RenderOptions& options) {
-    return {&options.output,       &options.common.json,      &options.save_field,
-            &options.save_records, &options.watch.checkpoint, &options.watch.progress_file};
-}
-
-RenderOptions of_frame(RenderOptions options, int frame) {
-    for (const auto& names : {names_read(options), names_written(options)}) {
-        for (std::string* name : names) {
-            *name = with_frame_number(*name, frame);
-        }
+/// Renders several pictures in turn. What is wrong with one of them is an InputError before the first is rendered.
+void render_series(const RenderSeries& series, const Streams& streams, Ranks* ranks) {
+    series.check_files();
+    for (const RenderOptions& one : series.renders) {
+        check(one, plan_of(one).preset);
     }
-    return options;
-}
-
-/// Refuses frames that would write the same file.
-void require_frame_numbers(RenderOptions options) {
-    for (const std::string* name : names_written(options)) {
-        if (!name->empty() && *name != "-" && !is_device(*name) && !has_frame_number(*name)) {
-            throw InputError(Place{*name}, "all frames would write it: put #### where the frame's number goes");
-        }
-    }
-}
-
-/// Throws InputError for what is wrong with one of the frames, before the first is rendered.
-void check_frames(const RenderOptions& options, const std::vector<int>& frames) {
-    const RenderPlan plan = plan_of(options);
-    if (!has_frame_number(options.scene.file)) {
-        throw InputError(Place{options.scene.file},
-                         "--frames wants the frame's number in the scene's name: put #### in its place");
-    }
-    if (frames.size() > 1) {
-        require_frame_numbers(options);
-    }
-    Paths paths;
-    for (const int frame : frames) {
-        RenderOptions one = of_frame(options, frame);
-        for (const std::string* name : names_read(one)) {
-            std::error_code error;
-            if (!name->empty() && !std::filesystem::exists(*name, error)) {
-                throw InputError(Place{*name}, fmt::format("does not exist, and frame {} wants it", frame));
-            }
-        }
-        check(one, plan.preset);
-        paths.add(one, one.output);
-    }
-    paths.check();
-}
-
-void render_frames(RenderOptions options, const Streams& streams, Ranks* ranks) {
-    const std::vector<int> frames = parse_frames(options.frames);
-    if (options.output.empty()) {
-        // The scenes' own names for their pictures may all be the same.
-        options.output = std::filesystem::path(options.scene.file).stem().string() + ".exr";
-    }
-    check_frames(options, frames);
     FieldsPointer carried;
-    const auto render = [&](int frame) {
-        FieldsPointer learned = render_scene(of_frame(options, frame), streams, ranks, carried);
-        if (options.carry_field) {
+    const auto render = [&](std::size_t i) {
+        const RenderOptions& one = series.renders[i];
+        FieldsPointer learned = render_scene(one, streams, ranks, carried);
+        if (one.carry_field) {
             carried = std::move(learned);
         }
     };
     if (ranks) {
-        // After an error the others do not know which frame is next: it ends all.
-        std::for_each(frames.begin(), frames.end(), render);
+        // After an error the others do not know which is next: it ends all.
+        for (std::size_t i = 0; i < series.renders.size(); ++i) {
+            render(i);
+        }
     } else {
-        for_each_frame(frames, streams, render);
+        for_each_in_turn(series.kind, series.names, streams, render);
     }
 }
 
@@ -346,9 +250,11 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
     const std::unique_ptr<Ranks> ranks = ranks_of_job();
     options.common.quiet = options.common.quiet || !is_first_of(ranks.get());
     if (has_frames) {
-        render_frames(options, streams, ranks.get());
+        render_series(frames_of(options), streams, ranks.get());
+    } else if (options.scenes.size() > 1) {
+        render_series(scenes_of(options), streams, ranks.get());
     } else {
-        render_scene(options, streams, ranks.get());
+        render_scene(one_scene_of(options), streams, ranks.get());
     }
 }
 
@@ -357,10 +263,14 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
 Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App& command = *program.add_subcommand("render", "render a scene");
-    options->scene.add_to(command);
+    command
+        .add_option("scene", options->scenes, "scene file, or several to render in turn: pbrt-v4, or Mitsuba 3 (.xml)")
+        ->required();
+    options->scene.add_choices_to(command);
     CLI::Option* output = command.add_option(
         "-o,--output", options->output,
-        "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name)");
+        "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name); of several "
+        "scenes a folder, where the pictures have the scenes' names");
     command
         .add_flag("--half", options->half,
                   "write the colours alone, in half floats, as references are kept (to an .exr file)")

@@ -32,13 +32,13 @@ bool take(std::string_view& text, char c) {
     return is_there;
 }
 
-std::string list_of(const std::vector<int>& numbers) {
+std::string list_of(const std::vector<std::string>& names) {
     constexpr std::size_t most = 20;
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i) {
-        text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
+        text += (i == 0 ? "" : ", ") + names[i];
     }
-    return text + (numbers.size() > most ? ", ..." : "");
+    return text + (names.size() > most ? ", ..." : "");
 }
 
 }  // namespace
@@ -83,28 +83,29 @@ std::string with_frame_number(const std::string& name, int frame) {
     return name.substr(0, begin) + fmt::format("{:0{}}", frame, end - begin) + name.substr(end);
 }
 
-void for_each_frame(const std::vector<int>& frames, const Streams& streams, const std::function<void(int)>& render) {
-    std::vector<int> failed;
+void for_each_in_turn(const std::string& kind, const std::vector<std::string>& names, const Streams& streams,
+                      const std::function<void(std::size_t)>& render) {
+    std::vector<std::string> failed;
     bool is_input = false;
-    for (const int frame : frames) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         try {
-            render(frame);
+            render(i);
         } catch (const std::exception& error) {
-            streams.err << "frame " << frame << ": " << failure_text(error) << '\n' << std::flush;
-            // Who ends a frame ends all, even where its picture could not be written.
+            streams.err << kind << ' ' << names[i] << ": " << failure_text(error) << '\n' << std::flush;
+            // Who ends one ends all, even where its picture could not be written.
             if (InterruptGuard::signal() != 0) {
                 throw EndedBySignal{InterruptGuard::signal()};
             }
             if (failed.empty()) {
                 is_input = dynamic_cast<const InputError*>(&error) != nullptr;
             }
-            failed.push_back(frame);
+            failed.push_back(names[i]);
         }
     }
     if (failed.empty()) {
         return;
     }
-    const std::string text = fmt::format("{} of {} frames failed: {}", failed.size(), frames.size(), list_of(failed));
+    const std::string text = fmt::format("{} of {} {}s failed: {}", failed.size(), names.size(), kind, list_of(failed));
     if (is_input) {
         throw InputError(text);
     }

@@ -3,6 +3,7 @@
 
 #include <wend/app/options.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,8 +20,10 @@ bool has_frame_number(const std::string& name);
 /// are two groups.
 std::string with_frame_number(const std::string& name, int frame);
 
-/// Renders one frame after another. What goes wrong in one is told, and the others are rendered all the same; at the
-/// end the first error's kind is thrown, with the numbers of all that failed. A signal (EndedBySignal) ends all.
-void for_each_frame(const std::vector<int>& frames, const Streams& streams, const std::function<void(int)>& render);
+/// Renders one after another: frames, or scenes, as `kind` calls them. What goes wrong in one is told, and the others
+/// are rendered all the same; at the end the first error's kind is thrown, with the names of all that failed. A signal
+/// (EndedBySignal) ends all.
+void for_each_in_turn(const std::string& kind, const std::vector<std::string>& names, const Streams& streams,
+                      const std::function<void(std::size_t)>& render);
 
 }  // namespace wend

@@ -4,10 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 
 #ifdef WEND_MPI
 #define OMPI_SKIP_MPICXX  // the old bindings for C++
@@ -52,29 +55,86 @@ public:
     int rank() const override { return rank_; }
     int size() const override { return size_; }
 
-    std::vector<std::string> gather(const std::string& mine) override {
+    std::vector<std::string> gather(std::string mine) override {
         std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_));
         const std::uint64_t size = mine.size();
-        require(MPI_Allgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD));
+        MPI_Request request;
+        require(MPI_Iallgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD, &request));
+        wait(request);
         std::vector<std::string> all(sizes.size());
+        all[static_cast<std::size_t>(rank_)] = std::move(mine);
         for (int rank = 0; rank < size_; ++rank) {
             std::string& said = all[static_cast<std::size_t>(rank)];
-            if (rank == rank_) {
-                said = mine;
-            } else {
-                said.resize(sizes[static_cast<std::size_t>(rank)]);
-            }
-            // One message holds no more than an int can count.
-            constexpr std::size_t most = std::size_t{1} << 28;
-            for (std::size_t begin = 0; begin < said.size(); begin += most) {
-                const auto count = static_cast<int>(std::min(most, said.size() - begin));
-                require(MPI_Bcast(said.data() + begin, count, MPI_BYTE, rank, MPI_COMM_WORLD));
-            }
+            said.resize(sizes[static_cast<std::size_t>(rank)]);
+            in_messages(said, [&](char* bytes, int count) {
+                require(MPI_Bcast(bytes, count, MPI_BYTE, rank, MPI_COMM_WORLD));
+            });
         }
         return all;
     }
 
+    std::vector<std::string> exchange(std::vector<std::string> mine) override {
+        std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_)), others(sizes.size());
+        std::transform(mine.begin(), mine.end(), sizes.begin(), [](const std::string& said) { return said.size(); });
+        MPI_Request request;
+        require(MPI_Ialltoall(sizes.data(), 1, MPI_UINT64_T, others.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD, &request));
+        wait(request);
+        std::vector<std::string> all(sizes.size());
+        std::vector<MPI_Request> requests;
+        for (int rank = 0; rank < size_; ++rank) {
+            const auto i = static_cast<std::size_t>(rank);
+            if (rank == rank_) {
+                all[i] = std::move(mine[i]);
+                continue;
+            }
+            all[i].resize(others[i]);
+            in_messages(all[i], [&](char* bytes, int count) {
+                require(MPI_Irecv(bytes, count, MPI_BYTE, rank, 0, MPI_COMM_WORLD, &requests.emplace_back()));
+            });
+        }
+        for (int step = 1; step < size_; ++step) {
+            const int rank = (rank_ + step) % size_;
+            in_messages(mine[static_cast<std::size_t>(rank)], [&](char* bytes, int count) {
+                require(MPI_Isend(bytes, count, MPI_BYTE, rank, 0, MPI_COMM_WORLD, &requests.emplace_back()));
+            });
+        }
+        require(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+        return all;
+    }
+
+    std::vector<std::uint64_t> sum(std::vector<std::uint64_t> mine) override {
+        MPI_Request request;
+        require(MPI_Iallreduce(MPI_IN_PLACE, mine.data(), static_cast<int>(mine.size()), MPI_UINT64_T, MPI_SUM,
+                               MPI_COMM_WORLD, &request));
+        wait(request);
+        return mine;
+    }
+
 private:
+    /// One message holds no more than an int can count.
+    template <class Message>
+    static void in_messages(std::string& text, const Message& message) {
+        constexpr std::size_t most = std::size_t{1} << 28;
+        for (std::size_t begin = 0; begin < text.size(); begin += most) {
+            message(text.data() + begin, static_cast<int>(std::min(most, text.size() - begin)));
+        }
+    }
+    /// Until all ranks have come so far. Unlike MPI's own waiting it leaves the core to others, which may be what is
+    /// waited for where there are more ranks than cores; what that costs is a small part of the time that was waited.
+    static void wait(MPI_Request& request) {
+        using Clock = std::chrono::steady_clock;
+        constexpr auto soon = std::chrono::microseconds(50), longest = std::chrono::microseconds(1000);
+        const Clock::time_point start = Clock::now();
+        for (int has_ended = 0;;) {
+            require(MPI_Test(&request, &has_ended, MPI_STATUS_IGNORE));
+            if (has_ended) {
+                return;
+            }
+            if (const auto waited = Clock::now() - start; waited > soon) {
+                std::this_thread::sleep_for(std::min<Clock::duration>(longest, waited / 8));
+            }
+        }
+    }
     static void require(int error) {
         if (error != MPI_SUCCESS) {
             throw std::runtime_error("a rank is lost: the render ends; it can be resumed from its last checkpoint");

@@ -1,7 +1,7 @@
 // The processes that mpirun has started together.
 #pragma once
 
-#include <wend/render/ranks.h>
+#include <wend/core/ranks.h>
 
 #include <cstdint>
 #include <memory>

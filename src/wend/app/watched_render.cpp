@@ -3,8 +3,8 @@
 #include <wend/app/progress_lines.h>
 #include <wend/app/watched_render.h>
 #include <wend/core/error.h>
+#include <wend/core/team.h>
 #include <wend/io/atomic_file.h>
-#include <wend/render/team.h>
 
 #include <CLI/CLI.hpp>
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace wend::guide {
@@ -85,6 +86,8 @@ WEND_API FitResult fit(const Field& previous, std::span<const Record> records, c
 struct Fields {
     Field surface;  ///< asked at surfaces
     Field volume;   ///< asked at collisions in media
+    /// What whoever walks by them knows besides, as bytes of its own; empty: nothing. Fitting does not keep them.
+    std::string notes = {};
 
     /// Memory of both.
     std::size_t bytes() const { return surface.bytes() + volume.bytes(); }

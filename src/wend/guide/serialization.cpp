@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/guide/field_bytes.h>
 #include <wend/guide/field_memory.h>
 #include <wend/guide/scatter_fit.h>
 #include <wend/guide/sealed_bytes.h>
@@ -25,10 +26,12 @@ void put(std::string& out, const T& value) {
     out.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
+}  // namespace
+
 /// Takes numbers from the front, and refuses those that a field cannot hold.
-class Reader {
+class FieldBytesReader {
 public:
-    explicit Reader(std::string_view bytes) : rest_(bytes) {}
+    explicit FieldBytesReader(std::string_view bytes) : rest_(bytes) {}
 
     template <class T>
     T take() {
@@ -69,6 +72,10 @@ public:
 private:
     std::string_view rest_;
 };
+
+namespace {
+
+using Reader = FieldBytesReader;
 
 void put(std::string& out, const Vec3& v) {
     put(out, v.x);
@@ -201,88 +208,83 @@ Statistics take_statistics(Reader& in) {
 
 }  // namespace
 
-/// Sees a field's inside.
-class FieldBytes {
-public:
-    static std::string body(const Field& field) {
-        std::string out;
-        put(out, field.bounds_.min);
-        put(out, field.bounds_.max);
-        put(out, static_cast<std::uint8_t>(field.trained_));
-        put(out, static_cast<std::uint64_t>(field.nodes_.size()));
-        for (const Field::Node& node : field.nodes_) {
-            put(out, node.plane);
-            put(out, static_cast<std::uint8_t>(node.axis));
-            put(out, static_cast<std::uint32_t>(node.child));
-        }
-        put(out, static_cast<std::uint64_t>(field.regions_.size()));
-        for (std::size_t i = 0; i < field.regions_.size(); ++i) {
-            const Field::Memory& memory = field.memories_[i];
-            put_region(out, field.regions_[i]);
-            put(out, memory.depth);
-            put(out, memory.radius);
-            put(out, static_cast<std::uint8_t>(memory.anchored));
-            put(out, memory.located);
-            put(out, memory.offset);
-            put(out, memory.offset_square);
-            put_statistics(out, memory.statistics);
-            put_scattered(out, memory.scattered);
-            put_near(out, field.scattered_[i].near);
-        }
-        return out;
+std::string FieldBytes::body(const Field& field) {
+    std::string out;
+    put(out, field.bounds_.min);
+    put(out, field.bounds_.max);
+    put(out, static_cast<std::uint8_t>(field.trained_));
+    put(out, static_cast<std::uint64_t>(field.nodes_.size()));
+    for (const Field::Node& node : field.nodes_) {
+        put(out, node.plane);
+        put(out, static_cast<std::uint8_t>(node.axis));
+        put(out, static_cast<std::uint32_t>(node.child));
     }
+    put(out, static_cast<std::uint64_t>(field.regions_.size()));
+    for (std::size_t i = 0; i < field.regions_.size(); ++i) {
+        const Field::Memory& memory = field.memories_[i];
+        put_region(out, field.regions_[i]);
+        put(out, memory.depth);
+        put(out, memory.radius);
+        put(out, static_cast<std::uint8_t>(memory.anchored));
+        put(out, memory.located);
+        put(out, memory.offset);
+        put(out, memory.offset_square);
+        put_statistics(out, memory.statistics);
+        put_scattered(out, memory.scattered);
+        put_near(out, field.scattered_[i].near);
+    }
+    return out;
+}
 
-    static Field field(Reader& in) {
-        Box3 bounds;
-        bounds.min = in.take_vector();
-        bounds.max = in.take_vector();
-        Reader::require(!bounds.isEmpty());
-        Field field = Field::empty(bounds);
-        field.trained_ = in.take<std::uint8_t>() != 0;
-        field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
-        for (Field::Node& node : field.nodes_) {
-            node.plane = in.take_finite<float>();
-            node.axis = in.take<std::uint8_t>() & 3u;
-            node.child = in.take<std::uint32_t>() & Field::largest_child;
-        }
-        constexpr std::size_t least_region = 9 * sizeof(float);
-        const std::uint64_t cells = in.take_count(least_region);
-        field.regions_.clear();
-        field.memories_.clear();
-        field.scattered_.clear();
-        for (std::uint64_t i = 0; i < cells; ++i) {
-            field.regions_.push_back(take_region(in));
-            Field::Memory& memory = field.memories_.emplace_back();
-            memory.depth = in.take<std::uint32_t>();
-            memory.radius = in.take_finite<float>();
-            memory.anchored = in.take<std::uint8_t>() != 0;
-            memory.located = in.take_finite<float>();
-            memory.offset = in.take_vector();
-            memory.offset_square = in.take_vector();
-            memory.statistics = take_statistics(in);
-            memory.scattered = take_scattered(in);
-            field.scattered_.emplace_back().near = take_near(in);
-        }
-        require_tree(field);
-        return field;
+Field FieldBytes::field(Reader& in) {
+    Box3 bounds;
+    bounds.min = in.take_vector();
+    bounds.max = in.take_vector();
+    Reader::require(!bounds.isEmpty());
+    Field field = Field::empty(bounds);
+    field.trained_ = in.take<std::uint8_t>() != 0;
+    field.nodes_.resize(in.take_count(sizeof(float) + 1 + sizeof(std::uint32_t)));
+    for (Field::Node& node : field.nodes_) {
+        node.plane = in.take_finite<float>();
+        node.axis = in.take<std::uint8_t>() & 3u;
+        node.child = in.take<std::uint32_t>() & Field::largest_child;
     }
+    constexpr std::size_t least_region = 9 * sizeof(float);
+    const std::uint64_t cells = in.take_count(least_region);
+    field.regions_.clear();
+    field.memories_.clear();
+    field.scattered_.clear();
+    for (std::uint64_t i = 0; i < cells; ++i) {
+        field.regions_.push_back(take_region(in));
+        Field::Memory& memory = field.memories_.emplace_back();
+        memory.depth = in.take<std::uint32_t>();
+        memory.radius = in.take_finite<float>();
+        memory.anchored = in.take<std::uint8_t>() != 0;
+        memory.located = in.take_finite<float>();
+        memory.offset = in.take_vector();
+        memory.offset_square = in.take_vector();
+        memory.statistics = take_statistics(in);
+        memory.scattered = take_scattered(in);
+        field.scattered_.emplace_back().near = take_near(in);
+    }
+    require_tree(field);
+    return field;
+}
 
-private:
-    /// Children lie behind their parents, so that every look-up ends; each cell has one leaf.
-    static void require_tree(const Field& field) {
-        Reader::require(field.nodes_.size() + 1 == 2 * field.regions_.size());
-        std::vector<std::uint8_t> has_parent(field.nodes_.size(), 0), has_leaf(field.regions_.size(), 0);
-        for (std::size_t i = 0; i < field.nodes_.size(); ++i) {
-            const Field::Node& node = field.nodes_[i];
-            if (node.axis == Field::Node::leaf) {
-                Reader::require(node.child < has_leaf.size() && has_leaf[node.child]++ == 0);
-            } else {
-                Reader::require(node.child > i && node.child + 1u < has_parent.size() &&
-                                has_parent[node.child]++ == 0 && has_parent[node.child + 1]++ == 0);
-            }
+/// Children lie behind their parents, so that every look-up ends; each cell has one leaf.
+void FieldBytes::require_tree(const Field& field) {
+    Reader::require(field.nodes_.size() + 1 == 2 * field.regions_.size());
+    std::vector<std::uint8_t> has_parent(field.nodes_.size(), 0), has_leaf(field.regions_.size(), 0);
+    for (std::size_t i = 0; i < field.nodes_.size(); ++i) {
+        const Field::Node& node = field.nodes_[i];
+        if (node.axis == Field::Node::leaf) {
+            Reader::require(node.child < has_leaf.size() && has_leaf[node.child]++ == 0);
+        } else {
+            Reader::require(node.child > i && node.child + 1u < has_parent.size() && has_parent[node.child]++ == 0 &&
+                            has_parent[node.child + 1]++ == 0);
         }
     }
-};
+}
 
 std::string to_bytes(const Field& field) {
     return seal(kind, FieldBytes::body(field));

@@ -7,7 +7,7 @@
 
 namespace wend {
 
-/// Writes both fields of a render. The file appears whole or not at all.
+/// Writes both fields of a render, and its notes. The file appears whole or not at all.
 void write_fields(const std::filesystem::path& file, const guide::Fields& fields);
 
 /// Reads them again, the same bit for bit. Throws InputError naming the file when it is missing, of another kind or

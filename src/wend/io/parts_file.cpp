@@ -18,7 +18,7 @@ void write_parts(const std::filesystem::path& file, std::string_view signature, 
 }
 
 PartsFile::PartsFile(const std::filesystem::path& file, std::string_view signature, std::size_t count,
-                     const std::string& what)
+                     const std::string& what, std::size_t optional)
     : place_{file.string(), 0, 0} {
     content_ = read_file(file);
     if (!std::string_view(content_).starts_with(signature)) {
@@ -26,7 +26,7 @@ PartsFile::PartsFile(const std::filesystem::path& file, std::string_view signatu
     }
     Bytes bytes(content_, place_);
     bytes.seek(signature.size());
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count && !(i + optional >= count && bytes.empty()); ++i) {
         parts_.push_back(bytes.take(bytes.take<std::uint64_t>()));
     }
     if (!bytes.empty()) {

@@ -19,9 +19,11 @@ void write_parts(const std::filesystem::path& file, std::string_view signature, 
 class PartsFile {
 public:
     /// Throws InputError naming the file when it is missing, does not begin with the signature (it is then "no file of"
-    /// `what`) or has not as many parts.
-    PartsFile(const std::filesystem::path& file, std::string_view signature, std::size_t count,
-              const std::string& what);
+    /// `what`) or has not as many parts. Of the last ones, `optional` may be missing.
+    PartsFile(const std::filesystem::path& file, std::string_view signature, std::size_t count, const std::string& what,
+              std::size_t optional = 0);
+
+    std::size_t size() const { return parts_.size(); }
 
     /// What `decode` makes of a part; its InputError is made to name the file.
     template <class Decode>

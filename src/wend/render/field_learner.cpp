@@ -1,6 +1,8 @@
+#include <wend/guide/shared_learning.h>
 #include <wend/render/field_learner.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace wend {
@@ -82,18 +84,28 @@ void FieldLearner::keep(Records& records, bool is_recorded) const {
     }
 }
 
-void FieldLearner::learn(std::vector<Records>& all, const PassPlan& plan) {
+void FieldLearner::learn(std::vector<Records>& mine, const PassPlan& plan, TileShares& shares) {
     std::vector<guide::PathRecords> records;
-    std::size_t count = 0;
-    for (Records& tile : all) {
+    std::uint64_t count = 0;
+    for (Records& tile : mine) {
         records.push_back(std::exchange(tile.records, {}));
         count += records.back().size();
     }
-    budget_.learn(plan.recorded_share * context_.walks(plan), static_cast<double>(count));
-    if (context_.settings.on_records) {
-        context_.settings.on_records(records);
+    const bool shows = static_cast<bool>(context_.settings.on_records);
+    const std::vector<std::uint64_t> totals = shares.team().sum({count, shows ? 1u : 0u});
+    budget_.learn(plan.recorded_share * context_.walks(plan), static_cast<double>(totals[0]));
+    if (totals[1] > 0) {
+        show(records, shares);
     }
-    fields_ = guide::learn(fields_, std::move(records), context_.settings.threads);
+    fields_ = guide::learn_together(fields_, std::move(records), context_.settings.threads, shares.team());
+}
+
+void FieldLearner::show(const std::vector<guide::PathRecords>& mine, TileShares& shares) const {
+    std::vector<guide::PathRecords> all = mine;
+    shares.gather([&](auto& bytes, std::size_t i) { bytes(all[i]); });
+    if (context_.settings.on_records) {
+        context_.settings.on_records(all);
+    }
 }
 
 }  // namespace wend

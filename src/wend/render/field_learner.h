@@ -30,7 +30,8 @@ public:
         return Recorder(records_ && is_recorded ? &records.log : nullptr);
     }
     void keep(Records& records, bool is_recorded) const;
-    void learn(std::vector<Records>& all, const PassPlan& plan);
+    /// From the records of the tiles that this process walks; see LearnsTogether.
+    void learn(std::vector<Records>& mine, const PassPlan& plan, TileShares& shares);
 
     /// Of so many walks, the share that is to be recorded.
     double recorded_share(double walks) const { return budget_.share(walks); }
@@ -64,6 +65,8 @@ public:
 private:
     static constexpr int most_photons = 1 << 20;
 
+    /// All records, to whoever wants to see them, in whichever process.
+    void show(const std::vector<guide::PathRecords>& mine, TileShares& shares) const;
     void send_photons(int samples);
     /// As many photons as were sent before.
     void send_again();

@@ -99,6 +99,8 @@ public:
 
     /// Whether any walk may be guided in a pass of so many samples of each pixel.
     bool guides(int samples) const;
+    /// Whether it is known where guiding pays.
+    bool has_chosen() const { return state_ == State::chosen; }
     /// Whether every kind is being tried.
     bool is_trial() const { return state_ == State::trial; }
     /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.

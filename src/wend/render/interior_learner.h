@@ -5,7 +5,9 @@
 #include <wend/transport/interior_recorder.h>
 #include <wend/transport/subsurface_guides.h>
 
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace wend {
 
@@ -55,6 +57,23 @@ public:
     /// Whether there is a dense medium to be guided.
     bool can_guide() const { return can_guide_; }
     const SubsurfaceGuides& guides() const { return guides_; }
+
+    /// Of the media of the scene, those that are guided once they have been explored.
+    std::vector<int> dense_media() const {
+        std::vector<int> dense;
+        for (std::size_t i = 0; !guides_.is_empty() && i < context_.scene.description().media.size(); ++i) {
+            const auto medium = static_cast<MediumId>(i);
+            if (guides_.plan(medium, Vec3(0, 0, 0))) {
+                dense.push_back(medium);
+            }
+        }
+        return dense;
+    }
+    /// Explores the media; whether these are the dense ones.
+    bool has_dense_media(const std::vector<int>& dense) {
+        explore();
+        return dense_media() == dense;
+    }
 
     /// See ListsMembers.
     template <class Archive, class Self>

@@ -3,6 +3,7 @@
 
 #include <wend/core/archive.h>
 #include <wend/render/render.h>
+#include <wend/render/tile_shares.h>
 #include <wend/scene/scene.h>
 
 #include <algorithm>
@@ -84,11 +85,18 @@ struct TileRecords {
     }
 };
 
+/// Learns from the records that each of several processes has of its own tiles, the same in all of them.
+template <class L>
+concept LearnsTogether = requires(L& learner, std::vector<typename L::Records>& mine, const PassPlan& plan,
+                                  TileShares& shares) {
+    learner.learn(mine, plan, shares);
+};
+
 /// A learner is made from a LearningContext. Its records are kept apart by tile. Its recorder, one of transport's, puts
 /// into them what a walk meets; keep() is called once the walk has ended, and says whether it counts as recorded. A
 /// walk that is dropped has no keep(). What it knows changes in learn() alone, after a pass, with the records of all
-/// tiles in their order. Records are told apart by their type, which is each learner's own. What it knows and records
-/// can be archived, so that a render can be resumed.
+/// tiles in their order; of several processes each gets them all, unless it LearnsTogether. Records are told apart by
+/// their type, which is each learner's own. What it knows and records can be archived, so that a render can be resumed.
 template <class L>
 concept Learner = requires(L& learner, const L& known, typename L::Records& records,
                            std::vector<typename L::Records>& all, const PassPlan& plan) {
@@ -100,7 +108,9 @@ concept Learner = requires(L& learner, const L& known, typename L::Records& reco
     { L::steers } -> std::convertible_to<bool>;
     { known.recorder(records, true) } -> std::same_as<typename L::Recorder>;
     known.keep(records, true);
-    learner.learn(all, plan);
+    requires LearnsTogether<L> || requires {
+        learner.learn(all, plan);
+    };
     requires ListsMembers<const L, ArchiveWriter> && ListsMembers<L, ArchiveReader>;
     known.archive_records(std::declval<ArchiveReader&>(), records);
     known.archive_records(std::declval<ArchiveWriter&>(), std::as_const(records));

@@ -7,7 +7,9 @@
 #include <wend/render/reflection_learner.h>
 #include <wend/transport/walk_recorder.h>
 
+#include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,13 +35,25 @@ public:
     void keep(Records& records, bool is_recorded) const {
         (get<Each>().keep(std::get<typename Each::Records>(records), is_recorded), ...);
     }
-    /// From the records of all tiles, which are given up.
-    void learn(std::vector<Records>& tiles, const PassPlan& plan) { (learn<Each>(tiles, plan), ...); }
+    /// From the records of all tiles, which are given up. Each process brings those of its own.
+    void learn(std::vector<Records>& tiles, const PassPlan& plan, TileShares& shares) {
+        (learn<Each>(tiles, plan, shares), ...);
+    }
 
     /// What each knows; see ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& list) {
         std::apply([&](auto&... each) { bytes(each...); }, list.learners_);
+    }
+    /// The same of all but those for which LearnsTogether holds: what guide::Fields do not have.
+    template <class Archive, class Self>
+    static void archive_beside_fields(Archive& bytes, Self& list) {
+        const auto one = [&](auto& learner) {
+            if constexpr (!LearnsTogether<std::remove_cvref_t<decltype(learner)>>) {
+                bytes(learner);
+            }
+        };
+        std::apply([&](auto&... each) { (one(each), ...); }, list.learners_);
     }
     template <class Archive, class OfTile>
     void archive_records(Archive& bytes, OfTile& records) const {
@@ -57,7 +71,7 @@ public:
 
 private:
     template <class L>
-    void learn(std::vector<Records>& tiles, const PassPlan& plan) {
+    void learn(std::vector<Records>& tiles, const PassPlan& plan, TileShares& shares) {
         L& learner = get<L>();
         if (!learner.records()) {
             return;
@@ -66,7 +80,16 @@ private:
         for (Records& tile : tiles) {
             all.push_back(std::exchange(std::get<typename L::Records>(tile), {}));
         }
-        learner.learn(all, plan);
+        if constexpr (LearnsTogether<L>) {
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                // What others have told before is theirs.
+                all[i] = shares.owns(i) ? std::move(all[i]) : typename L::Records();
+            }
+            learner.learn(all, plan, shares);
+        } else {
+            shares.gather([&](auto& bytes, std::size_t i) { learner.archive_records(bytes, all[i]); });
+            learner.learn(all, plan);
+        }
     }
 
     std::tuple<Each...> learners_;

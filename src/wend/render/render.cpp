@@ -1,14 +1,11 @@
-#include <wend/core/parallel.h>
-#include <wend/decision/guided_distance.h>
-#include <wend/decision/pixel_estimate.h>
-#include <wend/light/beams.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/pass.h>
+#include <wend/render/pass_planning.h>
 #include <wend/render/render.h>
-#include <wend/render/sample_budget.h>
 #include <wend/render/schedule.h>
-#include <wend/render/team.h>
-#include <wend/transport/path_tracer.h>
+#include <wend/render/taught.h>
+#include <wend/render/tile_shares.h>
+#include <wend/render/walks.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,32 +18,12 @@
 
 namespace wend {
 
-template class PathTracer<ClassicalDecisions, Learners::Recorders>;
-template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, ClassicalRoulette>, Learners::Recorders>;
-template class PathTracer<GuidedDecisions<guide::Field, ClassicalDistance, AdjointRouletteSplitting>,
-                          Learners::Recorders>;
-template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, ClassicalRoulette>,
-                          Learners::Recorders>;
-template class PathTracer<GuidedDecisions<guide::Field, GuidedDistance<guide::Field>, AdjointRouletteSplitting>,
-                          Learners::Recorders>;
-
 namespace {
 
 using Clock = Rest::Clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// A picture before its white was balanced.
-Image as_in_scene(Image picture, const ColourMatrix& balance) {
-    if (!balance.is_identity()) {
-        const ColourMatrix back = balance.inverse();
-        for (Rgb& pixel : picture.pixels) {
-            pixel = back * pixel;
-        }
-    }
-    return picture;
 }
 
 void check_rejected(const WalkCounts& counts) {
@@ -71,13 +48,20 @@ public:
           records_(tiles_.size()),
           learners_(context_),
           choice_(settings_.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
-                  settings_.fields != nullptr, tiles_.size(), context_.pixels) {}
+                  settings_.fields != nullptr, tiles_.size(), context_.pixels),
+          walks_(scene_, film_, settings_, choice_, learners_) {
+        if (settings_.fields) {
+            if (auto picture = take_notes(settings_.fields->notes, context_, film_, learners_, choice_)) {
+                taught_.push_back(std::move(*picture));
+            }
+        }
+    }
 
     bool step(double seconds) {
         if (!is_within_pass_) {
             // What a pass begins with takes time, too.
             constexpr int stopped = -1;
-            const int count = team_.agreed(settings_.stop && *settings_.stop ? stopped : next_count());
+            const int count = shares_.team().agreed(settings_.stop && *settings_.stop ? stopped : next_count());
             is_stopped_ = count == stopped;
             if (count <= 0) {
                 return is_stopped_;
@@ -87,12 +71,12 @@ public:
         const Rest rest(std::min(time_after(Clock::now(), seconds), end_of_time()), settings_.stop);
         for (bool is_over = false; all_have_walked(rest, is_over);) {
             if (kind_ + 1 == choice_.kinds().size()) {
-                share();
+                share_film();
                 end_pass();
-                return team_.agreed(next_count()) > 0;
+                return shares_.team().agreed(next_count()) > 0;
             }
             if (next_kind_begins_stage()) {
-                share();
+                share_film();
                 film_.begin_stage();
             }
             for (Tile& tile : tiles_) {
@@ -111,27 +95,11 @@ public:
     bool is_stopped() const { return is_stopped_; }
 
     void share() {
-        if (team_.is_alone() || !is_within_pass_) {
-            return;
-        }
-        ArchiveWriter mine;
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            if (owns(i)) {
-                archive_tile(mine, *this, i);
-            }
-        }
-        const std::vector<std::string> all = team_.gather(mine.take());
-        for (std::size_t rank = 0; rank < all.size(); ++rank) {
-            if (static_cast<int>(rank) == team_.rank()) {
-                continue;
-            }
-            ArchiveReader bytes(all[rank]);
-            for (std::size_t i = 0; i < tiles_.size(); ++i) {
-                if (owners_[i] == static_cast<int>(rank)) {
-                    archive_tile(bytes, *this, i);
-                }
-            }
-            bytes.require(bytes.empty());
+        if (is_within_pass_) {
+            shares_.gather([&](auto& bytes, std::size_t tile) {
+                archive_work(bytes, *this, tile);
+                Film::archive_part(bytes, film_, tiles_[tile].pixels);
+            });
         }
     }
 
@@ -167,9 +135,9 @@ public:
             statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
         }
         statistics.interrupted = is_within_pass_ || next_count() > 0;
-        statistics.ranks = team_.size();
-        statistics.bytes_sent = team_.bytes_sent();
-        statistics.waiting_seconds = team_.waiting_seconds();
+        statistics.ranks = shares_.team().size();
+        statistics.bytes_sent = shares_.team().bytes_sent();
+        statistics.waiting_seconds = shares_.team().waiting_seconds();
         return statistics;
     }
 
@@ -181,8 +149,16 @@ public:
 
     RenderStatistics result() const {
         RenderStatistics result = statistics();
-        result.fields = fields();
-        result.field_bytes = result.fields ? result.fields->bytes() : 0;
+        if (settings_.preset.is_classical()) {
+            check_rejected(result.counts);
+            return result;
+        }
+        guide::Fields learned = learners_.get<FieldLearner>().fields();
+        if (settings_.keeps_fields) {
+            learned.notes = notes_of(context_, film_, learners_, choice_, seen_picture());
+        }
+        result.fields = std::make_shared<const guide::Fields>(std::move(learned));
+        result.field_bytes = result.fields->bytes();
         check_rejected(result.counts);
         return result;
     }
@@ -209,7 +185,8 @@ private:
     static void archive(Archive& bytes, Self& work) {
         bytes.same(work.tiles_.size());
         bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
-              work.mark_, work.last_mark_);
+              work.mark_, work.last_mark_, work.taught_);
+        bytes.require(work.taught_.size() <= 1);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
             archive_work(bytes, work, i);
@@ -218,7 +195,8 @@ private:
             return list.empty() || list.size() == static_cast<std::size_t>(work.context_.pixels);
         };
         bytes.require(is_of_pixels(work.plan_.estimates) && is_of_pixels(work.plan_.firsts) &&
-                      is_of_pixels(work.plan_.counts));
+                      is_of_pixels(work.plan_.counts) &&
+                      (work.taught_.empty() || is_of_pixels(work.taught_.front().means)));
         bytes.require(work.kind_ < work.choice_.kinds().size() && work.plan_.count >= 0 && work.plan_.first >= 0 &&
                       work.statistics_.samples >= 0);
     }
@@ -229,22 +207,19 @@ private:
         bytes(work.tiles_[tile]);
         work.learners_.archive_records(bytes, work.records_[tile]);
     }
-    template <class Archive, class Self>
-    static void archive_tile(Archive& bytes, Self& work, std::size_t tile) {
-        archive_work(bytes, work, tile);
-        Film::archive_part(bytes, work.film_, work.tiles_[tile].pixels);
+    /// Tells all ranks what each has added to the film. Records are told of when they are learned from.
+    void share_film() {
+        shares_.gather([&](auto& bytes, std::size_t tile) {
+            bytes(tiles_[tile]);
+            Film::archive_part(bytes, film_, tiles_[tile].pixels);
+        });
     }
-
-    bool owns(std::size_t tile) const { return team_.is_alone() || owners_[tile] == team_.rank(); }
-    /// Who walks which tile in the pass at hand.
     void share_out() {
-        if (!team_.is_alone()) {
-            std::vector<std::uint64_t> work;
-            for (const Tile& tile : tiles_) {
-                work.push_back(tile.counts.segments);
-            }
-            owners_ = shares_of_ranks(work, team_.size());
+        std::vector<std::uint64_t> work;
+        for (const Tile& tile : tiles_) {
+            work.push_back(tile.counts.segments);
         }
+        shares_.share_out(work);
     }
     /// Goes on with walks of the kind at hand. Whether all ranks have walked theirs; where one is stopped, or time is
     /// over, all know what each has done.
@@ -252,7 +227,8 @@ private:
         struct Said {
             bool has_walked, is_stopped, is_time_over;
         };
-        const std::vector<Said> all = team_.all(Said{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()});
+        const std::vector<Said> all =
+            shares_.team().all(Said{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()});
         const auto any = [&](bool Said::*what) {
             return std::any_of(all.begin(), all.end(), [what](const Said& said) { return said.*what; });
         };
@@ -282,7 +258,7 @@ private:
         // Of other ranks it is not known how far they are in the pass at hand.
         double paths = 0, pixels = 0;
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            if (owns(i)) {
+            if (shares_.owns(i)) {
                 paths += static_cast<double>(tiles_[i].counts.paths);
                 pixels += tiles_[i].pixel_count();
             }
@@ -306,7 +282,8 @@ private:
     void begin_pass(int count) {
         const bool is_last =
             schedule_.is_last(static_cast<int>(statistics_.passes.size()), statistics_.samples + count);
-        plan_ = plan_for(count, is_last, statistics_.samples);
+        plan_ =
+            plan_pass({context_, film_, learners_, choice_, taught()}, {statistics_.samples, noise_}, count, is_last);
         learners_.begin(plan_);
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
             tiles_[i].shares = choice_.shares(i, count);
@@ -331,7 +308,7 @@ private:
         statistics_.samples += plan_.count;
         statistics_.passes.push_back(plan_.count);
         const Clock::time_point start = Clock::now();
-        learners_.learn(records_, plan_);
+        learners_.learn(records_, plan_, shares_);
         statistics_.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
@@ -343,44 +320,10 @@ private:
         mark_ = std::exchange(last_mark_, {fraction(), seconds()});
     }
 
-    PassPlan plan_for(int count, bool is_last, int samples) const {
-        const Preset& preset = settings_.preset;
-        PassPlan plan;
-        plan.first = samples;
-        plan.count = count;
-        plan.learns =
-            samples < settings_.training_samples && !(is_last && choice_.kinds().size() > 1 && !settings_.keeps_fields);
-        plan.guides = choice_.guides(count);
-        plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
-        // In a small picture the fields would learn from too few.
-        constexpr double fewest_recorded = 1024;
-        const double walks = context_.walks(plan);
-        plan.recorded_share = std::min(learners_.get<FieldLearner>().recorded_share(walks),
-                                       std::max(choice_.recorded_share(samples), fewest_recorded / walks));
-        double sample_variance = std::pow(noise_, 2) * samples;
-        // By fewer samples the noise is not known well enough to divide what follows by it.
-        constexpr int known_noise = 15;
-        if (preset.adaptive && samples >= known_noise) {
-            const std::vector<PixelNoise> noise = film_.noise();
-            sample_variance = 0;
-            for (const PixelNoise& pixel : noise) {
-                plan.firsts.push_back(pixel.count);
-                sample_variance += pixel.variance / context_.pixels;
-            }
-            // In a trial all kinds of walks are to be compared everywhere.
-            if (!choice_.is_trial()) {
-                plan.counts = sample_counts(noise, film_.crop().width(), count, settings_.seed);
-            }
-        }
-        if (preset.guides_survival() && samples >= warm_up_samples && settings_.exposure > 0) {
-            plan.estimates = pixel_estimates(as_in_scene(film_.beauty(), settings_.balance), samples);
-            for (float& estimate : plan.estimates) {
-                estimate /= settings_.exposure;
-                plan.mean_estimate += static_cast<double>(estimate) / context_.pixels;
-            }
-            plan.sample_variance = sample_variance;
-        }
-        return plan;
+    const TaughtPicture* taught() const { return taught_.empty() ? nullptr : &taught_.front(); }
+    /// What others are told of the picture.
+    TaughtPicture seen_picture() const {
+        return is_within_pass_ ? TaughtPicture() : picture_seen(context_, film_, statistics_.samples);
     }
 
     /// By what the pass has shown, the kinds of walks to come; whether that changes anything.
@@ -395,76 +338,28 @@ private:
 
     /// Walks of the kind at hand; whether all have been walked.
     bool walk(const Rest& rest) {
-        const Preset& preset = choice_.kinds()[kind_].preset;
-        const auto run_with = [&](const auto& decisions) {
-            const Pass one(scene_, film_, settings_, decisions, choice_, kind_, learners_, plan_, rest);
-            parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) {
-                if (owns(i)) {
-                    one.run(tiles_[i], records_[i]);
-                }
-            });
-        };
-        if (settings_.preset.is_classical()) {
-            run_with(ClassicalDecisions{{}, {}, ClassicalRoulette()});
-        } else if (preset.is_classical() && beams_.empty()) {
-            run_with(ClassicalDecisions{{}, {}, unguided_walks_end});
-        } else if (preset.is_classical()) {
-            run_with(GuidedDecisions{towards_beams_,
-                                     GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
-                                     unguided_walks_end});
-        } else {
-            walk_guided(preset, run_with);
-        }
+        walks_.walk(kind_, plan_, rest, tiles_, records_, shares_);
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            if (owns(i) && tiles_[i].pixels_done < tiles_[i].pixel_count()) {
+            if (shares_.owns(i) && tiles_[i].pixels_done < tiles_[i].pixel_count()) {
                 return false;
             }
         }
         return true;
     }
 
-    template <class Run>
-    void walk_guided(const Preset& preset, const Run& run_with) {
-        const auto& learned = learners_.get<FieldLearner>();
-        const guide::Fields& fields = learned.fields();
-        const GuidedDistance distance(
-            &fields.surface, &fields.volume, classical_flights,
-            preset.distance ? DistanceGuiding::scatter_and_distance : DistanceGuiding::scatter_alone, beams_);
-        const GuidedDirection direction(&fields.surface, &fields.volume,
-                                        preset.direction ? std::nullopt : std::optional(1.0f),
-                                        preset.direction ? &learned.surface_caustics() : nullptr,
-                                        preset.direction ? &learned.volume_caustics() : nullptr);
-        const auto run_guided = [&](const auto& survival) {
-            if (preset.guides_distance() || !beams_.empty()) {
-                run_with(GuidedDecisions{preset.guides_distance() ? distance : towards_beams_, direction, survival});
-            } else {
-                run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
-            }
-        };
-        if (plan_.estimates.empty()) {
-            run_guided(guided_walks_end);
-        } else {
-            run_guided(AdjointRouletteSplitting(preset.roulette, preset.splitting, plan_.sample_variance));
-        }
-    }
-
     const Scene& scene_;
     Film& film_;
     const RenderSettings settings_;
-    Team team_{settings_.ranks};
+    TileShares shares_{settings_.ranks};  ///< of the pass at hand
     Schedule schedule_;
     LearningContext context_;
-    const std::vector<Beam> beams_ = beams_of(scene_.lights());
-    /// Fields that never learn, for flights that follow beams alone.
-    const guide::Fields unknown_{guide::Field::empty(scene_.bounds()), guide::Field::empty(scene_.bounds())};
-    const GuidedDistance<guide::Field> towards_beams_{&unknown_.surface, &unknown_.volume, classical_flights,
-                                                      DistanceGuiding::scatter_and_distance, beams_};
     std::vector<Tile> tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
     Learners learners_;
     GuidingChoice choice_;
+    const Walks walks_;
+    std::vector<TaughtPicture> taught_;  ///< by an earlier render: one, or none
 
-    std::vector<int> owners_;  ///< by tile, in the pass at hand: ranks; none where there is one
     bool is_stopped_ = false, is_time_over_ = false;
     bool is_within_pass_ = false;
     PassPlan plan_;                ///< of the pass at hand

@@ -3,12 +3,12 @@
 
 #include <wend/core/archive.h>
 #include <wend/core/colour_matrix.h>
+#include <wend/core/ranks.h>
 #include <wend/film/film.h>
 #include <wend/film/filter.h>
 #include <wend/guide/fit.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/preset.h>
-#include <wend/render/ranks.h>
 #include <wend/sampling/sampler.h>
 #include <wend/transport/first_surface.h>
 #include <wend/transport/path_tracer.h>

@@ -1,4 +1,4 @@
-#include <wend/render/ranks.h>
+#include <wend/core/ranks.h>
 
 #include <algorithm>
 #include <functional>
@@ -18,12 +18,12 @@ std::vector<int> shares_of_ranks(const std::vector<std::uint64_t>& work, int ran
         loads.emplace(0, rank);
     }
     std::vector<int> shares(work.size());
-    for (const std::size_t tile : order) {
+    for (const std::size_t piece : order) {
         auto [load, rank] = loads.top();
         loads.pop();
-        shares[tile] = rank;
-        // A tile costs something even where its walks end at once.
-        loads.emplace(load + work[tile] + 1, rank);
+        shares[piece] = rank;
+        // A piece costs something even where it was nothing so far.
+        loads.emplace(load + work[piece] + 1, rank);
     }
     return shares;
 }

@@ -1,18 +1,30 @@
-// The processes that render a picture together, as one of them talks to the others.
+// The processes that do one thing together, as one of them talks to the others.
 #pragma once
 
 #include <wend/core/archive.h>
-#include <wend/render/ranks.h>
+#include <wend/core/ranks.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wend {
 
 /// All ranks make the same calls in the same order. Without ranks a process is alone and agrees with itself.
 class Team {
+    // Before its uses, which ask what it returns.
+    template <class Talk>
+    auto waiting(const Talk& talk) {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
+        auto said = talk();
+        waiting_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+        return said;
+    }
+
 public:
     /// `ranks` may be null, and must outlive this.
     explicit Team(Ranks* ranks) : ranks_(ranks) {}
@@ -22,18 +34,32 @@ public:
     int size() const { return ranks_ ? ranks_->size() : 1; }
 
     /// What each says, in the order of the ranks.
-    std::vector<std::string> gather(const std::string& mine) {
+    std::vector<std::string> gather(std::string mine) {
         if (is_alone()) {
-            return {mine};
+            return {std::move(mine)};
         }
-        using Clock = std::chrono::steady_clock;
-        const Clock::time_point start = Clock::now();
-        std::vector<std::string> all = ranks_->gather(mine);
         bytes_sent_ += mine.size();
-        waiting_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-        return all;
+        return waiting([&] { return ranks_->gather(std::move(mine)); });
     }
-    /// The same for values that archives take.
+    /// What each says to this rank, where this one says `mine[i]` to the i-th.
+    std::vector<std::string> exchange(std::vector<std::string> mine) {
+        if (is_alone()) {
+            return mine;
+        }
+        for (std::size_t other = 0; other < mine.size(); ++other) {
+            bytes_sent_ += static_cast<int>(other) == rank() ? 0 : mine[other].size();
+        }
+        return waiting([&] { return ranks_->exchange(std::move(mine)); });
+    }
+    /// Over all ranks, number by number.
+    std::vector<std::uint64_t> sum(std::vector<std::uint64_t> mine) {
+        if (is_alone()) {
+            return mine;
+        }
+        bytes_sent_ += mine.size() * sizeof mine[0];
+        return waiting([&] { return ranks_->sum(std::move(mine)); });
+    }
+    /// gather() for values that archives take.
     template <class T>
     std::vector<T> all(const T& mine) {
         if (is_alone()) {

@@ -1,0 +1,102 @@
+#include <wend/decision/pixel_estimate.h>
+#include <wend/render/pass_planning.h>
+#include <wend/render/sample_budget.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wend {
+namespace {
+
+/// By fewer samples the noise is not known well enough to divide what follows by it.
+constexpr int known_noise = 15;
+
+/// A film's picture before its white was balanced.
+Image as_in_scene(const Film& film, const ColourMatrix& balance) {
+    Image picture = film.beauty();
+    if (!balance.is_identity()) {
+        const ColourMatrix back = balance.inverse();
+        for (Rgb& pixel : picture.pixels) {
+            pixel = back * pixel;
+        }
+    }
+    return picture;
+}
+
+double mean_variance(const std::vector<PixelNoise>& noise) {
+    double sum = 0;
+    for (const PixelNoise& pixel : noise) {
+        sum += pixel.variance / static_cast<double>(noise.size());
+    }
+    return sum;
+}
+
+}  // namespace
+
+PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int count, bool is_last) {
+    const auto& [context, film, learners, choice, taught] = known;
+    const RenderSettings& settings = context.settings;
+    const Preset& preset = settings.preset;
+    const int samples = rendered.samples;
+    PassPlan plan;
+    plan.first = samples;
+    plan.count = count;
+    plan.learns =
+        samples < settings.training_samples && !(is_last && choice.kinds().size() > 1 && !settings.keeps_fields);
+    plan.guides = choice.guides(count);
+    plan.steers = preset.direction || learners.get<InteriorLearner>().can_guide();
+    // In a small picture the fields would learn from too few.
+    constexpr double fewest_recorded = 1024;
+    const double walks = context.walks(plan);
+    plan.recorded_share = std::min(learners.get<FieldLearner>().recorded_share(walks),
+                                   std::max(choice.recorded_share(samples), fewest_recorded / walks));
+    double sample_variance = std::pow(rendered.noise, 2) * samples;
+    const bool knows_noise = samples >= known_noise;
+    if (!knows_noise && taught) {
+        sample_variance = taught->sample_variance;
+    }
+    // Every pixel has one sample in any case.
+    if (preset.adaptive && (knows_noise || (taught && samples > 0))) {
+        const std::vector<PixelNoise> noise = knows_noise ? film.noise() : taught->noise(film.noise());
+        sample_variance = mean_variance(noise);
+        for (const PixelNoise& pixel : noise) {
+            plan.firsts.push_back(pixel.count);
+        }
+        // In a trial all kinds of walks are to be compared everywhere.
+        if (!choice.is_trial()) {
+            plan.counts = sample_counts(noise, film.crop().width(), count, settings.seed);
+        }
+    }
+    if (preset.guides_survival() && (samples >= warm_up_samples || taught) && settings.exposure > 0) {
+        const Image shown = as_in_scene(film, settings.balance);
+        plan.estimates =
+            taught ? pixel_estimates(taught->with(shown, samples, settings.exposure), taught->samples + samples)
+                   : pixel_estimates(shown, samples);
+        for (float& estimate : plan.estimates) {
+            estimate /= settings.exposure;
+            plan.mean_estimate += static_cast<double>(estimate) / context.pixels;
+        }
+        plan.sample_variance = sample_variance;
+    }
+    return plan;
+}
+
+TaughtPicture picture_seen(const LearningContext& context, const Film& film, int samples) {
+    if (samples < known_noise || !(context.settings.exposure > 0)) {
+        return {};
+    }
+    TaughtPicture picture;
+    picture.samples = samples;
+    for (const Rgb& pixel : as_in_scene(film, context.settings.balance).pixels) {
+        picture.means.push_back(std::max(0.0f, mean_value(pixel)) / context.settings.exposure);
+    }
+    const std::vector<PixelNoise> noise = film.noise();
+    for (const PixelNoise& pixel : noise) {
+        picture.variances.push_back(static_cast<float>(pixel.variance));
+        picture.work.push_back(static_cast<float>(pixel.work));
+    }
+    picture.sample_variance = mean_variance(noise);
+    return picture;
+}
+
+}  // namespace wend
