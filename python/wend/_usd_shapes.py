@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Sdf, UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from . import _usd_subdivision as subdivision
+from ._usd_materials import look_of
 
 Parameters = dict[str, Any]
 
@@ -30,8 +31,10 @@ def mesh_parts(
         return
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
     is_left_handed = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
-    values = _values(reader, prim, counts, corners, len(points), end_points is not None)
     parts = _parts(mesh, time, len(counts))
+    wanted = (look_of(reader, prim, bound).coordinates for bound, chosen in parts if chosen.any())
+    coordinates = _coordinates(reader, prim, next((name for name in wanted if name is not None), None))
+    values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates)
     if scheme != UsdGeom.Tokens.none:
         faces = subdivision.Faces(counts, corners, scheme, is_left_handed)
         surface = subdivision.surface(reader, prim, points, faces, values.get("point2 uv"), world, in_object)
@@ -73,7 +76,13 @@ def _points(reader: Any, prim: Any) -> tuple[npt.NDArray[np.float32], npt.NDArra
 
 
 def _values(
-    reader: Any, prim: Any, counts: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], points: int, moves: bool
+    reader: Any,
+    prim: Any,
+    counts: npt.NDArray[np.int64],
+    corners: npt.NDArray[np.int64],
+    points: int,
+    moves: bool,
+    coordinates: tuple[npt.NDArray[np.float32], str] | None,
 ) -> dict[str, tuple[npt.NDArray[np.float32], str]]:
     """Normals and texture coordinates, with their interpolation. Subdivision surfaces have their own normals."""
     mesh = UsdGeom.Mesh(prim)
@@ -85,7 +94,6 @@ def _values(
             end_normals = _normals(mesh, reader.shutter[1])
             if moves and end_normals is not None:
                 values["normal3 N1"] = end_normals
-    coordinates = _coordinates(prim, reader.time)
     if coordinates is not None:
         values["point2 uv"] = coordinates
     sizes = {
@@ -164,9 +172,11 @@ def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None
     return (np.array(found, dtype=np.float32).reshape(-1, 3), mesh.GetNormalsInterpolation()) if found else None
 
 
-def _coordinates(prim: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
-    api = UsdGeom.PrimvarsAPI(prim)
-    primvars = [api.GetPrimvar("st"), api.GetPrimvar("UVMap"), *api.GetPrimvarsWithValues()]
+def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
+    """Those that are asked for, or the usual ones."""
+    api, time = UsdGeom.PrimvarsAPI(prim), reader.time
+    names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
+    primvars = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names)), *api.GetPrimvarsWithValues()]
     for primvar in primvars:
         if primvar and primvar.HasValue() and primvar.GetTypeName().role == "TextureCoordinate":
             array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)

@@ -75,6 +75,9 @@ def read(
 #: Instances within instances multiply.
 _MOST_NESTED = 2**20
 
+#: Of lights and what shines, of which each copy is a light of its own.
+_MOST_LIGHTS = 2**14
+
 
 @dataclass
 class Prototype:
@@ -82,6 +85,8 @@ class Prototype:
 
     name: str | None  #: None: it has no shapes of its own
     inner: list[tuple[Prototype, Places]]
+    #: what no object may hold: lights, what shines, volumes; with where in the prototype it is
+    lights: list[tuple[Any, Places]]
     is_made: bool
 
 
@@ -97,7 +102,7 @@ class _Reader(SceneReader):
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.prototypes: dict[str, Prototype] = {}
-        self.nested = 0
+        self.nested = self.lights = 0
         self.has_light = False
 
     def warn(self, prim: Any, text: str) -> None:
@@ -120,6 +125,11 @@ class _Reader(SceneReader):
     def world(self, prim: Any) -> Places:
         return np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
 
+    def place_at_time(self, prim: Any, world: Places) -> Any:
+        """At the time of the picture, as far as the prim is no copy; else where the shutter opens."""
+        is_copy = not np.array_equal(self.world(prim), world)
+        return world[0] if is_copy else np.array(UsdGeom.XformCache(self.time).GetLocalToWorldTransform(prim))
+
     def prims(self, root: Any) -> Iterator[Any]:
         """Those that are to be seen; what an instancer copies is left to it."""
         walk = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
@@ -135,12 +145,11 @@ class _Reader(SceneReader):
             yield prim
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
-        if prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase):
-            if in_object:
-                self.warn(prim, "a light that is copied by an instancer is left out")
-            else:
-                self.has_light = lights.add(self, prim, world) or self.has_light
+        if _is_light(prim):
+            self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
+            if prim.HasAPI(UsdLux.MeshLightAPI):
+                self.warn(prim, "a mesh that is a light shines by its material alone")
             for part, faces in mesh_parts(self, prim, world[0], in_object):
                 self.add_shape(prim, part, world, faces, in_object)
         elif prim.IsA(UsdGeom.BasisCurves):
@@ -150,7 +159,7 @@ class _Reader(SceneReader):
             radius = float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(self.time))
             self.add_shape(prim, prim, world, ("sphere", {"float radius": radius}), in_object)
         elif prim.IsA(UsdVol.Volume):
-            self.add_volume(prim, world, in_object)
+            self.add_volume(prim, world)
         elif prim.IsA(UsdGeom.PointInstancer):
             self.add_instances(prim, world)
         elif prim.IsA(UsdGeom.Gprim):
@@ -171,12 +180,9 @@ class _Reader(SceneReader):
             self.builder.add("NamedMaterial", look.name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
-            if look.emission is not None:
-                if in_object:
-                    self.warn(prim, "what shines and is copied by an instancer does not shine")
-                else:
-                    self.builder.add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
-                    self.has_light = True
+            if look.shine is not None:
+                self.builder.add("AreaLightSource", "diffuse", look.shine)
+                self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
     def add_instances(self, prim: Any, world: Places) -> None:
@@ -202,21 +208,25 @@ class _Reader(SceneReader):
         if key in self.prototypes:
             if not self.prototypes[key].is_made:
                 self.warn(self.stage.GetPrimAtPath(path), "what copies itself is left out")
-                return Prototype(None, [], True)
+                return Prototype(None, [], [], True)
             return self.prototypes[key]
-        made = self.prototypes[key] = Prototype(None, [], False)
+        made = self.prototypes[key] = Prototype(None, [], [], False)
         root = self.stage.GetPrimAtPath(path)
         from_root = np.linalg.inv(self.world(root))
-        parts = list(self.prims(root))
-        # An object holds no instances: what an instancer within copies is placed where all of it is.
-        for part in parts:
+        held = []
+        # An object holds no instances and no lights: they are placed where all of it is.
+        for part in self.prims(root):
+            place = self.world(part) @ from_root
             if part.IsA(UsdGeom.PointInstancer):
-                made.inner += self.instances(part, self.world(part) @ from_root)
+                made.inner += self.instances(part, place)
+            elif _is_light(part) or part.IsA(UsdVol.Volume) or materials.shines(self, part):
+                made.lights.append((part, place))
+            else:
+                held.append((part, place))
         empty = len(self.builder) + 2
         with self.builder.block("Object", key):
-            for part in parts:
-                if not part.IsA(UsdGeom.PointInstancer):
-                    self.add_prim(part, self.world(part) @ from_root, in_object=True)
+            for part, place in held:
+                self.add_prim(part, place, in_object=True)
         made.name = key if len(self.builder) > empty else None
         made.is_made = True
         return made
@@ -226,6 +236,12 @@ class _Reader(SceneReader):
             with self.builder.block():
                 self.put(places)
                 self.builder.add("ObjectInstance", prototype.name)
+        for part, within in prototype.lights:
+            self.lights += 1
+            if self.lights > _MOST_LIGHTS:
+                self.warn(prim, f"of copies of lights, of what shines and of volumes no more than {_MOST_LIGHTS} are there")
+                break
+            self.add_prim(part, within @ places, in_object=False)
         for inner, within in prototype.inner:
             self.nested += 1
             if self.nested > _MOST_NESTED:
@@ -233,11 +249,11 @@ class _Reader(SceneReader):
                 return
             self.place(prim, inner, within @ places)
 
-    def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
+    def add_volume(self, prim: Any, world: Places) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
         field = self.stage.GetPrimAtPath(fields["density"]) if "density" in fields else None
-        if not field or not field.IsA(UsdVol.OpenVDBAsset) or in_object:
-            self.warn(prim, "a volume without a field 'density' of OpenVDB, or one that is copied, is left out")
+        if not field or not field.IsA(UsdVol.OpenVDBAsset):
+            self.warn(prim, "a volume without a field 'density' of OpenVDB is left out")
             return
         asset = UsdVol.OpenVDBAsset(field)
         path = asset.GetFilePathAttr().Get(self.time)
@@ -248,7 +264,8 @@ class _Reader(SceneReader):
         grid = asset.GetFieldNameAttr().Get(self.time) or "density"
         extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
         colour = materials.display_colour(prim, self.time)
-        name = str(prim.GetPath())
+        # A copy has its own: it lies where it was made.
+        name = f"{prim.GetPath()} {len(self.builder)}"
         with self.builder.block():
             self.put(world)
             self.builder.add(
@@ -327,6 +344,10 @@ class _Reader(SceneReader):
         self.builder.add("Scale", -1, 1, 1)
         self.builder.add("LookAt", eye, middle, upwards)
         self.builder.add("Camera", "perspective", {"float fov": fov})
+
+
+def _is_light(prim: Any) -> bool:
+    return bool(prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase))
 
 
 def _reason(error: Any) -> str:
