@@ -53,6 +53,15 @@ def inner_angle(softness: Any, cone: float) -> float | None:
     return float(np.degrees(np.arccos(min(edge + float(softness.Get()) * (1 - edge), 1.0))))
 
 
+def unscaled(prim: Any, world: Matrix) -> Matrix:
+    """Places of a light that Blender does not scale with its object: a sphere."""
+    if not defined(prim):
+        return world
+    result = world.copy()
+    result[:, :3, :3] /= np.maximum(np.linalg.norm(result[:, :3, :3], axis=2, keepdims=True), 1e-30)
+    return result
+
+
 def is_unseen(reader: Any, prim: Any) -> bool:
     """Blender's lamps are not seen, unless it is asked for, which is not written."""
     if not defined(prim):

@@ -15,9 +15,12 @@ from . import _ies
 from . import _usd_blender as blender
 from ._film import Film, read
 from ._scene_reader import Places
-from ._sky import directions, equal_area
+from ._sky import directions
 
 Matrix = npt.NDArray[np.float64]
+
+#: From pbrt's pictures by latitude and longitude, whose middle is towards x and whose left is towards y, to a dome's.
+_LATLONG = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
 
 #: Of pictures of how lights are shaped.
 _SHAPED_SIDE = 512
@@ -179,21 +182,27 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
     dome = UsdLux.DomeLight_1(prim) if str(prim.GetTypeName()) == "DomeLight_1" else UsdLux.DomeLight(prim)
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
-    local = np.array(UsdGeom.Xformable(prim).GetLocalTransformation(reader.time))
-    _stand(reader, prim, blender.turned_sky(reader, prim, local) @ world)
-    if not texture or not texture.path:
-        reader.builder.add("LightSource", "infinite", {"rgb L": radiance})
+    picture = read(texture.resolvedPath or texture.path).image if texture and texture.path else np.ones((1, 1, 3))
+    if np.ptp(picture, axis=(0, 1)).max() == 0:
+        _stand(reader, prim, world)
+        reader.builder.add("LightSource", "infinite", {"rgb L": radiance * picture[0, 0]})
         return
+    local = np.array(UsdGeom.Xformable(prim).GetLocalTransformation(reader.time))
+    _stand(reader, prim, _LATLONG @ blender.turned_sky(reader, prim, local) @ world)
     if format_ not in ("automatic", "latlong"):
         reader.warn(prim, f"a {format_} picture of a dome is taken as a latlong one")
-    picture = read(texture.resolvedPath or texture.path).image
-    file = reader.map_file(f"dome{len(reader.builder)}.exr")
-    Film.of(equal_area(picture) * radiance.astype(np.float32)).save(file)
-    reader.builder.add("LightSource", "infinite", {"string filename": file})
+    sky: dict[str, Any] = {"string filename": texture.resolvedPath or texture.path, "string mapping": "equirectangular"}
+    if np.ptp(radiance) == 0:
+        sky["float scale"] = float(radiance[0])
+    else:
+        sky["string filename"] = reader.map_file(f"dome{len(reader.builder)}.exr")
+        Film.of(picture * radiance.astype(np.float32)).save(sky["string filename"])
+    reader.builder.add("LightSource", "infinite", sky)
 
 
 def _sphere(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
+    world = blender.unscaled(prim, world)
     scale = _scales(world[0])
     area = 4 * math.pi * radius**2 * float(np.cbrt(np.prod(scale))) ** 2
     # From afar a sphere has this intensity, however small it is where it is normalised.

@@ -162,7 +162,8 @@ class Inputs:
             if picture.bias[3] != 0:
                 self.reader.warn(self.shader.GetPrim(), "the bias of an opacity is left out")
         elif kind == "float" and picture.channel not in _CHANNELS:
-            self.reader.warn(self.shader.GetPrim(), "of a texture for a number the mean of red, green and blue is taken")
+            self.reader.warn(self.shader.GetPrim(), "of a texture for a number the luminance is taken")
+            parameters["string channels"] = "luminance"
         is_plain = picture.channel not in _CHANNELS and np.ptp(scale) <= 1e-6 and np.abs(picture.bias[:3]).max() <= 1e-6
         if not is_opacity and (kind == "float" or not is_plain):
             parameters |= {"string filename": self.made(picture), "string encoding": "linear"}
