@@ -29,7 +29,8 @@ except ImportError as error:
 from . import _reader_command as command
 from . import _usd_lights as lights
 from . import _usd_materials as materials
-from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
+from ._usd_curves import curve_segments
+from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
 from ._usd_subdivision import Refinement, View
 
 
