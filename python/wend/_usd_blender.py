@@ -82,3 +82,12 @@ def specular(inputs: Any) -> float:
     """A factor of the reflectance, which preview surfaces have no word for; 1/2 is plain."""
     given = inputs.shader.GetInput("specular")
     return 2 * float(inputs.constant("specular", 0.5)) if given and wrote(given.GetAttr()) else 1.0
+
+
+def is_matt(inputs: Any) -> bool:
+    """Whether a preview surface is Blender's diffuse node: a principled one has an index, too. Its roughness, 0, is none
+    of a coat's."""
+    shader = inputs.shader
+    colour = shader.GetInput("diffuseColor")
+    written = colour and wrote((colour.GetValueProducingAttributes() or [colour.GetAttr()])[0])
+    return bool(written) and not any(shader.GetInput(name) for name in ("ior", "metallic", "specular"))

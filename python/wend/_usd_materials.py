@@ -162,6 +162,9 @@ class _Surface:
         ior = float(self.constant("ior", 1.5))
         if is_clear:
             parameters = self._glass(ior)
+        elif self.is_preview and blender.is_matt(self.inputs):
+            parameters = {"string type": "diffuse"}
+            self.add_to(parameters, "colour", "reflectance", "rgb", self._grey())
         elif float(self.constant("inside", 0)) > 0.5:
             parameters = self._wax(ior)
         else:
@@ -273,11 +276,14 @@ class _Surface:
 
 
 def _surface(reader: Any, material: Any, key: str) -> UsdLook:
-    shader = material.ComputeSurfaceSource("mtlx")[0]
-    if shader and shader.GetIdAttr().Get() in _WORDS:
-        return _Surface(reader, shader, key).made()
-    name = shader.GetIdAttr().Get() if shader else "no surface"
-    reader.warn(material.GetPrim(), f"a material of {name} is taken as grey")
+    of_materialx, plain = (material.ComputeSurfaceSource(context)[0] for context in ("mtlx", ""))
+    names = [str(shader.GetIdAttr().Get()) if shader else "no surface" for shader in (of_materialx, plain)]
+    if names[0] in _WORDS:
+        return _Surface(reader, of_materialx, key).made()
+    if names[1] in _WORDS:
+        reader.warn(material.GetPrim(), f"of a material of {names[0]} the {names[1]} is taken")
+        return _Surface(reader, plain, key).made()
+    reader.warn(material.GetPrim(), f"a material of {names[0]} is taken as grey")
     reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0.18, 0.18, 0.18)})
     return UsdLook(key)
 

@@ -17,6 +17,10 @@ _WRAPS = {"repeat": "repeat", "periodic": "repeat", "clamp": "clamp", "black": "
 _CHANNELS = {"r": 0, "g": 1, "b": 2, "outr": 0, "outg": 1, "outb": 2}
 
 
+#: How many nodes are followed from an input to its picture.
+_DEEPEST = 16
+
+
 @dataclass
 class Picture:
     """What a texture's node says: its value is the pixel times `scale` plus `bias`."""
@@ -89,14 +93,21 @@ class Inputs:
     def picture(self, name: str) -> Picture | None:
         """What an input is connected to; None where that is no picture, which is told if it is something else."""
         _, output = self._source(name)
-        if output is None:
-            return None
-        shader = UsdShade.Shader(output.GetPrim())
-        kind = str(shader.GetIdAttr().Get())
+        channel = None
+        for _ in range(_DEEPEST):
+            if output is None:
+                return None
+            shader = UsdShade.Shader(output.GetPrim())
+            kind = str(shader.GetIdAttr().Get())
+            inputs = Inputs(self.reader, shader, self.key)
+            if kind.startswith("ND_extract_color"):
+                channel = "rgba"[min(max(int(inputs.constant("index", 0)), 0), 3)]
+            elif not kind.startswith("ND_convert_color"):
+                break
+            _, output = inputs._source("in")
         if kind != "UsdUVTexture" and not kind.startswith(("ND_image_", "ND_tiledimage_")):
             self.reader.warn(self.shader.GetPrim(), f"{kind} as {name} is left out")
             return None
-        inputs = Inputs(self.reader, shader, self.key)
         file = inputs.constant("file", None)
         if not file or not file.path:
             return None
@@ -105,7 +116,7 @@ class Inputs:
             file.resolvedPath or file.path,
             inputs._is_encoded(),
             _WRAPS.get(str(inputs.constant("wrapS" if is_usd else "uaddressmode", "repeat")), "repeat"),
-            str(output.GetBaseName()),
+            channel or str(output.GetBaseName()),
         )
         if is_usd:
             picture.scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
@@ -128,7 +139,7 @@ class Inputs:
     def _find_coordinates(self, name: str, picture: Picture) -> None:
         """Follows the coordinates of a texture's node to their primvar, through transforms."""
         inputs = self
-        for _ in range(16):
+        for _ in range(_DEEPEST):
             _, output = inputs._source(name)
             if output is None:
                 return
