@@ -62,6 +62,12 @@ def unscaled(prim: Any, world: Matrix) -> Matrix:
     return result
 
 
+def density_factor(prim: Any, world: Matrix) -> float:
+    """A volume of Blender's is as dense for each unit of its own; `world` is where it is."""
+    volume = abs(float(np.linalg.det(world[:3, :3]))) if defined(prim) else 1.0
+    return volume ** (-1 / 3) if volume > 0 else 1.0
+
+
 def is_unseen(reader: Any, prim: Any) -> bool:
     """Blender's lamps are not seen, unless it is asked for, which is not written."""
     if not defined(prim):

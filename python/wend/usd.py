@@ -27,6 +27,7 @@ except ImportError as error:
     raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
 
 from . import _reader_command as command
+from . import _usd_blender as blender
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_curves import curve_segments
@@ -278,6 +279,7 @@ class _Reader(SceneReader):
                     "string gridname": grid,
                     "rgb sigma_s": colour,
                     "rgb sigma_a": np.maximum(1 - np.asarray(colour), 0),
+                    "float scale": blender.density_factor(prim, world[0]),
                 },
             )
             self.builder.add("MediumInterface", name, "")
