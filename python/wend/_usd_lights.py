@@ -133,11 +133,18 @@ def emission(reader: Any, prim: Any) -> npt.NDArray[np.float64]:
     if light.GetEnableColorTemperatureAttr().Get(time) and not blender.has_no_temperature(light):
         colour = colour * blackbody_colour(light.GetColorTemperatureAttr().Get(time))
     factor = float(light.GetIntensityAttr().Get(time)) * 2.0 ** float(light.GetExposureAttr().Get(time))
-    return np.asarray(colour * factor, dtype=np.float64)
+    result = np.asarray(colour * factor, dtype=np.float64)
+    if not np.isfinite(result).all():
+        raise ValueError(f"a light of {result.tolist()}")
+    if result.min() < 0:
+        reader.warn(prim, "light that is negative is left out")
+    return np.maximum(result, 0)
 
 
 def blackbody_colour(kelvin: float) -> npt.NDArray[np.float64]:
-    """Of luminance 1."""
+    """Of luminance 1. UsdLux never ends with what is no number."""
+    if not math.isfinite(kelvin):
+        raise ValueError(f"a colour temperature of {kelvin}")
     return np.array(UsdLux.BlackbodyTemperatureAsRgb(float(kelvin)), dtype=np.float64)
 
 

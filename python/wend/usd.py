@@ -11,6 +11,7 @@ import math
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -112,13 +113,16 @@ class _Reader(SceneReader):
 
     def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
         add = self.builder.add
-        self.add_camera(self.find_camera(path), resolution)
+        eye = self.find_camera(path)
+        with _named(eye or self.stage.GetPseudoRoot()):
+            self.add_camera(eye, resolution)
         add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 64})
         add("WorldBegin")
         for prim in self.prims(self.stage.GetPseudoRoot()):
-            self.add_prim(prim, self.world(prim), in_object=False)
+            with _named(prim):
+                self.add_prim(prim, self.world(prim), in_object=False)
         if not self.has_light:
             self.warn(self.stage.GetPseudoRoot(), "no light: a grey sky of radiance 1 is put around")
             add("LightSource", "infinite", {"rgb L": (1, 1, 1)})
@@ -183,6 +187,8 @@ class _Reader(SceneReader):
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
             if look.shine is not None:
+                if "float alpha" in look.shape_parameters or "texture alpha" in look.shape_parameters:
+                    self.warn(prim, "what shines and is not opaque shines less where it is seen")
                 self.builder.add("AreaLightSource", "diffuse", look.shine)
                 self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
@@ -218,7 +224,8 @@ class _Reader(SceneReader):
         held = []
         # An object holds no instances and no lights: they are placed where all of it is.
         for part in self.prims(root):
-            place = self.world(part) @ from_root
+            with _named(part):
+                place = self.world(part) @ from_root
             if part.IsA(UsdGeom.PointInstancer):
                 made.inner += self.instances(part, place)
             elif _is_light(part) or part.IsA(UsdVol.Volume) or materials.shines(self, part):
@@ -228,7 +235,8 @@ class _Reader(SceneReader):
         empty = len(self.builder) + 2
         with self.builder.block("Object", key):
             for part, place in held:
-                self.add_prim(part, place, in_object=True)
+                with _named(part):
+                    self.add_prim(part, place, in_object=True)
         made.name = key if len(self.builder) > empty else None
         made.is_made = True
         return made
@@ -308,6 +316,9 @@ class _Reader(SceneReader):
         if shutter[0] < shutter[1] and not self.time.IsDefault():
             self.shutter = [Usd.TimeCode(self.time.GetValue() + offset) for offset in shutter]
             self.transforms = [UsdGeom.XformCache(time) for time in self.shutter]
+        sizes = np.array([lens.horizontalAperture, lens.verticalAperture, lens.focalLength])
+        if not (np.isfinite(sizes).all() and sizes.min() > 0):
+            raise InputError(f"{prim.GetPath()}: error: a camera needs apertures and a focal length above 0, not {sizes.tolist()}")
         # A tenth of a scene unit, which is a millimetre where that is a centimetre.
         width, height = lens.horizontalAperture, lens.verticalAperture
         shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
@@ -347,6 +358,24 @@ class _Reader(SceneReader):
         self.builder.add("Scale", -1, 1, 1)
         self.builder.add("LookAt", eye, middle, upwards)
         self.builder.add("Camera", "perspective", {"float fov": fov})
+
+
+#: What a value of a wrong type, or one that is not finite, ends in.
+_BAD_VALUES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError, Tf.ErrorException)
+
+
+@contextmanager
+def _named(prim: Any) -> Iterator[None]:
+    """Errors that the prim's values end in are the file's, not ours.
+
+    Raises:
+        InputError: with the prim's path.
+    """
+    try:
+        yield
+    except _BAD_VALUES as error:
+        reason = _reason(error) if isinstance(error, Tf.ErrorException) else str(error)
+        raise InputError(f"{prim.GetPath()}: error: a value is none that there can be ({reason})") from error
 
 
 def _is_light(prim: Any) -> bool:
