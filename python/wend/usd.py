@@ -7,7 +7,6 @@ kind, as a `SceneWarning` with the prim's path.
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import sys
 from collections.abc import Iterator
@@ -23,17 +22,18 @@ from ._errors import InputError
 from ._scene_reader import Places, SceneReader
 
 try:
-    from pxr import Gf, Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from pxr import Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
 except ImportError as error:
     raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
 
 from . import _reader_command as command
 from . import _usd_blender as blender
+from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_curves import curve_segments
 from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
-from ._usd_subdivision import Refinement, View
+from ._usd_subdivision import Refinement
 
 
 def read(
@@ -69,6 +69,9 @@ def read(
         stage = Usd.Stage.Open(os.fspath(path))
     except Tf.ErrorException as error:
         raise InputError(f"{os.fspath(path)}: error: {_reason(error)}") from None
+    except UnicodeDecodeError:
+        # USD's own message quotes what is wrong.
+        raise InputError(f"{os.fspath(path)}: error: its text is not UTF-8") from None
     if time is None and stage.HasAuthoredTimeCodeRange():
         time = stage.GetStartTimeCode()
     when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
@@ -113,13 +116,15 @@ class _Reader(SceneReader):
 
     def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
         add = self.builder.add
-        eye = self.find_camera(path)
+        eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
-            self.add_camera(eye, resolution)
+            cameras.add(self, eye, resolution)
         add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 64})
         add("WorldBegin")
+        for error in getattr(self.stage, "GetCompositionErrors", list)():
+            self.tell(str(error.rootSite.path), f"of the composition is left out: {error}".strip())
         for prim in self.prims(self.stage.GetPseudoRoot()):
             with _named(prim):
                 self.add_prim(prim, self.world(prim), in_object=False)
@@ -129,7 +134,11 @@ class _Reader(SceneReader):
         return self.builder
 
     def world(self, prim: Any) -> Places:
-        return np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
+        """Raises ValueError for places that are no numbers."""
+        places = np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
+        if not np.isfinite(places).all():
+            raise ValueError("its place is no number")
+        return places
 
     def place_at_time(self, prim: Any, world: Places) -> Any:
         """At the time of the picture, as far as the prim is no copy; else where the shutter opens."""
@@ -205,6 +214,9 @@ class _Reader(SceneReader):
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
+        if not len(start) == len(end) == len(shown):
+            self.warn(prim, "an instancer whose positions are not as many as what it copies is left out")
+            return
         for i, places in zip(shown, zip(start, end)):
             if not 0 <= indices[i] < len(prototypes):
                 raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(prototypes)}")
@@ -220,6 +232,8 @@ class _Reader(SceneReader):
             return self.prototypes[key]
         made = self.prototypes[key] = Prototype(None, [], [], False)
         root = self.stage.GetPrimAtPath(path)
+        if not root:
+            raise InputError(f"{path}: error: what an instancer copies is not there")
         from_root = np.linalg.inv(self.world(root))
         held = []
         # An object holds no instances and no lights: they are placed where all of it is.
@@ -295,70 +309,6 @@ class _Reader(SceneReader):
             self.builder.add("Shape", "trianglemesh", box_mesh(np.array(extent[0]), np.array(extent[1])))
         self.warn(prim, "a volume scatters as much as its density says, with the display colour as its albedo")
 
-    def find_camera(self, path: str | None) -> Any:
-        """The prim; None where the stage has none."""
-        if path is None:
-            return next((p for p in self.prims(self.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
-        prim = self.stage.GetPrimAtPath(path)
-        if not prim or not prim.IsA(UsdGeom.Camera):
-            raise InputError(f"{path}: error: no camera of the stage")
-        return prim
-
-    def add_camera(self, prim: Any, resolution: tuple[int, int]) -> None:
-        aspect = resolution[0] / resolution[1]
-        if prim is None:
-            self.warn(self.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
-            self.view_of_all(resolution)
-            return
-        camera = UsdGeom.Camera(prim)
-        lens = camera.GetCamera(self.time)
-        shutter = [camera.GetShutterOpenAttr().Get(self.time), camera.GetShutterCloseAttr().Get(self.time)]
-        if shutter[0] < shutter[1] and not self.time.IsDefault():
-            self.shutter = [Usd.TimeCode(self.time.GetValue() + offset) for offset in shutter]
-            self.transforms = [UsdGeom.XformCache(time) for time in self.shutter]
-        sizes = np.array([lens.horizontalAperture, lens.verticalAperture, lens.focalLength])
-        if not (np.isfinite(sizes).all() and sizes.min() > 0):
-            raise InputError(f"{prim.GetPath()}: error: a camera needs apertures and a focal length above 0, not {sizes.tolist()}")
-        # A tenth of a scene unit, which is a millimetre where that is a centimetre.
-        width, height = lens.horizontalAperture, lens.verticalAperture
-        shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
-        # The aperture is widened to the shape of the picture.
-        if aspect > width / height:
-            width = height * aspect
-        else:
-            height = width / aspect
-        window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
-        # A camera of USD looks along its -z.
-        places = self.world(prim)
-        self.put(np.asarray(np.linalg.inv(np.diag([1, 1, -1, 1]) @ places), dtype=np.float64))
-        is_parallel = lens.projection == Gf.Camera.Orthographic
-        pixel = width / (10 if is_parallel else lens.focalLength) / resolution[0]
-        self.refinement.view = View(places[0, 3, :3], pixel, is_parallel)
-        if is_parallel:
-            self.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
-            return
-        parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
-        if lens.fStop > 0:
-            parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
-            parameters["float focaldistance"] = lens.focusDistance
-        self.builder.add("Camera", "perspective", parameters)
-
-    def view_of_all(self, resolution: tuple[int, int]) -> None:
-        aspect = resolution[0] / resolution[1]
-        bounds = UsdGeom.BBoxCache(self.time, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
-        box = bounds.ComputeWorldBound(self.stage.GetPseudoRoot()).ComputeAlignedRange()
-        middle = np.zeros(3) if box.IsEmpty() else np.array(box.GetMidpoint())
-        radius = 1.0 if box.IsEmpty() else max(float(np.linalg.norm(np.array(box.GetSize()))) / 2, 1e-6)
-        upwards = np.array([0, 0, 1.0]) if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else np.array([0, 1.0, 0])
-        forwards = np.array([0, 1.0, 0]) if upwards[2] else np.array([0, 0, -1.0])
-        fov = 40.0
-        eye = middle + (0.35 * upwards - forwards) * radius / math.sin(math.radians(fov / 2)) / min(aspect, 1)
-        self.refinement.view = View(eye, 2 * math.tan(math.radians(fov / 2)) / min(resolution))
-        # The camera's own axes are of the other hand, as pbrt's are.
-        self.builder.add("Scale", -1, 1, 1)
-        self.builder.add("LookAt", eye, middle, upwards)
-        self.builder.add("Camera", "perspective", {"float fov": fov})
-
 
 #: What a value of a wrong type, or one that is not finite, ends in.
 _BAD_VALUES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError, Tf.ErrorException)
@@ -373,6 +323,8 @@ def _named(prim: Any) -> Iterator[None]:
     """
     try:
         yield
+    except InputError:
+        raise
     except _BAD_VALUES as error:
         reason = _reason(error) if isinstance(error, Tf.ErrorException) else str(error)
         raise InputError(f"{prim.GetPath()}: error: a value is none that there can be ({reason})") from error
@@ -384,8 +336,15 @@ def _is_light(prim: Any) -> bool:
 
 def _reason(error: Any) -> str:
     """The first of USD's errors, which tells the place in the text."""
-    reasons = [str(getattr(reason, "commentary", reason)).strip() for reason in error.args]
-    return next((reason for reason in reasons if reason), "cannot be read")
+    for reason in error.args:
+        try:
+            text = str(getattr(reason, "commentary", reason)).strip()
+        except UnicodeDecodeError:
+            # It quotes what is wrong.
+            text = "its text is not UTF-8"
+        if text:
+            return text
+    return "cannot be read"
 
 
 def main(arguments: list[str] | None = None) -> int:
