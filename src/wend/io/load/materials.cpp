@@ -7,6 +7,7 @@
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
 #include <wend/sampling/warp.h>
+#include <wend/scene/bsdf/rough_coat.h>
 
 #include <fmt/format.h>
 
@@ -110,10 +111,23 @@ private:
         material.mean_cosine = textures_.real(p, "g", 0);
         material.max_depth = load_count(p, "maxdepth", 10);
         material.walks = load_count(p, "nsamples", 1);
+        const Roughness& roughness = material.roughness;
         if (!textures_.varies(material.thickness)) {
-            material.returned = coat_return(material.ior, std::max(textures_.mean(material.thickness).r, 0.0f));
+            const float thickness = std::max(textures_.mean(material.thickness).r, 0.0f);
+            // Where the roughness varies, as if there were none.
+            const bool varies = textures_.varies(roughness.u) || textures_.varies(roughness.v);
+            DielectricBsdf coat{material.ior, varies ? 0 : alpha_of(roughness.u, roughness),
+                                varies ? 0 : alpha_of(roughness.v, roughness)};
+            coat.slopes = roughness.slopes;
+            material.returned = rough_coat_return(coat, thickness);
         }
         return material;
+    }
+
+    /// Of the same roughness everywhere.
+    float alpha_of(TextureId roughness, const Roughness& of) const {
+        const float r = std::max(textures_.mean(roughness).r, 0.0f);
+        return of.remap ? std::sqrt(r) : r;
     }
 
     /// Of walks and of their steps, each of which costs time for every value.
