@@ -139,9 +139,10 @@ def _mesh(
     values: dict[str, tuple[npt.NDArray[np.float32], str]],
 ) -> Parameters:
     """`triangles` count corners. Points stay shared where every value is one of a point."""
-    vertices = corners[triangles]
+    vertices = corners[triangles].astype(np.int32)
+    values = {name: _of_points(array, kind, corners, len(points)) for name, (array, kind) in values.items()}
     if all(kind in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying) for _, kind in values.values()):
-        parameters: Parameters = {"point3 P": points, "integer indices": vertices.astype(np.int32)}
+        parameters: Parameters = {"point3 P": points, "integer indices": vertices}
         return parameters | {name: array for name, (array, _) in values.items()}
     flat = vertices.reshape(-1)
     parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32)}
@@ -153,6 +154,20 @@ def _mesh(
         UsdGeom.Tokens.faceVarying: triangles.reshape(-1),
     }
     return parameters | {name: array[of_corner[kind]] for name, (array, kind) in values.items()}
+
+
+def _of_points(
+    array: npt.NDArray[np.float32], kind: str, corners: npt.NDArray[np.int64], points: int
+) -> tuple[npt.NDArray[np.float32], str]:
+    """Values of corners as those of points, where all corners of a point have the same: many exporters write no others."""
+    if kind != UsdGeom.Tokens.faceVarying:
+        return array, kind
+    # Some corner of each point; of what is no corner the first, which nobody sees.
+    some = np.zeros(points, dtype=np.int64)
+    some[corners] = np.arange(len(corners))
+    of_points = array[some]
+    same = np.array_equal(of_points[corners], array)
+    return (of_points, UsdGeom.Tokens.vertex) if same else (array, kind)
 
 
 def _triangulate(counts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
