@@ -146,7 +146,7 @@ def _mesh(
         return parameters | {name: array for name, (array, _) in values.items()}
     flat = vertices.reshape(-1)
     parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32)}
-    of_corner = {
+    of_corner: dict[str, npt.NDArray[np.integer[Any]]] = {
         UsdGeom.Tokens.constant: np.zeros(len(flat), dtype=np.int64),
         UsdGeom.Tokens.uniform: np.repeat(faces, 3),
         UsdGeom.Tokens.vertex: flat,

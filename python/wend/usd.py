@@ -19,6 +19,7 @@ import numpy as np
 from . import _wend
 from ._builder import SceneBuilder
 from ._errors import InputError
+from ._progress import Bar
 from ._scene_reader import Places, SceneReader
 
 try:
@@ -45,6 +46,7 @@ def read(
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
     subdivision: int | None = None,
+    progress: bool = False,
 ) -> SceneBuilder:
     """A stage as it is composed, in the terms of the renderer.
 
@@ -58,6 +60,7 @@ def read(
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
         subdivision: how often edges of subdivision surfaces are halved; None: until they are two pixels long where the
             surface is nearest, 1 to 6 times, and 2 times for what is copied.
+        progress: show a bar (tqdm).
 
     Raises:
         InputError: for a file that is no stage, or a camera that is not in it.
@@ -75,7 +78,7 @@ def read(
     if time is None and stage.HasAuthoredTimeCodeRange():
         time = stage.GetStartTimeCode()
     when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
-    return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp)
+    return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp, progress)
 
 
 #: Instances within instances multiply.
@@ -101,6 +104,7 @@ class _Reader(SceneReader):
         self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None, refinement: Refinement
     ) -> None:
         super().__init__(file, maps)
+        self.file = file
         self.refinement = refinement
         self.stage = stage
         self.time = time
@@ -114,7 +118,7 @@ class _Reader(SceneReader):
     def warn(self, prim: Any, text: str) -> None:
         self.tell(str(prim.GetPath()), text)
 
-    def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
+    def read(self, path: str | None, resolution: tuple[int, int], spp: int, progress: bool) -> SceneBuilder:
         add = self.builder.add
         eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
@@ -125,9 +129,13 @@ class _Reader(SceneReader):
         add("WorldBegin")
         for error in getattr(self.stage, "GetCompositionErrors", list)():
             self.tell(str(error.rootSite.path), f"of the composition is left out: {error}".strip())
-        for prim in self.prims(self.stage.GetPseudoRoot()):
+        prims = list(self.prims(self.stage.GetPseudoRoot()))
+        bar = Bar(os.path.basename(self.file), progress)
+        for i, prim in enumerate(prims):
+            bar.update(i / len(prims), prim.GetName())
             with _named(prim):
                 self.add_prim(prim, self.world(prim), in_object=False)
+        bar.close()
         if not self.has_light:
             self.warn(self.stage.GetPseudoRoot(), "no light: a grey sky of radiance 1 is put around")
             add("LightSource", "infinite", {"rgb L": (1, 1, 1)})
@@ -369,6 +377,7 @@ def main(arguments: list[str] | None = None) -> int:
             spp=options.spp,
             maps=command.maps_of(options.output),
             subdivision=options.subdivision,
+            progress=True,
         )
         command.deliver(builder, options, options.output, options.render)
 

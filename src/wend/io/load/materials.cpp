@@ -111,23 +111,18 @@ private:
         material.mean_cosine = textures_.real(p, "g", 0);
         material.max_depth = load_count(p, "maxdepth", 10);
         material.walks = load_count(p, "nsamples", 1);
-        const Roughness& roughness = material.roughness;
-        if (!textures_.varies(material.thickness)) {
-            const float thickness = std::max(textures_.mean(material.thickness).r, 0.0f);
-            // Where the roughness varies, as if there were none.
-            const bool varies = textures_.varies(roughness.u) || textures_.varies(roughness.v);
-            DielectricBsdf coat{material.ior, varies ? 0 : alpha_of(roughness.u, roughness),
-                                varies ? 0 : alpha_of(roughness.v, roughness)};
-            coat.slopes = roughness.slopes;
-            material.returned = rough_coat_return(coat, thickness);
+        if (const Roughness& r = material.roughness; !textures_.varies(material.thickness)) {
+            // A roughness that varies counts as none.
+            const bool varies = textures_.varies(r.u) || textures_.varies(r.v);
+            const auto alpha = [&](TextureId id) {
+                const float value = varies ? 0.0f : std::max(textures_.mean(id).r, 0.0f);
+                return r.remap ? std::sqrt(value) : value;
+            };
+            const DielectricBsdf coat{
+                .ior = material.ior, .alpha_x = alpha(r.u), .alpha_y = alpha(r.v), .slopes = r.slopes};
+            material.returned = rough_coat_return(coat, std::max(textures_.mean(material.thickness).r, 0.0f));
         }
         return material;
-    }
-
-    /// Of the same roughness everywhere.
-    float alpha_of(TextureId roughness, const Roughness& of) const {
-        const float r = std::max(textures_.mean(roughness).r, 0.0f);
-        return of.remap ? std::sqrt(r) : r;
     }
 
     /// Of walks and of their steps, each of which costs time for every value.
