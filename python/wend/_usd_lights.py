@@ -16,6 +16,7 @@ from . import _usd_blender as blender
 from ._film import Film, read
 from ._scene_reader import Places
 from ._sky import directions
+from ._usd_files import file_of
 
 Matrix = npt.NDArray[np.float64]
 
@@ -93,7 +94,7 @@ class Shaping:
             min(max(float(api.GetShapingConeSoftnessAttr().Get(time)), 0.0), 1.0),
             blender.inner_angle(api.GetShapingConeSoftnessAttr(), angle),
             max(float(api.GetShapingFocusAttr().Get(time)), 0.0),
-            (file.resolvedPath or file.path) if file and file.path else None,
+            file_of(reader, file) if file and file.path else None,
             float(api.GetShapingIesAngleScaleAttr().Get(time)),
             bool(api.GetShapingIesNormalizeAttr().Get(time)),
         )
@@ -189,7 +190,8 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
     dome = UsdLux.DomeLight_1(prim) if str(prim.GetTypeName()) == "DomeLight_1" else UsdLux.DomeLight(prim)
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
-    picture = read(texture.resolvedPath or texture.path).image if texture and texture.path else np.ones((1, 1, 3))
+    file = file_of(reader, texture) if texture and texture.path else None
+    picture = read(file).image if file is not None else np.ones((1, 1, 3))
     if np.ptp(picture, axis=(0, 1)).max() == 0:
         _stand(reader, prim, world)
         reader.builder.add("LightSource", "infinite", {"rgb L": radiance * picture[0, 0]})
@@ -198,7 +200,7 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
     _stand(reader, prim, _LATLONG @ blender.turned_sky(reader, prim, local) @ world)
     if format_ not in ("automatic", "latlong"):
         reader.warn(prim, f"a {format_} picture of a dome is taken as a latlong one")
-    sky: dict[str, Any] = {"string filename": texture.resolvedPath or texture.path, "string mapping": "equirectangular"}
+    sky: dict[str, Any] = {"string filename": file, "string mapping": "equirectangular"}
     if np.ptp(radiance) == 0:
         sky["float scale"] = float(radiance[0])
     else:
@@ -276,7 +278,7 @@ def _rect(reader: Any, prim: Any, world: Places) -> None:
     # Seen from -z, where it shines, the corners go around against the clock.
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
     parameters = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
-    picture = read(texture.resolvedPath or texture.path).image if texture and texture.path else None
+    picture = read(file_of(reader, texture)).image if texture and texture.path else None
     if _is_thrown(reader, prim, world, radiance * area * (1 if picture is None else picture.mean(axis=(0, 1)))):
         if picture is not None:
             reader.warn(prim, "of the picture of a light that is shaped the mean is taken")

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from pxr import UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._film import Film, read
+from ._usd_files import file_of
 
 Matrix = npt.NDArray[np.float64]
 
@@ -113,7 +114,7 @@ class Inputs:
             return None
         is_usd = kind == "UsdUVTexture"
         picture = Picture(
-            file.resolvedPath or file.path,
+            file_of(self.reader, file),
             inputs._is_encoded(),
             _WRAPS.get(str(inputs.constant("wrapS" if is_usd else "uaddressmode", "repeat")), "repeat"),
             channel or str(output.GetBaseName()),

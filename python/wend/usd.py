@@ -33,6 +33,7 @@ from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_materials as materials
 from ._usd_curves import curve_segments
+from ._usd_files import file_of
 from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
 from ._usd_subdivision import Refinement
 
@@ -292,7 +293,7 @@ class _Reader(SceneReader):
         if not path:
             self.warn(prim, "a volume without a file is left out")
             return
-        file = path.resolvedPath or path.path
+        file = file_of(self, path)
         grid = asset.GetFieldNameAttr().Get(self.time) or "density"
         extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
         colour = materials.display_colour(prim, self.time)
