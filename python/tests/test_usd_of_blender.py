@@ -16,7 +16,7 @@ pytest.importorskip("pxr", reason="this Blender has no USD")
 import wend.usd  # noqa: E402
 from wend import blend  # noqa: E402
 
-from test_blend import SIZE, add, blocks, by_cycles, camera, lamp, link, material, mesh, node, scene, sky  # noqa: E402, F401
+from blender_scene import SIZE, add, blocks, by_cycles, camera, lamp, link, material, mesh, node, scene, sky  # noqa: E402, F401
 
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
 
@@ -72,13 +72,14 @@ LAMPS = {
 }
 
 
-@pytest.mark.parametrize("name", LAMPS)
-@pytest.mark.parametrize("stretch", [(1, 1, 1), (2, 1, 3)], ids=["", "scaled"])
+PLAIN, STRETCHED = (1, 1, 1), (2, 1, 3)
+
+
+@pytest.mark.parametrize(
+    ("name", "stretch"), [*((name, PLAIN) for name in LAMPS), *((name, STRETCHED) for name in ("point", "spot", "sun", "rectangle"))]
+)
 def test_lamps_have_their_strength(scene, tmp_path, name, stretch):
     kind, power, place, settings = LAMPS[name]
-    if name == "disk":
-        # One that is stretched is an ellipse, in both.
-        stretch = (stretch[0], stretch[0], 1)
     ground(scene)
     lamp(scene, kind, power, place, (0.2, 0.1, 0.3), stretch, **settings)
     check(scene, tmp_path, 400 if name == "wide sun" else 64)
@@ -103,22 +104,35 @@ def environment(scene, folder, turn=None):
     camera(scene, (3, -6, 1), (0, 0, 1.5))
 
 
-@pytest.mark.parametrize("turn", [None, (0, 0, 1), (0.3, 0.2, 1)], ids=["straight", "turned", "tilted"])
-@pytest.mark.parametrize("options", [{}, Y_IS_UP, {"convert_scene_units": "CENTIMETERS"}], ids=["", "y is up", "centimetres"])
+CENTIMETRES = {"convert_scene_units": "CENTIMETERS"}
+
+
+@pytest.mark.parametrize(
+    ("turn", "options"),
+    [(None, {}), ((0, 0, 1), {}), ((0.3, 0.2, 1), {}), (None, Y_IS_UP), ((0.3, 0.2, 1), Y_IS_UP | CENTIMETRES)],
+    ids=["straight", "turned", "tilted", "y is up", "tilted, y is up"],
+)
 def test_skies_are_where_they_are(scene, tmp_path, turn, options):
     ground(scene)
     environment(scene, tmp_path, turn)
     check(scene, tmp_path, **options)
 
 
+SHIFTED = {"lens": 35, "shift_x": 0.2, "shift_y": -0.1}
+VERTICAL = {"sensor_fit": "VERTICAL", "sensor_height": 30, "lens": 40}
+SQUARE, WIDE, HIGH = (SIZE, SIZE), (2 * SIZE, SIZE), (SIZE, 2 * SIZE)
+
+
 @pytest.mark.parametrize(
-    "settings",
-    [{}, {"lens": 35, "shift_x": 0.2, "shift_y": -0.1}, {"sensor_fit": "VERTICAL", "sensor_height": 30, "lens": 40}],
-    ids=["plain", "shifted", "vertical"],
+    ("settings", "size", "options"),
+    [
+        *(({}, size, {}) for size in (SQUARE, WIDE, HIGH)),
+        *((settings, size, {}) for settings in (SHIFTED, VERTICAL) for size in (WIDE, HIGH)),
+        (SHIFTED, WIDE, Y_IS_UP),
+        (SHIFTED, WIDE, CENTIMETRES),
+    ],
 )
-@pytest.mark.parametrize("options", [{}, Y_IS_UP, {"convert_scene_units": "CENTIMETERS"}], ids=["", "y is up", "centimetres"])
-@pytest.mark.parametrize("size", [(SIZE, SIZE), (2 * SIZE, SIZE), (SIZE, 2 * SIZE)], ids=["square", "wide", "high"])
-def test_cameras_see_the_same(scene, tmp_path, settings, options, size):
+def test_cameras_see_the_same(scene, tmp_path, settings, size, options):
     scene.render.resolution_x, scene.render.resolution_y = size
     glow = plastic(base_color=(0, 0, 0), specular_ior_level=0.0, emission_color=(1, 1, 1), emission_strength=1.0)
     mesh(scene, "cube", glow, place=(1, 0.5, 0.5), stretch=(0.5, 0.3, 0.6))
