@@ -187,7 +187,13 @@ LEFT = {
         "",
     ),
     "faces of a subset beyond": (
-        mesh(more='def GeomSubset "g" {\nuniform token elementType = "face"\nuniform token familyName = "materialBind"\nint[] indices = [5,-1,2000000000]\n}'),
+        mesh(
+            more="""def GeomSubset "g" {
+            uniform token elementType = "face"
+            uniform token familyName = "materialBind"
+            int[] indices = [5,-1,2000000000]
+        }"""
+        ),
         "",
     ),
     "copies without places": (instancer("[0,0,0]"), "an instancer whose positions are not as many"),

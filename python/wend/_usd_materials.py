@@ -238,7 +238,9 @@ class _Surface:
         parameters = self._facets() | {"string type": "subsurface", "float eta": ior, "float g": float(self.constant("inside_g", 0))}
         self.add_to(parameters, "inside_colour", "reflectance", "rgb", self._grey())
         radius = np.array(self.constant("inside_radius", (1, 1, 1)), dtype=np.float64) * float(self.constant("inside_scale", 1))
-        radii = radius * np.array(self.constant("inside_radii", (1, 0.5, 0.25)) if "inside_radii" in self.words else 1.0, dtype=np.float64)
+        radii = radius
+        if "inside_radii" in self.words:
+            radii = radius * np.array(self.constant("inside_radii", (1, 0.5, 0.25)), dtype=np.float64)
         parameters["rgb mfp"] = np.maximum(np.broadcast_to(radii, 3), 1e-6)
         return parameters
 

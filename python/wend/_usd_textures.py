@@ -123,8 +123,8 @@ class Inputs:
             picture.scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
             picture.bias = np.array(inputs.constant("bias", (0, 0, 0, 0)), dtype=np.float64)
         elif kind.startswith("ND_tiledimage_"):
-            tiling, offset = (np.array(inputs.constant(n, v), dtype=np.float64) for n, v in (("uvtiling", (1, 1)), ("uvoffset", (0, 0))))
-            picture.uv_matrix = _placed(tiling, 0.0, offset)
+            tiling, offset = (inputs.constant(name, value) for name, value in (("uvtiling", (1, 1)), ("uvoffset", (0, 0))))
+            picture.uv_matrix = _placed(np.array(tiling, dtype=np.float64), 0.0, np.array(offset, dtype=np.float64))
         inputs._find_coordinates("st" if is_usd else "texcoord", picture)
         if picture.coordinates is not None:
             self.coordinates.append(picture.coordinates)
