@@ -7,6 +7,7 @@
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
 #include <wend/sampling/warp.h>
+#include <wend/scene/bsdf/rough_coat.h>
 
 #include <fmt/format.h>
 
@@ -110,8 +111,16 @@ private:
         material.mean_cosine = textures_.real(p, "g", 0);
         material.max_depth = load_count(p, "maxdepth", 10);
         material.walks = load_count(p, "nsamples", 1);
-        if (!textures_.varies(material.thickness)) {
-            material.returned = coat_return(material.ior, std::max(textures_.mean(material.thickness).r, 0.0f));
+        if (const Roughness& r = material.roughness; !textures_.varies(material.thickness)) {
+            // A roughness that varies counts as none.
+            const bool varies = textures_.varies(r.u) || textures_.varies(r.v);
+            const auto alpha = [&](TextureId id) {
+                const float value = varies ? 0.0f : std::max(textures_.mean(id).r, 0.0f);
+                return r.remap ? std::sqrt(value) : value;
+            };
+            const DielectricBsdf coat{
+                .ior = material.ior, .alpha_x = alpha(r.u), .alpha_y = alpha(r.v), .slopes = r.slopes};
+            material.returned = rough_coat_return(coat, std::max(textures_.mean(material.thickness).r, 0.0f));
         }
         return material;
     }
