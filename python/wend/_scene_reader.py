@@ -29,6 +29,7 @@ class Look:
     emission: tuple[float, ...] | None = None
     medium: str | None = None  #: inside
     shape_parameters: dict[str, Any] = field(default_factory=dict)
+    shown: str | None = None  #: file of a picture that it shines with, in place of the emission
 
 
 class SceneReader:
