@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._blend_bake_nodes import TANGENT, blank, shining
+from ._blend_subsurface import albedo_inside
 from ._blend_wanted import Wanted
 from ._film import Film
 from ._scene_reader import SceneReader
@@ -128,6 +129,8 @@ class Bakery:
             pixels = _baked(scene, made, slots, self._place, wanted, self.side)
             if wanted.kind == "float":
                 pixels = np.repeat((pixels @ _LUMINANCE)[..., None] ** np.float32(wanted.power), 3, axis=2)
+            elif wanted.kind == "albedo":
+                pixels = albedo_inside(pixels, wanted.power).astype(np.float32)
             Film.of(np.ascontiguousarray(pixels)).save(file)
             if rect is not None:
                 bpy.data.meshes.remove(made)

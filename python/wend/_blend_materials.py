@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._blend_nodes import Colour, Nodes, output_node
+from ._blend_subsurface import add_inside
 from ._blend_volumes import volume_parameters
 from ._blend_wanted import Probe
 from ._scene_reader import Look, SceneReader
@@ -24,10 +25,8 @@ class _Surface:
     mixed: tuple[_Surface, _Surface, dict[str, Any]] | None = None  #: two of them, and how much of the second
     emission: Colour = field(default_factory=lambda: np.zeros(3))
     alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
-    inside: dict[str, Any] | None = None  #: parameters of a MakeNamedMedium
     shines_by_a_picture: bool = False  #: because what it shines with varies
     is_clear: bool = False  #: light goes straight through
-    is_only_inside: bool = False  #: alone it is an interface around what is inside
 
 
 def look_of(reader: SceneReader, material: Any, bakery: Bakery | None = None) -> Look:
@@ -88,13 +87,10 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
 def _look(
     reader: SceneReader, key: str, surface: _Surface, medium: dict[str, Any] | None, picture: dict[str, Any] | None = None
 ) -> Look:
-    medium = medium or surface.inside
     if medium is not None:
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
-    if surface.is_only_inside:
-        surface.material = None
     named = _name(reader, key, surface)
     if named is None and emission is None and medium is None:
         # Nothing is seen of it.
@@ -210,28 +206,20 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
             nodes.warn(node, "Coat Tint is left out")
     _detail(nodes, node, material)
     result = _Surface(material, emission=emission)
-    # Metal comes first, glass gets of the rest, and what scatters inside of the rest of that.
-    transmission, subsurface = nodes.number(inputs["Transmission Weight"]), nodes.number(inputs["Subsurface Weight"])
-    metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 or subsurface > 0 else 0.0
-    clear = min(transmission, 1.0) * (1 - metallic)
-    waxen = min(subsurface, 1.0) * (1 - metallic) * (1 - min(transmission, 1.0))
-    if clear + waxen > 0 and clear + waxen < 1:
+    # Metal comes first, glass gets of the rest.
+    transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
+    metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
+    clear = transmission * (1 - metallic)
+    if 0 < clear < 1:
         material.pop("texture metallic", None)
-        material["float metallic"] = metallic / (1 - clear - waxen)
-    if waxen > 0:
-        nodes.warn(node, "what scatters inside is met through a boundary that refracts, not as Cycles' random walks do")
-        radius = nodes.colour(inputs["Subsurface Radius"]) * nodes.number(inputs["Subsurface Scale"])
-        wax: dict[str, Any] = {
-            "string type": "subsurface",
-            "float eta": ior,
-            "float roughness": nodes.number(inputs["Roughness"]) ** 2,
-            "bool remaproughness": False,
-            "float g": nodes.number(inputs["Subsurface Anisotropy"]),
-            "rgb mfp": np.maximum(radius, 1e-6),
-        }
-        nodes.add_to(wax, inputs["Base Color"], "reflectance", "rgb")
-        _detail(nodes, node, wax)
-        result = _blended(result, _Surface(wax), waxen / (1 - clear), emission)
+        material["float metallic"] = metallic / (1 - clear)
+    waxen = nodes.known(inputs["Subsurface Weight"])
+    if clear < 1 and (waxen is None or waxen[0] > 0):
+        nodes.add_to(material, inputs["Subsurface Weight"], "subsurface", "float")
+        names = {key: inputs[f"Subsurface {key.capitalize()}"] for key in ("radius", "scale", "anisotropy")}
+        is_skin = node.subsurface_method == "RANDOM_WALK_SKIN"
+        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else ior}
+        add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
         glass = _dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
@@ -310,24 +298,14 @@ def _translucent(nodes: Nodes, node: Any) -> _Surface:
 
 
 def _subsurface(nodes: Nodes, node: Any) -> _Surface:
-    inputs = node.inputs
-    radius = np.maximum(nodes.colour(inputs["Radius"]) * nodes.number(inputs["Scale"]), 1e-6)
-    mixed: dict[str, Any] = {"string type": "subsurface", "float eta": 1.33, "rgb mfp": radius}
-    nodes.add_to(mixed, inputs["Color"], "reflectance", "rgb")
-    if nodes.number(inputs["Anisotropy"]) != 0:
-        nodes.warn(node, "what scatters inside scatters evenly")
-    # Alone it has no surface: light goes in and out as it is. The albedo is that of Cycles' fit.
-    albedo = _albedo_inside(np.clip(nodes.colour(inputs["Color"]), 0, 1))
-    inside = {"rgb sigma_s": albedo / radius, "rgb sigma_a": (1 - albedo) / radius}
-    return _Surface(mixed, inside=inside, is_only_inside=True)
-
-
-def _albedo_inside(colour: Colour) -> Colour:
-    """Of collisions, that make an even surface of this colour: Cycles' fit for even scattering."""
-    part = colour**0.25
-    dark = 1.8260523782 * np.arctan(5.1124679 * colour) ** 1.09686102424
-    bright = 0.496310210422 * np.arctan(4.23190299701 * colour) ** 2.40602999408
-    return np.asarray(np.clip((1 - part) * dark + part * bright, 0, 1), dtype=np.float64)
+    # It has no surface of its own.
+    material: dict[str, Any] = {"string type": "principled", "float specular": 0, "float roughness": 1, "float subsurface": 1}
+    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    names = {key: node.inputs[key.capitalize()] for key in ("radius", "scale", "anisotropy", "roughness")}
+    names["ior"] = nodes.number(node.inputs["IOR"])
+    add_inside(nodes, node, material, node.inputs["Color"], node.falloff, names)
+    _detail(nodes, node, material)
+    return _Surface(material)
 
 
 def _emission(nodes: Nodes, node: Any) -> _Surface:
@@ -370,7 +348,7 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
             nodes.warn(node, "of transparencies within each other the outermost counts")
         if varies:
             nodes.warn(node, "what shines by a picture and is transparent is darker where it is that")
-        return _Surface(seen.material, seen.mixed, seen.emission, alpha, seen.inside, shines_by_a_picture=varies)
+        return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies)
     return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
 
 
@@ -390,7 +368,7 @@ def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
     for one, other in ((first, second), (second, first)):
         if one.material is None and one.mixed is None:
             is_clear = other.is_clear and not emission.max() > 0
-            return _Surface(other.material, other.mixed, emission, other.alpha, other.inside, varies, is_clear)
+            return _Surface(other.material, other.mixed, emission, other.alpha, varies, is_clear)
     through = _diffuse_both_ways(first.material, second.material) or _diffuse_both_ways(second.material, first.material)
     if through is not None:
         return _Surface(through, emission=emission, shines_by_a_picture=varies)

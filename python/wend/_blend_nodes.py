@@ -92,18 +92,22 @@ class Nodes:
 
     def number(self, socket: Any, depth: int = 0) -> float:
         """A constant; what is not is named, and taken as the input's own value."""
-        value = self.known(socket, depth)
-        if value is None:
-            self._left_out(socket)
-            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
+        value = self._value(socket, depth)
         return float(value @ _LUMINANCE) if len(value) == 3 else float(value[0])
 
     def colour(self, socket: Any) -> Colour:
-        value = self.known(socket)
+        return np.broadcast_to(self._value(socket), 3).astype(np.float64)
+
+    def _value(self, socket: Any, depth: int = 0) -> Colour:
+        value = self.known(socket, depth)
         if value is None:
             self._left_out(socket)
-            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
-        return np.broadcast_to(value, 3).astype(np.float64)
+        return self.value_of(socket) if value is None else value
+
+    def value_of(self, socket: Any) -> Colour:
+        """A constant; where it is not one, the input's own value."""
+        value = self.known(socket)
+        return np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3] if value is None else value
 
     def add_to(self, parameters: dict[str, Any], socket: Any, name: str, kind: str, power: float = 1) -> None:
         """Adds the parameter, of the kind "rgb" or "float", as a constant or a texture."""
@@ -129,7 +133,7 @@ class Nodes:
                 name = self._mixed(node, kind)
         if name is None:
             picture = self.baked(socket, kind, power)
-            name = self._add_texture(kind, "imagemap", picture) if picture is not None else None
+            name = self.add_texture(kind, "imagemap", picture) if picture is not None else None
         return name
 
     def baked(self, socket: Any, kind: str, power: float = 1) -> dict[str, Any] | None:
@@ -202,7 +206,7 @@ class Nodes:
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
         inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
-            return _blackbody(float(inputs[0][0]))
+            return blackbody(float(inputs[0][0]))
         if kind == "ShaderNodeMath":
             return _math(node.operation, [None if x is None else float(x[0]) for x in inputs], node.use_clamp)
         if kind == "ShaderNodeGamma" and inputs[0] is not None and inputs[1] is not None:
@@ -253,9 +257,9 @@ class Nodes:
             plugin = "scale"
         else:
             return None
-        return self._add_texture(kind, plugin, parameters)
+        return self.add_texture(kind, plugin, parameters)
 
-    def _add_texture(self, kind: str, plugin: str, parameters: dict[str, Any]) -> str:
+    def add_texture(self, kind: str, plugin: str, parameters: dict[str, Any]) -> str:
         name = self._name()
         self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", plugin, parameters)
         return name
@@ -289,7 +293,7 @@ class Nodes:
             "string encoding": "linear" if linear else "sRGB",
             "string wrap": wraps.get(node.extension, "repeat"),
         }
-        return self._add_texture(kind, "imagemap", parameters | mapping)
+        return self.add_texture(kind, "imagemap", parameters | mapping)
 
     def mapping_of(self, node: Any, faults: list[str]) -> dict[str, Any]:
         """Of texture coordinates, an affine map; what it leaves out is added to `faults`."""
@@ -337,7 +341,7 @@ class Nodes:
         return None
 
 
-def _blackbody(kelvin: float) -> Colour:
+def blackbody(kelvin: float) -> Colour:
     """Of luminance 1, by Planck's law and fits of the colour matching functions (wyman2013)."""
     nanometres = np.arange(380.0, 781.0, 5.0)
 

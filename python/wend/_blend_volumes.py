@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._blend_nodes import Colour, Nodes
+from ._blend_nodes import Colour, Nodes, blackbody
 
 
 def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
@@ -49,8 +49,12 @@ def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
         absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
         strength = nodes.number(node.inputs["Emission Strength"])
         shine = nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else zero
-        if nodes.number(node.inputs["Blackbody Intensity"]) > 0:
-            nodes.warn(node, "the blackbody of a volume is left out")
+        glow = nodes.number(node.inputs["Blackbody Intensity"])
+        if glow > 0:
+            kelvin = nodes.number(node.inputs["Temperature"])
+            # Cycles' scale: of a body of one kelvin up to that of a black one, in megawatts.
+            scale = 5.670373e-14 / np.pi * (1 - glow + glow * kelvin**4)
+            shine = shine + scale * nodes.colour(node.inputs["Blackbody Tint"]) * blackbody(kelvin)
         return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
     if kind == "ShaderNodeVolumeScatter":
         density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])

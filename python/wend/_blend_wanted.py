@@ -14,8 +14,8 @@ class Wanted:
     groups: tuple[str, ...]  #: names of the nodes, from the material's tree down to that of the node
     node: str  #: its name; nothing: what the whole surface shines with
     socket: str  #: identifier of an input of it
-    kind: str  #: "rgb", "float", "normal" in the frame of the surface, or "light"
-    power: float = 1.0  #: that numbers are raised to
+    kind: str  #: "rgb", "float", "normal" in the frame of the surface, "light", or "albedo" of what is inside
+    power: float = 1.0  #: that numbers are raised to; of an albedo, the anisotropy
     is_by_uv: bool = False  #: whether it depends on UV and nothing else
     is_unit: bool = False  #: whether the picture's corners must be 0 and 1
 

@@ -295,6 +295,9 @@ class _Reader(SceneReader):
         where = f"object '{name}'"
         if object_.is_holdout:
             self.tell(where, "a holdout is an object like others")
+        place_of_file = object_.type == "VOLUME" and object_.data.grids
+        if place_of_file and any(g.name == "temperature" for g in place_of_file):
+            self.tell(where, "the temperatures of a volume's file are left out")
         # The lamp of a default file is one, without an effect.
         if object_.is_shadow_catcher and object_.type != "LIGHT":
             self.tell(where, "a shadow catcher is an object like others")
