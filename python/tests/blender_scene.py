@@ -143,3 +143,14 @@ def check(scene, tmp_path, spp=256, tolerance=0.01, sampling="classical", cycles
     error = np.abs(a - b) / np.maximum(b, 0.05 * b.mean())
     assert error.max() <= tolerance, f"\n{np.round(a / np.maximum(b, 1e-6), 3)}"
     return ours, theirs
+
+
+def straight(moving):
+    """Moves it along x from frame 1 to 3, without the ease that Blender gives to keys."""
+    start = moving.location.x
+    for frame, x in ((1, -1.5), (3, 1.5)):
+        moving.location.x = start + x
+        moving.keyframe_insert("location", frame=frame)
+    for curve in moving.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"

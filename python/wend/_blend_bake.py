@@ -33,15 +33,16 @@ class Bakery:
         all_: of all objects.
         object_: evaluated; it is looked at while materials are made.
         number: of it, among all objects.
+        is_shared: whether there are several instances of it.
     """
 
-    def __init__(self, all_: Bakeries, object_: Any, number: int) -> None:
+    def __init__(self, all_: Bakeries, object_: Any, number: int, is_shared: bool) -> None:
         self.name: str = object_.name
         #: of the map that renders take
         self.uv_name: str = getattr(_render_layer(object_.data), "name", "")
         self.bakes_all = False  #: because the object has UVs of its own, which pictures do not know
         self.uvs: Floats | None = None  #: of corners, where there are such, after `bake`
-        self.side = all_.side
+        self.side, self.is_shared = all_.side, is_shared
         self._all, self._object, self._number = all_, object_, number
         self._mesh: Any = None
         self._place = object_.matrix_world.copy()
@@ -173,13 +174,12 @@ class Bakeries:
         self._files = 0
         self.wants: dict[tuple[str, str], set[str]] = {}  #: by the names of material and UV map
 
-    def of(self, object_: Any, key: str) -> Bakery:
-        if key not in self._by_key:
-            self._by_key[key] = Bakery(self, object_, len(self._by_key))
-        return self._by_key[key]
+    def get(self, key: str) -> Bakery | None:
+        return self._by_key.get(key)
 
-    def __contains__(self, key: str) -> bool:
-        return key in self._by_key
+    def add(self, object_: Any, key: str, is_shared: bool) -> Bakery:
+        self._by_key[key] = Bakery(self, object_, len(self._by_key), is_shared)
+        return self._by_key[key]
 
     def file_for(self, wanted: Wanted) -> str:
         self._files += 1

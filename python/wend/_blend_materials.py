@@ -62,7 +62,7 @@ class _Silent(SceneReader):
     def __init__(self, reader: SceneReader) -> None:
         super().__init__("", None)
 
-    def tell(self, place: str, text: str) -> None:
+    def tell(self, place: str, text: str, *, each: bool = False) -> None:
         pass
 
 

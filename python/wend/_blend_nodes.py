@@ -150,6 +150,8 @@ class Nodes:
         label = f"{socket.name} of node '{socket.node.name}'"
         if reach.sees:
             self.warn(reach.sees, f"{label} depends on from where it is seen, and is baked as seen from above")
+        if reach.is_by_place and self.bakery.is_shared:
+            self.warn(socket.node, f"{label} is baked at the first of several instances")
         node = socket.node
         is_normal = kind == "normal"
         wanted = Wanted(
@@ -176,7 +178,7 @@ class Nodes:
     def _picture_of(self, wanted: Wanted, label: str) -> dict[str, Any]:
         assert self.bakery is not None
         side = self.bakery.side
-        self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}")
+        self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
         return self.bakery.picture(wanted)
 
     def _groups_to(self, tree: Any) -> tuple[str, ...]:

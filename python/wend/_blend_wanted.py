@@ -24,7 +24,7 @@ class Probe:
     """Stands for a bakery while a material is looked through for what it wants: "picture" is a texture that needs no
     baking; by UV alone can be baked "uv", and "unit" where that is in the unit square; all else is by "object"."""
 
-    bakes_all = False
+    bakes_all = is_shared = False
     side = 0
 
     def __init__(self, name: str, uv_name: str) -> None:

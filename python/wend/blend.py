@@ -161,13 +161,14 @@ class _Reader(SceneReader):
         if self.around is not None:
             add("MediumInterface", "", self.around)
         add_view(self, self.scene, eye, resolution, spp, motion)
+        self.tell_collections(self.scene)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
         seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
         times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
         if self.can_render:
-            self.bake(depsgraph, seen)
+            self.bake(depsgraph, seen, times)
         for instance, shown in zip(depsgraph.object_instances, seen):
             if shown:
                 object_ = instance.object
@@ -178,14 +179,14 @@ class _Reader(SceneReader):
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
         return self.builder
 
-    def bake(self, depsgraph: Any, seen: list[bool]) -> None:
+    def bake(self, depsgraph: Any, seen: list[bool], times: Counter[str]) -> None:
         """Makes materials, and pictures of what has no counterpart."""
         self.bakeries = Bakeries(self, depsgraph, self.bake_resolution)
         for instance, shown in zip(depsgraph.object_instances, seen):
             key = self.key_of(instance.object)
-            if not shown or instance.object.type not in _SOLID or key in self.bakeries:
+            if not shown or instance.object.type not in _SOLID or self.bakeries.get(key):
                 continue
-            bakery = self.bakeries.of(instance.object, key)
+            bakery = self.bakeries.add(instance.object, key, times[key] > 1)
             materials = [slot.material for slot in instance.object.material_slots if slot.material]
             for material in materials:
                 bakery.decide(wants_of(self, material, bakery))
@@ -245,7 +246,7 @@ class _Reader(SceneReader):
         mesh = object_.to_mesh()
         if mesh is None:
             return
-        bakery = self.bakeries.of(object_, key) if self.bakeries is not None else None
+        bakery = self.bakeries.get(key) if self.bakeries is not None else None
         ends = self.shapes
         if ends is not None and not all(end.goes_with(Geometry.of(mesh)) for end in ends):
             self.tell(f"object '{name}'", "what changes its number of points while the shutter is open is as at the frame")
@@ -295,9 +296,6 @@ class _Reader(SceneReader):
         where = f"object '{name}'"
         if object_.is_holdout:
             self.tell(where, "a holdout is an object like others")
-        place_of_file = object_.type == "VOLUME" and object_.data.grids
-        if place_of_file and any(g.name == "temperature" for g in place_of_file):
-            self.tell(where, "the temperatures of a volume's file are left out")
         # The lamp of a default file is one, without an effect.
         if object_.is_shadow_catcher and object_.type != "LIGHT":
             self.tell(where, "a shadow catcher is an object like others")
@@ -307,6 +305,16 @@ class _Reader(SceneReader):
         unseen = [ray.replace("_", " ") for ray in rays if not getattr(object_, f"visible_{ray}")]
         if unseen:
             self.tell(where, f"an object that rays of {', '.join(unseen)} do not see is seen by all")
+
+    def tell_collections(self, scene: Any) -> None:
+        """Says which collections are to be seen in part, which is not there."""
+        todo = [scene.view_layers[0].layer_collection]
+        while todo:
+            collection = todo.pop()
+            todo += collection.children
+            for role in ("holdout", "indirect_only"):
+                if getattr(collection, role):
+                    self.tell(f"collection '{collection.name}'", f"a collection that is {role.replace('_', ' ')} is as others")
 
     def hold(self, place: Any, where: str) -> None:
         """What cannot move is said to stay where the shutter opens."""
@@ -330,6 +338,9 @@ class _Reader(SceneReader):
         grid = "density"
         if node.bl_idname == "ShaderNodeVolumePrincipled":
             grid = node.inputs["Density Attribute"].default_value or "density"
+            heat = node.inputs["Temperature Attribute"].default_value
+            if nodes.number(node.inputs["Blackbody Intensity"]) > 0 and any(g.name == heat for g in volume.grids):
+                self.tell(where, f"the temperatures of the grid '{heat}' are taken as the material's own")
         elif not any(g.name == "density" for g in volume.grids):
             grid = volume.grids[0].name
         if volume.render.space == "OBJECT":
