@@ -230,6 +230,19 @@ def test_instances_of_a_collection(scene, tmp_path):
     check(scene, tmp_path, 400)
 
 
+def test_modifiers_are_those_of_renders(scene, tmp_path):
+    """Levels and objects that views do not show."""
+    sky(scene, (1, 1, 1))
+    cube = mesh(scene, "cube", material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), place=(-1, 0, 0.5))
+    cube.modifiers.new("round", "SUBSURF").levels = 0
+    cube.modifiers["round"].render_levels = 3
+    twin = mesh(scene, "cube", material("BsdfDiffuse", color=(0.8, 0.3, 0.1)), place=(1.5, 0, 0.5))
+    twin.hide_viewport = True
+    mesh(scene, "cube", place=(0, -2, 1)).hide_render = True
+    check(scene, tmp_path, 128)
+    assert cube.modifiers["round"].levels == 0 and twin.hide_viewport
+
+
 def test_picture_on_a_floor(scene, tmp_path):
     sky(scene, (1, 1, 1))
     image = bpy.data.images.new("checks", 64, 64)
@@ -447,3 +460,19 @@ def test_errors(tmp_path, capsys, scene):
     scene.camera = None
     with pytest.raises(wend.InputError, match="no camera"):
         blend.of_scene(scene)
+
+
+def test_a_panorama(scene, tmp_path):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    for place, colour in (((2, 0, 0.5), (1, 0, 0)), ((-2, 1, 1), (0, 1, 0)), ((0.5, -2, 0.5), (0, 0, 1))):
+        mesh(scene, "cube", material("Emission", color=colour), place=place, stretch=(0.5, 0.5, 0.5))
+    camera(scene, (0, 0, 1), (1, 2, 1.3), type="PANO", panorama_type="EQUIRECTANGULAR")
+    check(scene, tmp_path, 256)
+
+
+def test_a_volume_glows_as_a_black_body(scene, tmp_path):
+    fire = material("VolumePrincipled", "Volume", density=0.5, blackbody_intensity=1.0, temperature=3200.0, blackbody_tint=(1, 0.8, 0.9))
+    mesh(scene, "cube", fire, place=(0, 0, 0.8))
+    # The colours of black bodies are fits.
+    check(scene, tmp_path, 400, tolerance=0.03)

@@ -31,6 +31,7 @@ from ._blend_camera import add_view
 from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
+from ._blend_render_mode import as_rendered
 from ._blend_shapes import Geometry, box_of, hair_segments, mesh_parts, strands
 from ._blend_volumes import volume_parameters
 from ._blend_world import add_world, add_world_volume
@@ -112,18 +113,21 @@ def of_scene(
         frame, camera, resolution, spp, maps, bake_resolution: as for `read`.
     """
     reader = _Reader(scene, name, maps, can_render, bake_resolution)
-    if depsgraph is None:
-        if frame is not None:
-            scene.frame_set(frame)
-        bpy.context.window.scene = scene
-        depsgraph = bpy.context.evaluated_depsgraph_get()
     eye = _named(scene.objects, camera, "camera") or scene.camera
     if set_frame is None:
 
         def set_frame(whole: int, part: float) -> None:
             scene.frame_set(whole, subframe=part)
 
-    return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+    if depsgraph is not None:
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+    with as_rendered(scene):
+        if frame is not None:
+            scene.frame_set(frame)
+        bpy.context.window.scene = scene
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        depsgraph.update()
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
 
 
 def _named(things: Any, name: str | None, kind: str) -> Any:
