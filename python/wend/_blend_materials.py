@@ -202,7 +202,12 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
         nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
         material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
-        if np.abs(nodes.colour(inputs["Coat Tint"]) - 1).max() > 1e-6:
+        tint = nodes.colour(inputs["Coat Tint"])
+        if np.abs(tint - 1).max() > 1e-6 and "rgb reflectance" in material:
+            nodes.warn(node, "Coat Tint colours the base alike from everywhere")
+            # The way through the coat is longer aslant: over a ball, by as much.
+            material["rgb reflectance"] = material["rgb reflectance"] * (1 - coat + coat * np.clip(tint, 0, 1) ** 1.15)
+        elif np.abs(tint - 1).max() > 1e-6:
             nodes.warn(node, "Coat Tint is left out")
     _detail(nodes, node, material)
     result = _Surface(material, emission=emission)
