@@ -286,6 +286,21 @@ def test_what_is_baked_is_told_once_for_each_input(scene):
     assert len(baked) == 2 and all("object 'Cube'" in text and made.name in text and "Principled BSDF" in text for text in baked)
 
 
+def test_what_has_no_faces_or_no_finite_uvs(scene):
+    wavy = takes("BsdfDiffuse", "Color", texture("TexNoise", 1))
+    points = bpy.data.meshes.new("points")
+    points.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    points.materials.append(wavy)
+    add(scene, "points", points)
+    by_uv = takes("BsdfDiffuse", "Color", texture("TexNoise", 1))
+    tree = by_uv.node_tree
+    link(tree, node(tree, "UVMap"), next(n for n in tree.nodes if n.bl_idname == "ShaderNodeTexNoise").inputs["Vector"])
+    for made in (wavy, by_uv):
+        mesh(scene, "plane", made).data.uv_layers[0].uv[0].vector = (np.nan, np.inf)
+    sky(scene, (1, 1, 1))
+    assert blend.of_scene(scene, bake_resolution=8).scene(resolution=(8, 8))
+
+
 def test_what_depends_on_the_eye_is_named(scene):
     mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("LayerWeight", 1)))
     lamp(scene, "POINT", 1, (0, 0, 3))

@@ -55,9 +55,12 @@ class Bakery:
     def mesh(self) -> Any:
         """A copy of the object's, as evaluated, in Blender's data."""
         if self._mesh is None:
-            self._mesh = bpy.data.meshes.new_from_object(
-                self._object, preserve_all_data_layers=True, depsgraph=self._all.depsgraph
-            )
+            try:
+                self._mesh = bpy.data.meshes.new_from_object(
+                    self._object, preserve_all_data_layers=True, depsgraph=self._all.depsgraph
+                )
+            except RuntimeError:  # there is no geometry
+                self._mesh = bpy.data.meshes.new("wend.bake")
             source = self._object.original.data
             if hasattr(source, "texspace_location") and hasattr(self._mesh, "texspace_location"):
                 # Generated coordinates are those of the mesh before its modifiers.
@@ -70,11 +73,14 @@ class Bakery:
         """That all UVs are in: the unit square, if that is so."""
         if self._rect is None:
             layer = _render_layer(self.mesh())
-            uvs = _uvs_of(layer) if layer is not None else np.zeros((1, 2), dtype=np.float32)
-            low, high = uvs.min(axis=0), uvs.max(axis=0)
-            is_in = low.min() >= -1e-4 and high.max() <= 1 + 1e-4
-            span = np.maximum(high - low, 1e-6)
-            self._rect = _UNIT if is_in else (*map(float, low), *map(float, low + span))  # type: ignore[assignment]
+            uvs = _uvs_of(layer) if layer is not None else np.zeros((0, 2), dtype=np.float32)
+            uvs = uvs[np.isfinite(uvs).all(axis=1)]
+            if not len(uvs):
+                self._rect = _UNIT
+                return _UNIT
+            (left, low), (right, high) = uvs.min(axis=0).tolist(), uvs.max(axis=0).tolist()
+            is_in = min(left, low) >= -1e-4 and max(right, high) <= 1 + 1e-4
+            self._rect = _UNIT if is_in else (left, low, max(right, left + 1e-6), max(high, low + 1e-6))
         return self._rect
 
     def known_wants(self, material: str) -> set[str] | None:
@@ -127,7 +133,7 @@ class Bakery:
             rect = self._rect_of(wanted)
             made = self.mesh() if rect is None else _sheet(rect, self.uv_name)
             slots = self._slots if rect is None else [wanted.material.name]
-            pixels = _baked(scene, made, slots, self._place, wanted, self.side)
+            pixels = self._baked(scene, made, slots, wanted)
             if wanted.kind == "float":
                 pixels = np.repeat((pixels @ _LUMINANCE)[..., None] ** np.float32(wanted.power), 3, axis=2)
             elif wanted.kind == "albedo":
@@ -136,8 +142,19 @@ class Bakery:
             if rect is not None:
                 bpy.data.meshes.remove(made)
 
+    def _baked(self, scene: Any, mesh: Any, slots: Sequence[str], wanted: Wanted) -> Floats:
+        """Black where that fails, as for a mesh without faces."""
+        if len(mesh.polygons):
+            try:
+                return _baked(scene, mesh, slots, self._place, wanted, self.side)
+            except RuntimeError as error:
+                self._all.reader.tell(f"object '{self.name}'", f"what cannot be baked is black: {str(error).strip()}")
+        return np.zeros((1, 1, 3), dtype=np.float32)
+
     def _unwrap(self, scene: Any) -> None:
         mesh = self.mesh()
+        if not len(mesh.polygons):
+            return
         layer = mesh.uv_layers.new(name="wend.bake")
         if layer is None:
             self._all.reader.tell(f"object '{self.name}'", "a mesh with eight UV maps has no room for one that is baked by")
