@@ -19,9 +19,11 @@ from blender_scene import (  # noqa: E402, F401
     link,
     material,
     mesh,
+    node,
     scene,
     sky,
     straight,
+    takes,
 )
 
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
@@ -91,6 +93,31 @@ def test_the_add_on_blurs_what_moves(scene, tmp_path, addon):
     ours = wend.read(scene.render.filepath).image
     scene.render.engine = "CYCLES"
     assert np.abs(blocks(ours) / blocks(by_cycles(scene, tmp_path, 1000)) - 1).max() < 0.01
+
+
+def test_the_add_on_bakes_before_a_render_without_windows(scene, tmp_path, addon):
+    """Textures, and the sky."""
+    tree = scene.world.node_tree
+    ramp = node(tree, "VectorMath", operation="MULTIPLY_ADD")
+    ramp.inputs[1].default_value, ramp.inputs[2].default_value = (0.4, 0.4, 0.4), (0.5, 0.5, 0.5)
+    link(tree, node(tree, "TexCoord"), ramp.inputs[0], "Generated")
+    link(tree, ramp, tree.nodes["Background"].inputs["Color"])
+    noise = lambda tree, socket: link(tree, node(tree, "TexNoise", scale=3.0), socket, 1)  # noqa: E731
+    ball = mesh(scene, "cube", takes("BsdfDiffuse", "Color", noise), place=(0, 0, 0.5))
+    for frame, x in ((1, -1.0), (2, 1.0)):
+        ball.location.x = x
+        ball.keyframe_insert("location", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 2
+    for engine in ("CYCLES", "WEND"):
+        scene.render.engine = engine
+        scene.cycles.samples = scene.wend.samples = 128
+        scene.wend.guiding = "classical"
+        scene.render.filepath = str(tmp_path / f"{engine}.####")
+        bpy.ops.render.render(animation=True)
+    for frame in (1, 2):
+        ours, theirs = (blocks(wend.read(tmp_path / f"{engine}.{frame:04}.exr").image) for engine in ("WEND", "CYCLES"))
+        assert np.abs(ours / theirs - 1).max() < 0.01
+    assert not addon._classes()[1].prepared
 
 
 def test_the_add_on_says_what_is_wrong(scene, tmp_path, addon):
