@@ -33,6 +33,7 @@ def lit(scene, light):
     if light == "sky":
         sky(scene, (0.8, 1, 1.2))
     else:
+        sky(scene, (0.3, 0.3, 0.3))
         lamp(scene, "SUN", 3, (0, 0, 5), (0.9, 0.3, 0), angle=0.1)
 
 
