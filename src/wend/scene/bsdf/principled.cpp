@@ -167,6 +167,10 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3& wo, float u, const 
         const float roughness = u < share.base + share.facets ? alpha : coat_alpha;
         const Vec3 m = Microfacets(roughness, roughness).sample_visible(wo, u2);
         wi = m * (2 * dot(wo, m)) - wo;
+        // Below, it is not what goes in.
+        if (!(wo.z * wi.z > 0)) {
+            return std::nullopt;
+        }
     }
     const float p = density(wo, wi);
     if (!(p > 0)) {
