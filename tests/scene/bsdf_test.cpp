@@ -89,8 +89,6 @@ const std::vector<Model>& models() {
         {"principled_half_metal", principled(0.5f, 0.5f)},
         {"principled_metal", principled(1, 0.4f)},
         {"principled_coated", principled(0.3f, 0.6f, 0.8f)},
-        {"principled_waxen", waxen(0.6f, 0)},
-        {"principled_skin", waxen(1, 0.5f)},
         {"hair", HairBsdf(0.4f, 1.55f, Rgb(0.1f, 0.3f, 1), 0.3f, 0.4f, 0.035f)},
         {"hair_sharp", HairBsdf(-0.7f, 1.55f, Rgb(0.5f), 0.25f, 0.3f, 0.1f)},
         {"conductor_beckmann",
@@ -99,7 +97,9 @@ const std::vector<Model>& models() {
         {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
         {"dielectric_coloured", coloured_glass(0.4f)},
         {"dielectric_smooth_coloured", coloured_glass(0)},
-        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}}};
+        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}},
+        {"principled_waxen", waxen(0.6f, 0)},
+        {"principled_skin", waxen(1, 0.5f)}};
     return all;
 }
 
