@@ -220,11 +220,13 @@ float Scene::presence(int light, const TexturePoint& p) const {
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {
-    const auto* boundary = std::get_if<DielectricMaterial>(&material(hit));
-    if (!boundary || boundary->relative_albedo < 0) {
-        return std::nullopt;
+    TextureId albedo = -1;
+    if (const auto* boundary = std::get_if<DielectricMaterial>(&material(hit))) {
+        albedo = boundary->relative_albedo;
+    } else if (const auto* principled = std::get_if<PrincipledMaterial>(&material(hit))) {
+        albedo = principled->relative_albedo;
     }
-    return d_.textures.evaluate(boundary->relative_albedo, texture_point(hit));
+    return albedo < 0 ? std::nullopt : std::optional(d_.textures.evaluate(albedo, texture_point(hit)));
 }
 
 Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {

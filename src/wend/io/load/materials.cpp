@@ -181,7 +181,33 @@ private:
         material.coat_ior = load_ior(p, "coateta", 1.5f);
         material.below = facets_of(material.ior);
         material.above = facets_of(material.coat_ior);
-        return {material};
+        const auto subsurface = textures_.find_real(p, "subsurface");
+        return subsurface ? load_principled_inside(p, material, *subsurface) : LoadedMaterial{material};
+    }
+
+    /// An albedo that varies goes to where walks enter.
+    LoadedMaterial load_principled_inside(const pbrt::ParameterSet& p, PrincipledMaterial& material,
+                                          TextureId subsurface) {
+        material.subsurface = subsurface;
+        material.entry_ior = load_ior(p, "subsurfaceeta", material.ior);
+        material.entry_roughness = textures_.find_real(p, "subsurfaceroughness").value_or(material.roughness);
+        material.entry_even = p.get_float("subsurfaceeven", 0);
+        if (!(material.entry_even >= 0 && material.entry_even <= 1)) {
+            throw InputError(p.place_of("subsurfaceeven"), "\"subsurfaceeven\" must be from 0 to 1");
+        }
+        const TextureId albedo = textures_.colour(p, "subsurfacealbedo", Rgb(0.9f));
+        Rgb inside = textures_.mean(albedo);
+        if (textures_.varies(albedo)) {
+            material.relative_albedo = albedo;
+            inside = Rgb(1.0f);
+        }
+        const Rgb extinction = Rgb(1.0f) / load_mean_free_path(p, non_negative_float(p, "scale", 1));
+        HomogeneousMedium medium;
+        medium.scattering = inside * extinction;
+        medium.absorption = (Rgb(1.0f) - inside) * extinction;
+        medium.phase = PhaseFunction(HenyeyGreenstein{load_mean_cosine(context_, p)});
+        medium.counts_vertices = false;
+        return {material, medium};
     }
 
     std::shared_ptr<const FacetAlbedo> facets_of(float ior) {
