@@ -19,9 +19,10 @@ public:
     Denoiser(const Denoiser&) = delete;
     Denoiser& operator=(const Denoiser&) = delete;
 
-    /// The picture's colours without noise, by its layers `albedo`, `normal` and `scatter` as far as there are any.
-    /// What media hide is faded from the first two: these leave media out. Throws std::runtime_error where the library
-    /// fails.
+    /// The picture's colours without noise, by its layers `albedo`, `normal`, `scatter` and `volume` as far as there
+    /// are any. What media hide is faded from the first two: these leave media out. With `volume`, the result is the
+    /// mean of what comes of all light together, and of light from media and from surfaces apart. Throws
+    /// std::runtime_error where the library fails.
     Image filter(const Picture& picture) const;
     /// "2.3.1", say.
     std::string version() const;
