@@ -314,8 +314,8 @@ TEST_F(ExrFormat, TruncatedPartsAreRefused) {
 TEST_F(ExrFormat, DamagedPartsAreReadOrRefused) {
     const std::string file = folder_.file("parts.exr"), whole = three_parts(file);
     int refused = 0;
-    for (std::size_t place = 0; place < whole.size(); place += 3) {
-        for (const int flip : {0x01, 0x80, 0xff}) {
+    for (std::size_t place = 0; place < whole.size(); place += 5) {
+        for (const int flip : {0x01, 0xff}) {
             std::string damaged = whole;
             damaged[place] = static_cast<char>(damaged[place] ^ flip);
             std::ofstream(file, std::ios::binary) << damaged;

@@ -98,8 +98,9 @@ const std::string_view lobe_script = R"js(
     context.strokeStyle = "#000a";
     context.fillStyle = "#fff";
     const left = x > size - 60 ? x - 10 - context.measureText(text).width : x + 8;
-    context.strokeText(text, left, y - 6);
-    context.fillText(text, left, y - 6);
+    const above = y < 24 ? y + 18 : y - 6;
+    context.strokeText(text, left, above);
+    context.fillText(text, left, above);
   };
 
   const draw = (coarse) => {
