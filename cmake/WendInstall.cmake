@@ -18,10 +18,12 @@ endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/include/wend/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wend COMPONENT library)
 install(EXPORT wend-targets NAMESPACE wend:: DESTINATION ${package_dir} COMPONENT library)
 
-# For builds that know no CMake: pkg-config gives the shared library, pkg-config --static the other one.
+# For builds that know no CMake: wend-guide is the shared library, wend-guide-static the other one.
 file(RELATIVE_PATH wend_include_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
-configure_file(${CMAKE_CURRENT_LIST_DIR}/wend-guide.pc.in ${PROJECT_BINARY_DIR}/wend-guide.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/wend-guide.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+foreach(pc wend-guide wend-guide-static)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${pc}.pc.in ${PROJECT_BINARY_DIR}/${pc}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${pc}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wend-config.cmake.in ${PROJECT_BINARY_DIR}/wend-config.cmake
   INSTALL_DESTINATION ${package_dir})

@@ -83,16 +83,8 @@ float emitter_density(const Wall& lamp, const Vec3& direction, float distance) {
 }
 
 /// Which lamp is connected to, as long as nothing is learned: by power. (wend::LightChoice)
-struct ByPower {
-    static float power(const Wall& lamp) { return mean_value(lamp.radiance) * lamp.area(); }
-    float probability(const wend::LightReceiver&, int light) const {
-        return power(*lamps[static_cast<std::size_t>(light)]) / (power(*lamps[0]) + power(*lamps[1]));
-    }
-    wend::ChosenLight sample(const wend::LightReceiver& receiver, float u) const {
-        const int light = u < probability(receiver, 0) ? 0 : 1;
-        return {light, probability(receiver, light)};
-    }
-};
+const wend::WeightedLights by_power({mean_value(lamps[0]->radiance) * lamps[0]->area(),
+                                     mean_value(lamps[1]->radiance) * lamps[1]->area()});
 
 // ---- 1. Tell Wend how things scatter: any class with these functions will do (wend::ScatteringFunction) ----
 
@@ -128,6 +120,7 @@ struct Decisions {
 
 /// What walks tell: records for the fields, and what connections brought.
 struct Told {
+    PathLog log;  ///< of one walk
     PathRecords records;
     std::vector<wend::LightRecord> lights;
 };
@@ -137,22 +130,20 @@ template <class Decisions>
 class Walk {
 public:
     /// `expected`: what the pixel will be, as far as is known; 0: not at all.
-    Walk(const Decisions& d, float expected, wend::Pcg32& random, PathLog& log, Told& told)
-        : d_(d), expected_(expected), random_(random), log_(log), told_(told) {}
+    Walk(const Decisions& d, float expected, wend::Pcg32& random, Told& told)
+        : d_(d), expected_(expected), random_(random), log_(told.log), told_(told) {}
 
     Rgb run(const Vec3& origin, const Vec3& direction) {
         log_.start();
-        now_.ray = {origin, direction};
-        for (;;) {
+        pending_.emplace_back().ray = {origin, direction};
+        while (!pending_.empty()) {
+            now_ = pending_.back();
+            pending_.pop_back();
+            log_.resume(now_.logged);
             while (fly()) {
             }
-            if (pending_.empty()) {
-                return radiance_;
-            }
-            now_ = pending_.back().first;
-            log_.resume(pending_.back().second);
-            pending_.pop_back();
         }
+        return radiance_;
     }
 
 private:
@@ -165,6 +156,7 @@ private:
         float ratio = 1;  ///< how much likelier the walk is for being guided: roulette must not end it for that
         float copies = 1;
         int depth = 0;
+        PathLog::Branch logged{};  ///< where the log goes on
     };
 
     /// Radiance of a lamp that is met, weighted against connect(), which might have found it (balance heuristic).
@@ -174,7 +166,7 @@ private:
             return point > 0 ? hit.wall->radiance : black;
         }
         const float own = now_.density * std::exp(-extinction * hit.distance);
-        const float other = d_.lights.probability(ByPower(), now_.last, hit.wall->lamp) * point;
+        const float other = d_.lights.probability(by_power, now_.last, hit.wall->lamp) * point;
         return hit.wall->radiance * (own / (own + other));
     }
 
@@ -188,10 +180,9 @@ private:
         const Rgb light = met(hit);
         const wend::FlightEnd end{wend::FlightEnd::Kind::surface, there, hit.normal, mean_value(light)};
         const wend::FlightStart start{now_.ray, hit.distance, now_.throughput, mean_value(now_.throughput), end, {}};
-        const float u = random_.uniform();
         // These rays are cheap, and a guided flight costs five of them. The first flights are worth it.
-        const wend::Flight flight = now_.depth < 2 ? d_.distances.sample(fog, start, u, random_)
-                                                   : classical_flights_.sample(fog, start, u, random_);
+        const wend::Flight flight =
+            now_.depth < 2 ? d_.distances.sample(fog, start, random_) : classical_flights_.sample(fog, start, random_);
         weigh(flight.weight);
         now_.ratio *= flight.density_ratio;
         log_.meet(flight.scatters ? flight.distance : hit.distance);
@@ -207,48 +198,44 @@ private:
         return scatter(Matt{hit.wall->albedo, hit.normal}, {there, hit.normal}, there + hit.normal * 1e-4f);
     }
 
-    /// Connects to a lamp, decides how many directions to draw, and leaves all but one of them pending.
+    /// Connects to a lamp, and decides how many directions to draw; several are branches of their own.
     template <class F>
     bool scatter(const F& f, const wend::LightReceiver& here, const Vec3& position) {
         ++now_.depth;
         const auto directions = d_.directions.at(position, f, mean_value(now_.throughput));
         connect(f, directions, here);
-        std::optional<float> ahead;  // what the walk will bring, in pixels
-        if (const auto light = directions.in_scattered(); light && expected_ > 0) {
-            ahead = mean_value(now_.throughput * f.albedo() * *light) / expected_;
-        }
-        const int most_copies = static_cast<int>(64 / now_.copies) + 1;
-        const auto outcome = d_.survival.before_direction({ahead, mean_value(now_.throughput), most_copies}, random_);
+        const auto ahead = wend::ExpectedContribution::at(directions, f.albedo(), now_.throughput, expected_,
+                                                          static_cast<int>(64 / now_.copies) + 1);
+        const auto outcome = d_.survival.before_direction(ahead, random_);
         if (!outcome) {
-            return draw(f, directions, here, position) && survives();
+            return draw(directions, here, position) && survives();
         }
         const auto expected = static_cast<float>(outcome->expected);
         weigh(Rgb(1 / expected));
         now_.ratio *= expected;
         now_.copies *= std::max(1.0f, expected);
-        for (int i = 1; i < outcome->copies; ++i) {
+        for (int i = 0; i < outcome->copies; ++i) {
             const State before = now_;
-            const PathLog::Branch branch = log_.branch();
-            if (draw(f, directions, here, position)) {
-                pending_.emplace_back(now_, log_.branch());
+            const PathLog::Branch logged = log_.branch();
+            if (draw(directions, here, position)) {
+                now_.logged = log_.branch();
+                pending_.push_back(now_);
             }
             now_ = before;
-            log_.resume(branch);
+            log_.resume(logged);
         }
-        return outcome->copies > 0 && draw(f, directions, here, position);
+        return false;  // they are all pending
     }
 
-    template <class F, class Distribution>
-    bool draw(const F&, const Distribution& directions, const wend::LightReceiver& here, const Vec3& position) {
-        const float u = random_.uniform();
-        const auto s = directions.sample(u, random_.uniform2());
+    template <class Distribution>
+    bool draw(const Distribution& directions, const wend::LightReceiver& here, const Vec3& position) {
+        const auto s = directions.sample(random_);
         if (!s) {
             return false;
         }
         // The weight is the scattering function over the density that was used, so no field can bias the picture.
         now_.throughput *= s->weight();
-        log_.scatter(here.position, s->direction, s->density, s->weight(), F::in_volume, s->classical_density,
-                     s->guided_density);
+        log_.scatter(here.position, *s, here.in_volume());
         now_.ratio *= s->density_ratio;
         now_.ray = {position, s->direction};
         now_.last = here;
@@ -259,7 +246,7 @@ private:
     /// Next-event estimation. Directions could have found the lamp as well: the balance heuristic asks their density.
     template <class F, class Distribution>
     void connect(const F& f, const Distribution& directions, const wend::LightReceiver& here) {
-        const wend::ChosenLight chosen = d_.lights.sample(ByPower(), here, random_.uniform());
+        const wend::ChosenLight chosen = d_.lights.sample(by_power, here, random_.uniform());
         const Wall& lamp = *lamps[static_cast<std::size_t>(chosen.index)];
         const Vec2 q = lamp.min + random_.uniform2() * (lamp.max - lamp.min);
         const Vec3 to_lamp = Vec3(lamp.at, q.x, q.y) - here.position;
@@ -279,9 +266,8 @@ private:
     }
 
     bool survives() {
-        const bool in_volume = now_.last.normal == Vec3(0, 0, 0);
         const float survival =
-            d_.survival.after_direction({now_.throughput, now_.ratio, 1, now_.depth, false, in_volume});
+            d_.survival.after_direction({now_.throughput, now_.ratio, 1, now_.depth, false, now_.last.in_volume()});
         weigh(Rgb(1 / survival));
         return random_.uniform() < survival;
     }
@@ -303,7 +289,7 @@ private:
     PathLog& log_;
     Told& told_;
     State now_;
-    std::vector<std::pair<State, PathLog::Branch>> pending_;
+    std::vector<State> pending_;
     Rgb radiance_;
 };
 
@@ -343,24 +329,20 @@ std::vector<Told> render(const Decisions& decisions, const std::vector<float>& e
     const auto start = std::chrono::steady_clock::now();
     std::vector<Told> rows(height);
     tbb::parallel_for(std::size_t{0}, std::size_t(height), [&](std::size_t row) {
-        PathLog log;
         for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
             for (int sample = picture.samples; sample < picture.samples + count; ++sample) {
                 wend::Pcg32 random(wend::hash_of(i, picture.first + sample));
                 const float x = static_cast<float>(i % width) + random.uniform();
                 const float y = static_cast<float>(row) + random.uniform();
-                Walk walk(decisions, expected.empty() ? 0.0f : expected[i], random, log, rows[row]);
+                Walk walk(decisions, expected.empty() ? 0.0f : expected[i], random, rows[row]);
                 const Rgb radiance = walk.run(Vec3(0.4f, 1.3f, 3.6f), camera_direction(x, y));
                 Rgb& mean = picture.mean.pixels[i];
                 mean += (radiance - mean) / static_cast<float>(sample + 1);
                 const auto value = static_cast<double>(mean_value(radiance));
                 picture.squares[row] += value * value;
                 if (learns) {
-                    rows[row].records.add(log.vertices(), 64);
+                    rows[row].records.add(rows[row].log.vertices(), 64);
                 }
-            }
-            if (!learns) {
-                rows[row].lights.clear();
             }
         }
     });
@@ -371,47 +353,40 @@ std::vector<Told> render(const Decisions& decisions, const std::vector<float>& e
 
 // ---- 4. Learn between passes. Each walks by what the passes before it learned, and is twice as long ----
 
-struct Pictures {
-    Picture classical, training, guided;
-};
-
-Pictures render_both(int samples, int passes) {
-    Pictures all{{}, {samples}, {samples + (1 << passes)}};
+void render_both(int samples, int passes, Picture& classical, Picture& training, Picture& guided) {
+    training.first = samples;
+    guided.first = samples + (1 << passes);
     wend::LearnedLights lights(bounds, lamps.size());
     const Decisions unguided{wend::ClassicalDistance(), wend::ClassicalDirection(), wend::unguided_walks_end, lights};
-    render(unguided, {}, samples, false, all.classical);
+    render(unguided, {}, samples, false, classical);
     // Surfaces and volumes have a field each: what they see differs. Decisions refer to the fields: new ones are
     // assigned to them. What pixels will be is known from those passes, too.
     wend::guide::Fields fields{Field::empty(bounds), Field::empty(bounds)};
     std::vector<float> expected;
-    const Picture& so_far = all.training;
     const auto decide = [&] {
-        const double noise = so_far.samples > 1 ? so_far.variance() / (so_far.average() * so_far.average()) : 1;
-        return Decisions{wend::GuidedDistance<Field>(&fields.surface, &fields.volume, 0.3f,
-                                                     wend::DistanceGuiding::scatter_and_distance),
-                         wend::GuidedDirection<Field>(&fields.surface, &fields.volume),
+        const double noise = training.samples > 1 ? training.variance() / (training.average() * training.average()) : 1;
+        return Decisions{wend::GuidedDistance(fields), wend::GuidedDirection(fields),
                          wend::AdjointRouletteSplitting(true, true, noise), lights};
     };
     for (int pass = 0; pass < passes; ++pass) {
         std::vector<PathRecords> records;
-        for (Told& told : render(decide(), expected, 1 << pass, true, all.training)) {
+        for (Told& told : render(decide(), expected, 1 << pass, true, training)) {
             records.push_back(std::move(told.records));
             lights.add(told.lights);
         }
         fields = wend::guide::learn(fields, std::move(records), 0);
-        lights.learn([](const wend::LightReceiver& r, int light) { return ByPower().probability(r, light); }, 0);
-        expected = wend::pixel_estimates(so_far.mean, so_far.samples);
+        lights.learn(by_power, 0);
+        expected = wend::pixel_estimates(training.mean, training.samples);
     }
     // Training pictures are right, but noisier than what follows: this one shows what has been learned.
-    render(decide(), expected, samples, false, all.guided);
-    return all;
+    render(decide(), expected, samples, false, guided);
 }
 
 }  // namespace
 
 int main() {
-    constexpr int samples = 128;
-    const auto [classical, training, guided] = render_both(samples, 6);
+    Picture classical, training, guided;
+    render_both(128, 6, classical, training, guided);
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
     for (const auto& [name, picture] : {std::pair("classical", &classical), {"guided", &guided}}) {
         std::printf("%-9s  mean %.4f, relative error of a sample %.2f, %.2f s\n", name, picture->average(),
@@ -420,6 +395,6 @@ int main() {
     const double gain = classical.variance() / guided.variance();
     std::printf("%.1f times less variance by as many samples, %.1f times by as much time; %d samples of training\n",
                 gain, gain * classical.seconds / guided.seconds, training.samples);
-    const double error = std::sqrt((classical.variance() + guided.variance()) / (samples * width * height));
+    const double error = std::sqrt((classical.variance() + guided.variance()) / (classical.samples * width * height));
     return std::abs(classical.average() - guided.average()) < 4 * error && gain > 4 ? 0 : 1;
 }

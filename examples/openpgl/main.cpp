@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -302,21 +303,17 @@ private:
 
 constexpr int width = 64, height = 36;
 
-/// Mean and variance of a stream of values.
-class Moments {
-public:
-    void add(double value) {
-        const double before = value - mean_;
-        mean_ += before / static_cast<double>(++count_);
-        squares_ += before * (value - mean_);
-    }
-    double mean() const { return mean_; }
-    double variance() const { return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : 0; }
-    double squared_error() const { return variance() / static_cast<double>(count_); }
+/// Of a stream of values.
+struct Moments {
+    double count = 0, sum = 0, squares = 0;
 
-private:
-    long count_ = 0;
-    double mean_ = 0, squares_ = 0;
+    void add(double value) {
+        count += 1;
+        sum += value;
+        squares += value * value;
+    }
+    double mean() const { return sum / count; }
+    double squared_error() const { return (squares / count - mean() * mean()) / (count - 1); }
 };
 using Picture = std::vector<Moments>;
 
@@ -373,19 +370,16 @@ long render(const pgl::Field* field, int first, int count, Picture& picture, pgl
     return wrong;
 }
 
-/// Over the picture: its pixels, and the squares of their standard errors.
-struct Quality {
-    Moments radiance, variance;
-};
-Quality report(const char* name, const Picture& picture) {
-    Quality q;
+/// The picture's mean, and that of the squares of its pixels' standard errors.
+std::pair<double, double> report(const char* name, const Picture& picture) {
+    Moments radiance, squared_error;
     for (const Moments& pixel : picture) {
-        q.radiance.add(pixel.mean());
-        q.variance.add(pixel.squared_error());
+        radiance.add(pixel.mean());
+        squared_error.add(pixel.squared_error());
     }
-    std::printf("%-9s  mean %.4f, relative error of a pixel %.1f %%\n", name, q.radiance.mean(),
-                100 * std::sqrt(q.variance.mean()) / q.radiance.mean());
-    return q;
+    std::printf("%-9s  mean %.4f, relative error of a pixel %.1f %%\n", name, radiance.mean(),
+                100 * std::sqrt(squared_error.mean()) / radiance.mean());
+    return {radiance.mean(), squared_error.mean()};
 }
 
 }  // namespace
@@ -412,11 +406,12 @@ int main() {
     wrong += render(&field, sample, samples, guided, nullptr);
 
     // A renderer that embeds a guide does well to test the same: no bias, and less noise in as many samples.
-    const Quality a = report("classical", classical), b = report("guided", guided);
-    const double gain = a.variance.mean() / b.variance.mean();
+    const auto [mean, noise] = report("classical", classical);
+    const auto [guided_mean, guided_noise] = report("guided", guided);
+    const double gain = noise / guided_noise;
     std::printf("%.2f times less variance by %d samples per pixel, after %d of training\n", gain, samples,
                 sample - samples);
     std::printf("%ld walks recorded something else than they brought\n", wrong);
-    const double error = std::sqrt((a.variance.mean() + b.variance.mean()) / (width * height));
-    return std::abs(a.radiance.mean() - b.radiance.mean()) < 4 * error && gain > 1 && wrong == 0 ? 0 : 1;
+    const double error = std::sqrt((noise + guided_noise) / (width * height));
+    return std::abs(mean - guided_mean) < 4 * error && gain > 1 && wrong == 0 ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 #include <wend/core/error.h>
 #include <wend/film/flip.h>
 #include <wend/film/metrics.h>
+#include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
 
 #include "bindings.h"
@@ -104,9 +105,11 @@ void bind_pictures(nb::module_& module) {
                 const nb::gil_scoped_release release;
                 if (half) {
                     require_exr_extension(file);
+                    require_writable(file);
                     write_colours(file, picture);
                 } else {
                     require_known_picture_extension(file);
+                    require_writable(file);
                     write_picture(file, picture, {parse_layer_names(layer_names), alpha, half_layers});
                 }
             },

@@ -21,11 +21,11 @@ ScenePointer load(const std::string& file, const std::string& resolution, const 
 }
 
 /// For scenes that a program writes.
-ScenePointer load_text(std::string text, const std::string& folder, const std::string& name,
+ScenePointer load_text(const std::string& text, const std::string& folder, const std::string& name,
                        const std::string& resolution, const std::string& crop, std::optional<int> max_depth,
                        const std::string& sampler) {
     const nb::gil_scoped_release release;
-    return ParsedScene::of_text(std::move(text), folder, {name, resolution, crop, max_depth, sampler});
+    return ParsedScene::of_text(text, folder, {name, resolution, crop, max_depth, sampler});
 }
 
 /// Two corners of the box, in the world of the file, that holds all of a grid.
@@ -102,7 +102,7 @@ ScenePointer with_parameters(const ParsedScene& scene, const Changes& changes) {
         text += fmt::format("{} {}", type, name);
         std::visit([&](const auto& list) { text += fmt::format(" {}\n", fmt::join(list, " ")); }, given);
     }
-    return std::make_shared<ParsedScene>(scene.options(), std::move(description), std::move(text));
+    return std::make_shared<ParsedScene>(scene.options(), std::move(description), std::move(text), &scene);
 }
 
 }  // namespace
@@ -126,6 +126,12 @@ void bind_scenes(nb::module_& module) {
                                           std::tuple(box.max.x, box.max.y, box.max.z));
                      })
         .def_prop_ro("warnings", [](const ParsedScene& s) { return s.session().warnings(); })
+        .def(
+            "shares_geometry_with",
+            [](const ParsedScene& s, const ParsedScene& other) {
+                return s.session().scene().shares_geometry_with(other.session().scene());
+            },
+            nb::arg("other"))
         .def("parameters", &parameters, nb::arg("most"))
         .def("with_parameters", &with_parameters, nb::arg("changes"));
     module.def("volume_bounds", &volume_bounds, nb::arg("file"), nb::arg("grid"),

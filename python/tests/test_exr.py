@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pathlib
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
@@ -124,3 +126,40 @@ def test_objects_are_found_by_their_names(tmp_path: pathlib.Path) -> None:
 def test_layers_that_there_are_not(film: wend.Film) -> None:
     with pytest.raises(wend.InputError, match="there is no 'shadows'"):
         wend.render(wend.loads(SPHERE), layers=["shadows"], progress=False)
+
+
+def oiiotool(*arguments: object) -> str:
+    program = shutil.which("oiiotool")
+    if not program:
+        pytest.skip("oiiotool is not installed")
+    return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+
+
+@pytest.mark.parametrize(("names", "depth", "albedo"), [("wend", "depth.Z", "albedo"), ("pbrt", "depth.Z", "Albedo"),
+                                                        ("blender", "ViewLayer.Depth.Z", "ViewLayer.Denoising Albedo")])
+@pytest.mark.parametrize(("exr", "rounding"), [("float", 0), ("half", 2**-11)])
+def test_oiiotool_reads_channels_and_values(film: wend.Film, tmp_path: pathlib.Path, names: str, depth: str, albedo: str,
+                                            exr: str, rounding: float) -> None:
+    path, taken = tmp_path / "a.exr", tmp_path / "taken.exr"
+    film.save(path, layer_names=names, exr=exr)
+    about = oiiotool("--info", "-v", path)
+    assert "16 x   12" in about
+    said = about.split("channel list:")[1].splitlines()[0]
+    listed = {name.split("(")[0].strip() for name in said.split(",")}
+    assert listed == set(channels(path))
+    assert "samplesPerPixel: 8" in about and "seed: 3" in about
+    # What it takes for three channels, under names of its own.
+    for source, layer in ((f"{albedo}.R,{albedo}.G,{albedo}.B", "albedo"), (f"{depth},{depth},{depth}", "depth")):
+        oiiotool(path, "--ch", source, "--chnames", "R,G,B", "-d", "float", "-o", taken)
+        ours = film[layer] if film[layer].ndim == 3 else np.dstack([film[layer]] * 3)
+        np.testing.assert_allclose(wend.read(taken).image, ours, rtol=0 if layer == "depth" else rounding)
+
+
+def test_parts_that_oiiotool_writes_are_layers(film: wend.Film, tmp_path: pathlib.Path) -> None:
+    path, far, both = tmp_path / "a.exr", tmp_path / "far.exr", tmp_path / "both.exr"
+    film.save(path)
+    oiiotool(path, "--ch", "depth.Z", "--chnames", "Z", "--attrib", "oiio:subimagename", "far", "-o", far)
+    oiiotool(path, "--ch", "R,G,B", "--attrib", "oiio:subimagename", "rgb", far, "--siappend", "-o", both)
+    again = wend.read(both)
+    np.testing.assert_array_equal(again.image, film.image)
+    np.testing.assert_array_equal(again["far"], film["depth"])

@@ -59,6 +59,9 @@ def test_saving_and_reading(demo, tmp_path):
     film.save(tmp_path / "half.exr", half=True)
     with pytest.raises(wend.InputError):
         film.save(tmp_path / "a.txt")
+    with pytest.raises(wend.InputError, match="no-folder") as caught:
+        film.save(tmp_path / "no-folder" / "a.exr")
+    assert caught.value.file == str(tmp_path / "no-folder" / "a.exr")
     with pytest.raises(wend.InputError):
         wend.read(tmp_path / "missing.exr")
 

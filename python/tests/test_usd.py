@@ -12,7 +12,7 @@ import wend
 pytest.importorskip("pxr", reason="usd-core is absent")
 pytestmark = pytest.mark.filterwarnings("ignore:.*no light:wend.SceneWarning")
 
-from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, UsdVol, Vt  # noqa: E402
+from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, UsdUtils, UsdVol, Vt  # noqa: E402
 
 import wend.usd  # noqa: E402
 from usd_stage import Stage, coverage, middle  # noqa: E402
@@ -208,6 +208,18 @@ def test_textures_lie_as_usd_has_them(stage, tmp_path, scheme):
     assert image[1, 4][0] > 2 * image[1, 4][2] and image[6, 4][2] > 2 * image[6, 4][0]
 
 
+def test_pictures_are_found_in_packages(stage, tmp_path):
+    wend.Film.of(np.full((4, 8, 3), 0.5, dtype=np.float32)).save(tmp_path / "sky.exr")
+    prim = stage.stage.DefinePrim("/sky", "DomeLight")
+    prim.GetAttribute("inputs:texture:file").Set(Sdf.AssetPath("sky.exr"))
+    prim.GetAttribute("inputs:intensity").Set(3.0)
+    stage.stage.GetRootLayer().Save()
+    assert UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(stage.file)), str(tmp_path / "stage.usdz"))
+    (tmp_path / "sky.exr").unlink()
+    scene = wend.usd.read(tmp_path / "stage.usdz", resolution=(3, 3), spp=4).scene()
+    assert wend.render(scene, progress=False).image == pytest.approx(np.full((3, 3, 3), 1.5), rel=1e-3)
+
+
 def materialx(stage, prim, identifier, **inputs):
     material = UsdShade.Material.Define(stage.stage, "/mx")
     shader = UsdShade.Shader.Define(stage.stage, "/mx/s")
@@ -349,13 +361,15 @@ def test_what_is_hidden_or_a_guide_is_not_seen(stage):
 def test_volumes_are_named_with_their_files(stage):
     volume = UsdVol.Volume.Define(stage.stage, "/smoke")
     field = UsdVol.OpenVDBAsset.Define(stage.stage, "/smoke/density")
+    file = stage.file.with_name("smoke.vdb")
+    file.write_bytes(SMALL_VOLUME.read_bytes())
     field.CreateFilePathAttr("smoke.vdb")
     field.CreateFieldNameAttr("d")
     volume.CreateFieldRelationship("density", field.GetPath())
     volume.CreateExtentAttr([(-1, -1, -1), (1, 2, 3)])
     with pytest.warns(wend.SceneWarning, match="/smoke: warning: a volume scatters"):
         text = stage.read().text()
-    assert '"string filename" [ "smoke.vdb" ]' in text and '"string gridname" [ "d" ]' in text
+    assert f'"string filename" [ "{file}" ]' in text and '"string gridname" [ "d" ]' in text
 
 
 def test_a_volume_without_an_extent_has_that_of_its_grid(stage):

@@ -9,7 +9,7 @@ import wend
 pytest.importorskip("pxr", reason="usd-core is absent")
 pytestmark = pytest.mark.filterwarnings("ignore:.*no light:wend.SceneWarning")
 
-from pxr import Gf, Sdf, UsdGeom, UsdLux  # noqa: E402
+from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade  # noqa: E402
 
 from usd_stage import Stage, middle  # noqa: E402
 from wend import _ies  # noqa: E402
@@ -147,3 +147,69 @@ def test_focus_and_cones_shape_flat_lights(stage):
     image = stage.image(spp=16, size=(91, 91))
     assert middle(image) == pytest.approx(np.full(3, straight), rel=5e-3)
     assert image[45, 2] == pytest.approx((0, 0, 0), abs=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["SphereLight", "Cube", "Mesh"])
+def test_copies_of_what_shines_shine(stage, kind):
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/copies")
+    thing = stage.stage.DefinePrim("/copies/thing", kind)
+    if kind == "SphereLight":
+        thing.GetAttribute("inputs:radius").Set(1.0)
+        thing.GetAttribute("inputs:intensity").Set(3.0)
+    else:
+        if kind == "Mesh":
+            mesh = UsdGeom.Mesh(thing)
+            mesh.CreatePointsAttr([(-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)])
+            mesh.CreateFaceVertexCountsAttr([4])
+            mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+            mesh.CreateSubdivisionSchemeAttr("none")
+        material = UsdShade.Material.Define(stage.stage, "/glow")
+        shader = UsdShade.Shader.Define(stage.stage, "/glow/s")
+        shader.CreateIdAttr("UsdPreviewSurface")
+        shader.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set((3, 3, 3))
+        shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((0, 0, 0))
+        shader.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(1.0)
+        material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+        UsdShade.MaterialBindingAPI.Apply(thing).Bind(material)
+    instancer.CreatePrototypesRel().AddTarget(thing.GetPath())
+    instancer.CreateProtoIndicesAttr([0, 0])
+    instancer.CreatePositionsAttr([(-3, 0, -6), (3, 0, -6)])
+    image = stage.image(size=(36, 36), spp=16)[:, :, 0]
+    # At distance 6 three pixels are a unit.
+    assert image[17:19, 8:10] == pytest.approx(np.full((2, 2), 3), rel=1e-3)
+    assert image[17:19, 26:28] == pytest.approx(np.full((2, 2), 3), rel=1e-3)
+    assert image[17:19, 17:19] == pytest.approx(np.zeros((2, 2)), abs=1e-3)
+
+
+def test_a_light_without_a_size_is_where_it_is_at_the_time(stage):
+    stage.card()
+    prim = stage.lamp("SphereLight", place=(0, 0, 0), turn=(0, 0, 0), radius=0.0, intensity=400.0, normalize=True)
+    prim.GetAttribute("treatAsPoint").Set(True)
+    place = UsdGeom.Xformable(prim).GetOrderedXformOps()[0]
+    for time, z in ((1, -1.5), (2, -1.0), (3, 2.0)):
+        place.Set(Gf.Vec3d(0, 0, z), time)
+    intensity = prim.GetAttribute("inputs:intensity")
+    intensity.Set(400.0, 1)
+    intensity.Set(800.0, 3)
+    stage.camera.CreateShutterOpenAttr(-0.5)
+    stage.camera.CreateShutterCloseAttr(0.5)
+    # It is normalised: a quarter of its strength is the intensity. One unit before the card.
+    expected = 0.5 / math.pi * 600 / 4
+    assert middle(stage.image(spp=64, size=(91, 91), time=2)) == pytest.approx(np.full(3, expected), rel=2e-3)
+
+
+def test_rims_of_cones_fall_off_by_the_angle(stage):
+    stage.card()
+    prim = stage.lamp("SphereLight", place=(0, 0, 0.5), turn=(0, 0, 0), radius=0.1, intensity=100.0)
+    shaping = UsdLux.ShapingAPI.Apply(prim)
+    shaping.CreateShapingConeAngleAttr(40.0)
+    shaping.CreateShapingConeSoftnessAttr(0.75)
+    image = stage.image(spp=16, size=(91, 91))
+    straight = 0.5 / math.pi * 100 * math.pi * 0.01 / 2.5**2
+    for x in (0.2, 0.8, 1.2, 1.6):
+        column = 45 + round(x / 2 * 45)
+        x = (column - 45) / 91 * 4
+        angle = math.degrees(math.atan2(x, 2.5))
+        t = min(max((angle - 10) / 30, 0), 1)
+        expected = straight * math.cos(math.radians(angle)) ** 3 * (1 - t * t * (3 - 2 * t))
+        assert image[45, column] == pytest.approx(np.full(3, expected), rel=0.02)

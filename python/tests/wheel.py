@@ -3,8 +3,8 @@
 usage: wheel.py SOURCE BUILD PROGRAM
 
 SOURCE is the checkout, BUILD a folder for what is made, PROGRAM the wend program whose picture must be the same bits.
-As root, the wheel runs in a folder that holds Python and the C and C++ libraries alone (chroot); otherwise in an environment of
-its own. Ends with status 77 where auditwheel is absent.
+What runs are the README's lines of Python. As root, they run in a folder that holds Python and the C and C++
+libraries alone (chroot); otherwise in an environment of its own. Ends with status 77 where auditwheel is absent.
 """
 
 import glob
@@ -17,11 +17,16 @@ import sys
 import sysconfig
 from pathlib import Path
 
-RENDER = """
-import wend
-film = wend.render(wend.load(wend.demo_scene(), resolution=(64, 36)), spp=3, progress=False)
-film.save("{picture}")
-"""
+
+def lines_of_readme(source: Path) -> str:
+    """What the README shows of Python, by samples in place of time, and a short comparison; it writes demo.exr."""
+    blocks = re.findall(r"```python\n(.*?)```", (source / "README.md").read_text(), re.DOTALL)
+    (block,) = (block for block in blocks if "demo.exr" in block)
+    for shown, quick in (("time=10", "spp=3"), ("time=5", "time=0.1")):
+        if block.count(shown + ")") + block.count(shown + ",") != 1:
+            raise SystemExit(f"the README's lines of Python have no {shown}")
+        block = block.replace(shown, quick)
+    return block
 
 
 def run(*command: object, **options: object) -> str:
@@ -88,17 +93,18 @@ def main() -> int:
     wheel = make_wheel(source, build)
     print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB")
     expected, found = build / "program.exr", build / "wheel.exr"
-    run(program, "render", source / "scenes" / "demo.pbrt", "--resolution", "64x36", "--spp", "3", "-o", expected,
-        "--quiet")
+    run(program, "render", source / "scenes" / "demo.pbrt", "--spp", "3", "-o", expected, "--quiet")
+    lines = lines_of_readme(source)
     if os.geteuid() == 0:
         system = build / "system"
         bare_system(system, build / "site")
-        run(shutil.which("chroot"), system, Path(sys.base_prefix) / "bin" / "python", "-c", RENDER.format(picture="/found.exr"),
+        run(shutil.which("chroot"), system, Path(sys.base_prefix) / "bin" / "python", "-c", lines,
             env={"PYTHONPATH": "/site", "PYTHONHOME": sys.base_prefix})
-        shutil.move(system / "found.exr", found)
+        shutil.move(system / "demo.exr", found)
         shutil.rmtree(system)
     else:
-        run(sys.executable, "-c", RENDER.format(picture=found), env={"PYTHONPATH": str(build / "site")})
+        run(sys.executable, "-c", lines, env={"PYTHONPATH": str(build / "site")}, cwd=build)
+        shutil.move(build / "demo.exr", found)
     compare = (
         "import sys, numpy, wend; a, b = map(wend.read, sys.argv[1:]);"
         "sys.exit(0 if all(numpy.array_equal(a[name], b[name]) for name in a) else 'other bits than the program')"

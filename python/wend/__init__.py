@@ -6,7 +6,7 @@
     film = wend.render(scene, time=30)                    # or spp=, or noise=
     film.save("room.exr")                                 # film.image is a NumPy array, film["variance"] a layer
 
-    foggy = scene.with_({"medium.fog.scale": 2})          # the scene with another parameter
+    foggy = scene.with_({"medium.fog.scale": 2})          # with another parameter; shapes are shared
     wend.compare(foggy, time=10)                          # ways of sampling in equal time
     wend.halfspace(albedo=[0.8, 0.95], sampler=["classical", "modes"])
 

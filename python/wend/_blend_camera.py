@@ -12,6 +12,8 @@ from ._scene_reader import SceneReader
 
 #: Of Blender's camera, which looks along -z, to pbrt's.
 _CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
+#: The same of panoramas, whose middle is -x there, and whose left is z.
+_PANORAMA = np.array([[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1.0]])
 
 
 def add_view(
@@ -55,10 +57,13 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
     camera = eye.data
     place = f"camera '{eye.name}'"
     matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
-    reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
+    is_around = camera.type == "PANO" and _is_equirectangular(reader, place, camera)
+    space = _PANORAMA if is_around else _CAMERA
+    reader.put(np.asarray(np.linalg.inv(space @ motion.of_camera(eye)), dtype=np.float64))
+    if is_around:
+        reader.builder.add("Camera", "spherical", {"string mapping": "equirectangular"})
+        return
     window = _window_of(scene, camera, resolution)
-    if camera.type == "PANO":
-        reader.tell(place, "a panoramic camera is taken as one with a lens")
     parameters: dict[str, Any] = {"float screenwindow": window}
     dof = camera.dof
     if dof.use_dof:
@@ -75,6 +80,19 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
         reader.builder.add("Camera", "orthographic", parameters)
     else:
         reader.builder.add("Camera", "perspective", parameters | {"float fov": 90})
+
+
+def _is_equirectangular(reader: SceneReader, place: str, camera: Any) -> bool:
+    """Whether a panoramic camera is; others are named, and taken as cameras with a lens."""
+    # Until Blender 5 these are settings of Cycles.
+    settings = camera if hasattr(camera, "panorama_type") else camera.cycles
+    if settings.panorama_type != "EQUIRECTANGULAR":
+        reader.tell(place, f"a panoramic camera of the kind {settings.panorama_type} is taken as one with a lens")
+        return False
+    limits = [getattr(settings, f"{name}_{end}") for name in ("latitude", "longitude") for end in ("min", "max")]
+    if not np.allclose(limits, [-np.pi / 2, np.pi / 2, -np.pi, np.pi], atol=1e-4):
+        reader.tell(place, "a panorama is of all directions")
+    return True
 
 
 def _window_of(scene: Any, camera: Any, resolution: tuple[int, int]) -> Any:

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._blend_nodes import Colour, Nodes, output_node
+from ._blend_subsurface import add_inside
+from ._blend_volumes import volume_parameters
+from ._blend_wanted import Probe
 from ._scene_reader import Look, SceneReader
+
+if TYPE_CHECKING:
+    from ._blend_bake import Bakery
 
 
 @dataclass
@@ -19,42 +25,72 @@ class _Surface:
     mixed: tuple[_Surface, _Surface, dict[str, Any]] | None = None  #: two of them, and how much of the second
     emission: Colour = field(default_factory=lambda: np.zeros(3))
     alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
-    inside: dict[str, Any] | None = None  #: parameters of a MakeNamedMedium
+    shines_by_a_picture: bool = False  #: because what it shines with varies
     is_clear: bool = False  #: light goes straight through
-    is_only_inside: bool = False  #: alone it is an interface around what is inside
 
 
-def look_of(reader: SceneReader, material: Any) -> Look:
-    """Makes the material, and the medium inside, if they are not there yet. A shape without one is grey."""
+def look_of(reader: SceneReader, material: Any, bakery: Bakery | None = None) -> Look:
+    """Makes the material, and the medium inside, if they are not there yet. A shape without one is grey.
+
+    Args:
+        reader: of the scene.
+        material: None: of a shape that has none.
+        bakery: of the object, for what has no counterpart; None: that is left out.
+    """
     key = material.name if material else " no material"
+    if bakery is not None and material is not None:
+        key += bakery.suffix(wants_of(reader, material, bakery))
     if key not in reader.materials:
-        reader.materials[key] = _made(reader, material, key)
+        reader.materials[key] = _made(reader, material, key, bakery)
     return reader.materials[key]
 
 
-def _made(reader: SceneReader, material: Any, key: str) -> Look:
+def wants_of(reader: SceneReader, material: Any, bakery: Bakery) -> set[str]:
+    """What a material wants of a bakery, by the words of `Probe`."""
+    known = bakery.known_wants(material.name)
+    if known is None:
+        probe = Probe(bakery.name, bakery.uv_name)
+        _made(_Silent(reader), material, material.name, probe)
+        known = probe.modes
+        bakery.keep_wants(material.name, known)
+    return known
+
+
+class _Silent(SceneReader):
+    """Makes what nobody sees."""
+
+    def __init__(self, reader: SceneReader) -> None:
+        super().__init__("", None)
+
+    def tell(self, place: str, text: str, *, each: bool = False) -> None:
+        pass
+
+
+def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
     tree = material.node_tree if material else None
     output = output_node(tree) if tree else None
     if output is None:
         surface = _Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)})
         return _look(reader, key, surface, None)
-    nodes = Nodes(reader, f"material '{key}'", key)
-    if output.inputs["Displacement"].is_linked:
-        nodes.warn(output, "displacement is left out")
+    nodes = Nodes(reader, f"material '{material.name}'", key, material, bakery)
+    nodes.displacement = output.inputs["Displacement"] if nodes.source(output.inputs["Displacement"]) else None
+    if nodes.displacement is not None and (bakery is None or material.displacement_method != "BUMP"):
+        nodes.warn(output, "displacement is left out" if bakery is None else "displacement is taken as a bump")
     node = nodes.shader(output.inputs["Surface"])
     surface = _surface(nodes, node) if node else _Surface(is_clear=True)
     volume = nodes.shader(output.inputs["Volume"])
     medium = volume_parameters(nodes, volume) if volume else None
-    return _look(reader, key, surface, medium)
+    picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
+    return _look(reader, key, surface, medium, picture)
 
 
-def _look(reader: SceneReader, key: str, surface: _Surface, medium: dict[str, Any] | None) -> Look:
-    medium = medium or surface.inside
+def _look(
+    reader: SceneReader, key: str, surface: _Surface, medium: dict[str, Any] | None, picture: dict[str, Any] | None = None
+) -> Look:
     if medium is not None:
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
-    emission = tuple(float(x) for x in surface.emission) if surface.emission.max() > 0 else None
-    if surface.is_only_inside:
-        surface.material = None
+    shines = picture is not None or surface.emission.max() > 0
+    emission = tuple(float(x) for x in surface.emission) if shines else None
     named = _name(reader, key, surface)
     if named is None and emission is None and medium is None:
         # Nothing is seen of it.
@@ -62,7 +98,8 @@ def _look(reader: SceneReader, key: str, surface: _Surface, medium: dict[str, An
     if named is None and emission is not None:
         reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
         named = key
-    return Look(named, emission, key if medium is not None else None, surface.alpha)
+    shown = picture["string filename"] if picture is not None else None
+    return Look(named, emission, key if medium is not None else None, surface.alpha, shown)
 
 
 def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
@@ -111,22 +148,39 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
 
 
 def _detail(nodes: Nodes, node: Any, parameters: dict[str, Any]) -> None:
-    """Normal maps; bumps have no counterpart of their own."""
+    """Normals beyond those of the shape: of normal maps, bumps, and displacement that is one."""
     socket = node.inputs.get("Normal")
     found = nodes.source(socket) if socket is not None else None
     if found is None or not found.is_output:
-        return
-    source = found.node
-    if source.bl_idname == "ShaderNodeNormalMap" and source.space == "TANGENT":
-        picture = nodes.source(source.inputs["Color"])
-        if picture is not None and picture.is_output and picture.node.bl_idname == "ShaderNodeTexImage" and picture.node.image:
-            file = nodes._file_of(picture.node, picture.node.image)
-            if file is not None:
-                parameters["string normalmap"] = file
-                if nodes.number(source.inputs["Strength"]) != 1:
-                    nodes.warn(source, "the strength of a normal map is taken as 1")
-                return
-    nodes.warn(source, f"{source.bl_idname.removeprefix('ShaderNode')} as Normal is left out")
+        found, socket = None, nodes.displacement
+    file = _normal_map(nodes, found.node) if found is not None else None
+    if file is None and socket is not None and (found is not None or nodes.displacement is not None):
+        picture = nodes.baked(socket, "normal")
+        file = picture["string filename"] if picture is not None else None
+    if file is not None:
+        parameters["string normalmap"] = file
+    elif found is not None:
+        nodes.warn(found.node, f"{found.node.bl_idname.removeprefix('ShaderNode')} as Normal is left out")
+
+
+def _normal_map(nodes: Nodes, node: Any) -> str | None:
+    """The file of one that can be taken as it is."""
+    if node.bl_idname != "ShaderNodeNormalMap" or node.space != "TANGENT" or nodes.bakes_all:
+        return None
+    picture = nodes.source(node.inputs["Color"])
+    if picture is None or not picture.is_output or picture.node.bl_idname != "ShaderNodeTexImage" or not picture.node.image:
+        return None
+    texture, uv_name = picture.node, nodes.bakery.uv_name if nodes.bakery is not None else ""
+    is_plain = texture.extension == "REPEAT" and texture.projection == "FLAT" and node.uv_map in ("", uv_name)
+    strength = nodes.known(node.inputs["Strength"])
+    faults: list[str] = []
+    mapping = nodes.mapping_of(texture, faults)
+    if nodes.bakery is None:
+        if strength is None or strength[0] != 1:
+            nodes.warn(node, "the strength of a normal map is taken as 1")
+    elif not is_plain or faults or mapping or strength is None or strength[0] != 1:
+        return None
+    return nodes.file_of(texture, texture.image)
 
 
 def _principled(nodes: Nodes, node: Any) -> _Surface:
@@ -137,8 +191,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     if np.abs(nodes.colour(inputs["Specular Tint"]) - 1).max() > 1e-6:
         nodes.warn(node, "Specular Tint is left out")
     ior = max(nodes.number(inputs["IOR"]), 1e-3)
-    strength = nodes.number(inputs["Emission Strength"])
-    emission = nodes.colour(inputs["Emission Color"]) * strength if strength > 0 else np.zeros(3)
+    emission, varies = _emitted(nodes, inputs["Emission Color"], inputs["Emission Strength"])
     material: dict[str, Any] = {"string type": "principled", "float eta": ior}
     nodes.add_to(material, inputs["Base Color"], "reflectance", "rgb")
     nodes.add_to(material, inputs["Metallic"], "metallic", "float")
@@ -149,37 +202,35 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
         nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
         material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
-        if np.abs(nodes.colour(inputs["Coat Tint"]) - 1).max() > 1e-6:
+        tint = nodes.colour(inputs["Coat Tint"])
+        if np.abs(tint - 1).max() > 1e-6 and "rgb reflectance" in material:
+            nodes.warn(node, "Coat Tint colours the base alike from everywhere")
+            # The way through the coat is longer aslant: over a ball, by as much.
+            material["rgb reflectance"] = material["rgb reflectance"] * (1 - coat + coat * np.clip(tint, 0, 1) ** 1.15)
+        elif np.abs(tint - 1).max() > 1e-6:
             nodes.warn(node, "Coat Tint is left out")
     _detail(nodes, node, material)
     result = _Surface(material, emission=emission)
-    # Metal comes first, glass gets of the rest, and what scatters inside of the rest of that.
-    transmission, subsurface = nodes.number(inputs["Transmission Weight"]), nodes.number(inputs["Subsurface Weight"])
-    metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 or subsurface > 0 else 0.0
-    clear = min(transmission, 1.0) * (1 - metallic)
-    waxen = min(subsurface, 1.0) * (1 - metallic) * (1 - min(transmission, 1.0))
-    if clear + waxen > 0 and clear + waxen < 1:
+    # Metal comes first, glass gets of the rest.
+    transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
+    metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
+    clear = transmission * (1 - metallic)
+    if 0 < clear < 1:
         material.pop("texture metallic", None)
-        material["float metallic"] = metallic / (1 - clear - waxen)
-    if waxen > 0:
-        nodes.warn(node, "what scatters inside is met through a boundary that refracts, not as Cycles' random walks do")
-        radius = nodes.colour(inputs["Subsurface Radius"]) * nodes.number(inputs["Subsurface Scale"])
-        wax: dict[str, Any] = {
-            "string type": "subsurface",
-            "float eta": ior,
-            "float roughness": nodes.number(inputs["Roughness"]) ** 2,
-            "bool remaproughness": False,
-            "float g": nodes.number(inputs["Subsurface Anisotropy"]),
-            "rgb mfp": np.maximum(radius, 1e-6),
-        }
-        nodes.add_to(wax, inputs["Base Color"], "reflectance", "rgb")
-        _detail(nodes, node, wax)
-        result = _blended(result, _Surface(wax), waxen / (1 - clear), emission)
+        material["float metallic"] = metallic / (1 - clear)
+    waxen = nodes.known(inputs["Subsurface Weight"])
+    if clear < 1 and (waxen is None or waxen[0] > 0):
+        nodes.add_to(material, inputs["Subsurface Weight"], "subsurface", "float")
+        names = {key: inputs[f"Subsurface {key.capitalize()}"] for key in ("radius", "scale", "anisotropy")}
+        is_skin = node.subsurface_method == "RANDOM_WALK_SKIN"
+        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else ior}
+        add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
-        glass = _dielectric(nodes.number(inputs["Roughness"]), ior)
+        glass = _dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
         result = _blended(result, _Surface(glass), clear, emission)
+    result.shines_by_a_picture = varies
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
         nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
     return result
@@ -224,7 +275,7 @@ def _metallic(nodes: Nodes, node: Any) -> _Surface:
 
 
 def _glass(nodes: Nodes, node: Any) -> _Surface:
-    material = _dielectric(nodes.number(node.inputs["Roughness"]), max(nodes.number(node.inputs["IOR"]), 1e-3))
+    material = _dielectric(nodes, node.inputs["Roughness"], max(nodes.number(node.inputs["IOR"]), 1e-3))
     nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
     if node.bl_idname == "ShaderNodeBsdfGlass":
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
@@ -233,13 +284,10 @@ def _glass(nodes: Nodes, node: Any) -> _Surface:
     return _Surface(material)
 
 
-def _dielectric(roughness: float, ior: float) -> dict[str, Any]:
-    return {
-        "string type": "dielectric",
-        "float eta": ior,
-        "float roughness": roughness**2,
-        "bool remaproughness": False,
-    }
+def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
+    material: dict[str, Any] = {"string type": "dielectric", "float eta": ior, "bool remaproughness": False}
+    nodes.add_to(material, roughness, "roughness", "float", power=2)
+    return material
 
 
 def _transparent(nodes: Nodes, node: Any) -> _Surface:
@@ -255,37 +303,40 @@ def _translucent(nodes: Nodes, node: Any) -> _Surface:
 
 
 def _subsurface(nodes: Nodes, node: Any) -> _Surface:
-    inputs = node.inputs
-    radius = np.maximum(nodes.colour(inputs["Radius"]) * nodes.number(inputs["Scale"]), 1e-6)
-    mixed: dict[str, Any] = {"string type": "subsurface", "float eta": 1.33, "rgb mfp": radius}
-    nodes.add_to(mixed, inputs["Color"], "reflectance", "rgb")
-    if nodes.number(inputs["Anisotropy"]) != 0:
-        nodes.warn(node, "what scatters inside scatters evenly")
-    # Alone it has no surface: light goes in and out as it is. The albedo is that of Cycles' fit.
-    albedo = _albedo_inside(np.clip(nodes.colour(inputs["Color"]), 0, 1))
-    inside = {"rgb sigma_s": albedo / radius, "rgb sigma_a": (1 - albedo) / radius}
-    return _Surface(mixed, inside=inside, is_only_inside=True)
-
-
-def _albedo_inside(colour: Colour) -> Colour:
-    """Of collisions, that make an even surface of this colour: Cycles' fit for even scattering."""
-    part = colour**0.25
-    dark = 1.8260523782 * np.arctan(5.1124679 * colour) ** 1.09686102424
-    bright = 0.496310210422 * np.arctan(4.23190299701 * colour) ** 2.40602999408
-    return np.asarray(np.clip((1 - part) * dark + part * bright, 0, 1), dtype=np.float64)
+    # It has no surface of its own.
+    material: dict[str, Any] = {"string type": "principled", "float specular": 0, "float roughness": 1, "float subsurface": 1}
+    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    names = {key: node.inputs[key.capitalize()] for key in ("radius", "scale", "anisotropy", "roughness")}
+    names["ior"] = nodes.number(node.inputs["IOR"])
+    add_inside(nodes, node, material, node.inputs["Color"], node.falloff, names)
+    _detail(nodes, node, material)
+    return _Surface(material)
 
 
 def _emission(nodes: Nodes, node: Any) -> _Surface:
-    return _Surface(emission=nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]))
+    emission, varies = _emitted(nodes, node.inputs["Color"], node.inputs["Strength"])
+    return _Surface(emission=emission, shines_by_a_picture=varies)
+
+
+def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
+    """What is shone with, and whether it varies: then a picture takes its place."""
+    values = nodes.known(colour), nodes.known(strength)
+    if any(value is not None and value.max() <= 0 for value in values):
+        return np.zeros(3), False
+    if nodes.bakery is not None and any(value is None for value in values):
+        return np.ones(3), True
+    return nodes.colour(colour) * nodes.number(strength), False
 
 
 def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
     first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[1:3])
-    factor = nodes._constant(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
+    factor = nodes.known(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
     emission = (1 - share) * first.emission + share * second.emission
+    varies = first.shines_by_a_picture or second.shines_by_a_picture
+    varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
     amount: dict[str, Any] = {}
     nodes.add_to(amount, node.inputs["Fac" if "Fac" in node.inputs else "Factor"], "amount", "float")
     if first.is_clear or second.is_clear:
@@ -300,8 +351,10 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
         alpha = {"texture alpha": texture} if texture is not None else {"float alpha": share if first.is_clear else 1 - share}
         if seen.alpha:
             nodes.warn(node, "of transparencies within each other the outermost counts")
-        return _Surface(seen.material, seen.mixed, seen.emission, alpha, seen.inside)
-    return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission)
+        if varies:
+            nodes.warn(node, "what shines by a picture and is transparent is darker where it is that")
+        return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies)
+    return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
 
 
 def _reflecting(surface: _Surface) -> _Surface:
@@ -314,16 +367,18 @@ def _reflecting(surface: _Surface) -> _Surface:
 def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
     first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[:2])
     emission = first.emission + second.emission
+    varies = first.shines_by_a_picture or second.shines_by_a_picture
     if (first.is_clear or second.is_clear) and emission.max() > 0:
         nodes.warn(node, "what shines and is transparent as well hides what is behind it")
     for one, other in ((first, second), (second, first)):
         if one.material is None and one.mixed is None:
-            return _Surface(other.material, other.mixed, emission, other.alpha, other.inside, other.is_clear and not emission.max() > 0)
+            is_clear = other.is_clear and not emission.max() > 0
+            return _Surface(other.material, other.mixed, emission, other.alpha, varies, is_clear)
     through = _diffuse_both_ways(first.material, second.material) or _diffuse_both_ways(second.material, first.material)
     if through is not None:
-        return _Surface(through, emission=emission)
+        return _Surface(through, emission=emission, shines_by_a_picture=varies)
     nodes.warn(node, "a sum of two surfaces is taken as their mean")
-    return _Surface(mixed=(first, second, {"float amount": 0.5}), emission=emission)
+    return _Surface(mixed=(first, second, {"float amount": 0.5}), emission=emission, shines_by_a_picture=varies)
 
 
 def _diffuse_both_ways(matt: dict[str, Any] | None, through: dict[str, Any] | None) -> dict[str, Any] | None:
@@ -332,107 +387,3 @@ def _diffuse_both_ways(matt: dict[str, Any] | None, through: dict[str, Any] | No
         return None
     kept = {name: value for name, value in through.items() if not name.endswith(" reflectance")}
     return kept | {name: value for name, value in matt.items() if name.endswith(" reflectance")}
-
-
-# ---- Volumes ----
-
-
-def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
-    """Of a shader node of a volume, the parameters of a medium of density 1 everywhere; None for one that is none."""
-    found = _volume(nodes, node)
-    if found is None:
-        return None
-    scattering, absorption, emission, phase = found
-    parameters: dict[str, Any] = {"rgb sigma_s": scattering, "rgb sigma_a": absorption} | phase
-    if emission.max() > 0:
-        # Here what shines is multiplied by what absorbs.
-        if absorption.min() <= 0:
-            nodes.warn(node, "a volume that shines and does not absorb shines by a small absorption")
-            absorption = np.maximum(absorption, 1e-4)
-            parameters["rgb sigma_a"] = absorption
-        parameters["rgb Le"] = emission / absorption
-    return parameters
-
-
-_Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
-
-
-def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Colour]:
-    first, second, third = np.zeros(3), np.zeros(3), np.zeros(3)
-    for weight, part in parts:
-        first, second, third = first + weight * part[0], second + weight * part[1], third + weight * part[2]
-    return first, second, third
-
-
-def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
-    """Scattering, absorption, emission, and the phase function."""
-    zero = np.zeros(3)
-    kind = node.bl_idname if node is not None else ""
-    if depth > 32 or node is None:
-        return None
-    if kind == "ShaderNodeVolumePrincipled":
-        density = nodes.number(node.inputs["Density"])
-        colour = np.maximum(nodes.colour(node.inputs["Color"]), 0)
-        dark = np.sqrt(np.maximum(nodes.colour(node.inputs["Absorption Color"]), 0))
-        absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
-        strength = nodes.number(node.inputs["Emission Strength"])
-        shine = nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else zero
-        if nodes.number(node.inputs["Blackbody Intensity"]) > 0:
-            nodes.warn(node, "the blackbody of a volume is left out")
-        return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
-    if kind == "ShaderNodeVolumeScatter":
-        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
-        return density * np.maximum(colour, 0), zero, zero, _phase(nodes, node)
-    if kind == "ShaderNodeVolumeAbsorption":
-        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
-        return zero, density * np.clip(1 - colour, 0, None), zero, {}
-    if kind == "ShaderNodeVolumeCoefficients":
-        values = [nodes.colour(node.inputs[f"{name} Coefficients"]) for name in ("Scatter", "Absorption", "Emission")]
-        return values[0], values[1], values[2], _phase(nodes, node)
-    if kind == "ShaderNodeEmission":
-        return zero, zero, nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), {}
-    if kind in ("ShaderNodeAddShader", "ShaderNodeMixShader"):
-        sockets = node.inputs[:2] if kind == "ShaderNodeAddShader" else node.inputs[1:3]
-        parts = [_volume(nodes, nodes.shader(socket), depth + 1) for socket in sockets]
-        share = nodes.number(node.inputs[0]) if kind == "ShaderNodeMixShader" else 0.0
-        weights = (1 - share, share) if kind == "ShaderNodeMixShader" else (1.0, 1.0)
-        there = [(weight, part) for weight, part in zip(weights, parts) if part is not None]
-        if not there:
-            return None
-        phases = [part[3] for _, part in there if part[3]]
-        if len(phases) > 1 and phases[0] != phases[1]:
-            return _two_phases(nodes, node, there)
-        return *_sums(there), phases[0] if phases else {}
-    nodes.warn(node, f"{kind.removeprefix('ShaderNode')} as a volume is left out")
-    return None
-
-
-def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[float, _Coefficients]]) -> _Coefficients:
-    weights = [w * float(part[0].mean()) for w, part in parts]
-    if all(set(part[3]) <= {"float g"} for _, part in parts):
-        cosines = [part[3].get("float g", 0.0) for _, part in parts]
-        phase: dict[str, Any] = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}
-        return *_sums(parts), phase
-    nodes.warn(node, "of two phase functions the one that scatters more is taken")
-    return *_sums(parts), parts[int(np.argmax(weights))][1][3]
-
-
-def _phase(nodes: Nodes, node: Any) -> dict[str, Any]:
-    kind = node.phase
-    if kind == "HENYEY_GREENSTEIN":
-        return {"float g": nodes.number(node.inputs["Anisotropy"])}
-    if kind == "RAYLEIGH":
-        return {"string phase": "rayleigh"}
-    if kind == "DRAINE":
-        anisotropy, alpha = nodes.number(node.inputs["Anisotropy"]), nodes.number(node.inputs["Alpha"])
-        return {"string phase": "draine", "float g": anisotropy, "float alpha": alpha}
-    if kind == "MIE":
-        diameter = nodes.number(node.inputs["Diameter"])
-        if not 5 <= diameter <= 50:
-            nodes.warn(node, "droplets are taken as 5 to 50 micrometres wide")
-        return {"string phase": "fog", "float diameter": min(max(diameter, 5.0), 50.0)}
-    if kind == "FOURNIER_FORAND":
-        nodes.warn(node, "of Fournier and Forand's function the index counts; the slope of the sizes is 3.5835")
-        return {"string phase": "fournierforand", "float index": max(nodes.number(node.inputs["IOR"]), 1.001)}
-    nodes.warn(node, f"the phase function {kind} is taken as even")
-    return {}

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_reach import Reach, is_uv
+from ._blend_wanted import Probe, Wanted
 from ._scene_reader import SceneReader
+
+if TYPE_CHECKING:
+    from ._blend_bake import Bakery
 
 Colour = npt.NDArray[np.float64]
 
@@ -31,8 +36,13 @@ def _like(socket: Any, sockets: Any) -> Any:
 class Nodes:
     """The nodes of a material: what their inputs are."""
 
-    def __init__(self, reader: SceneReader, place: str, key: str) -> None:
+    def __init__(
+        self, reader: SceneReader, place: str, key: str, material: Any = None, bakery: Bakery | Probe | None = None
+    ) -> None:
         self.reader, self.place, self.key = reader, place, key
+        self._material, self.bakery = material, bakery
+        self.bakes_all = bakery is not None and bakery.bakes_all
+        self.displacement: Any = None  #: the input of the material's output, where it takes something
         #: Of each tree that was entered, by its address: the group's node, whose inputs are those of the tree.
         self._entered: dict[int, Any] = {}
         self._textures = 0
@@ -82,42 +92,101 @@ class Nodes:
 
     def number(self, socket: Any, depth: int = 0) -> float:
         """A constant; what is not is named, and taken as the input's own value."""
-        value = self._constant(socket, depth)
-        if value is None:
-            self._left_out(socket)
-            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
+        value = self._value(socket, depth)
         return float(value @ _LUMINANCE) if len(value) == 3 else float(value[0])
 
     def colour(self, socket: Any) -> Colour:
-        value = self._constant(socket)
+        return np.broadcast_to(self._value(socket), 3).astype(np.float64)
+
+    def _value(self, socket: Any, depth: int = 0) -> Colour:
+        value = self.known(socket, depth)
         if value is None:
             self._left_out(socket)
-            value = np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3]
-        return np.broadcast_to(value, 3).astype(np.float64)
+        return self.value_of(socket) if value is None else value
+
+    def value_of(self, socket: Any) -> Colour:
+        """A constant; where it is not one, the input's own value."""
+        value = self.known(socket)
+        return np.atleast_1d(np.array(socket.default_value, dtype=np.float64))[:3] if value is None else value
 
     def add_to(self, parameters: dict[str, Any], socket: Any, name: str, kind: str, power: float = 1) -> None:
         """Adds the parameter, of the kind "rgb" or "float", as a constant or a texture."""
-        if self._constant(socket) is None:
-            texture = self.texture(socket, kind)
+        if self.known(socket) is None:
+            texture = self.texture(socket, kind, power)
             if texture is not None:
-                if power != 1:
-                    self._left_out(socket)
                 parameters[f"texture {name}"] = texture
                 return
         value = self.colour(socket) if kind == "rgb" else self.number(socket)
         parameters[f"{kind} {name}"] = np.clip(value, 0, 1) if kind == "rgb" else float(value) ** power
 
-    def texture(self, socket: Any, kind: str) -> str | None:
+    def texture(self, socket: Any, kind: str, power: float = 1) -> str | None:
         """The name of a texture that the input follows; None where there is no counterpart."""
         found = self.source(socket)
         if found is None or not found.is_output:
             return None
         node = found.node
-        if node.bl_idname == "ShaderNodeTexImage" and node.image:
-            return self._picture(node, kind, found.name == "Alpha")
-        if node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
-            return self._mixed(node, kind)
-        return None
+        name = None
+        if not self.bakes_all and power == 1:
+            if node.bl_idname == "ShaderNodeTexImage" and node.image:
+                name = self._picture(node, kind, found.name == "Alpha")
+            elif node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
+                name = self._mixed(node, kind)
+        if name is None:
+            picture = self.baked(socket, kind, power)
+            name = self.add_texture(kind, "imagemap", picture) if picture is not None else None
+        return name
+
+    def baked(self, socket: Any, kind: str, power: float = 1) -> dict[str, Any] | None:
+        """Parameters of a texture by a picture that Cycles makes of what an input takes; None where it cannot be called.
+
+        Args:
+            kind: "rgb", "float", or "normal".
+            power: that numbers are raised to.
+        """
+        if self.bakery is None or self._material is None:
+            return None
+        reach = Reach(self, self.bakery.uv_name)
+        reach.follow(socket)
+        label = f"{socket.name} of node '{socket.node.name}'"
+        if reach.sees:
+            self.warn(reach.sees, f"{label} depends on from where it is seen, and is baked as seen from above")
+        if reach.is_by_place and self.bakery.is_shared:
+            self.warn(socket.node, f"{label} is baked at the first of several instances")
+        node = socket.node
+        is_normal = kind == "normal"
+        wanted = Wanted(
+            self._material.original,
+            self._groups_to(node.id_data),
+            node.name,
+            socket.identifier,
+            kind,
+            power,
+            is_by_uv=reach.is_by_uv and not (is_normal and reach.has_bumps),
+            is_unit=is_normal,
+        )
+        return self._picture_of(wanted, label)
+
+    def baked_light(self, output: Any) -> dict[str, Any] | None:
+        """The same of what a whole surface shines with."""
+        if self.bakery is None or self._material is None:
+            return None
+        reach = Reach(self, self.bakery.uv_name)
+        reach.follow(output.inputs["Surface"])
+        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_unit=True)
+        return self._picture_of(wanted, "Emission")
+
+    def _picture_of(self, wanted: Wanted, label: str) -> dict[str, Any]:
+        assert self.bakery is not None
+        side = self.bakery.side
+        self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
+        return self.bakery.picture(wanted)
+
+    def _groups_to(self, tree: Any) -> tuple[str, ...]:
+        names: list[str] = []
+        while (group := self._entered.get(tree.as_pointer())) is not None and len(names) < 64:
+            names.insert(0, group.name)
+            tree = group.id_data
+        return tuple(names)
 
     def _left_out(self, socket: Any) -> None:
         found = self.source(socket)
@@ -125,7 +194,7 @@ class Nodes:
             label = found.node.bl_idname.removeprefix("ShaderNode")
             self.warn(socket.node, f"{label} as {socket.name} is left out")
 
-    def _constant(self, socket: Any, depth: int = 0) -> Colour | None:
+    def known(self, socket: Any, depth: int = 0) -> Colour | None:
         """None where it is not the same everywhere."""
         found = self.source(socket)
         if found is None or not found.is_output:
@@ -137,9 +206,9 @@ class Nodes:
         kind = node.bl_idname
         if kind in ("ShaderNodeValue", "ShaderNodeRGB"):
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
-        inputs = [self._constant(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
+        inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
-            return _blackbody(float(inputs[0][0]))
+            return blackbody(float(inputs[0][0]))
         if kind == "ShaderNodeMath":
             return _math(node.operation, [None if x is None else float(x[0]) for x in inputs], node.use_clamp)
         if kind == "ShaderNodeGamma" and inputs[0] is not None and inputs[1] is not None:
@@ -156,7 +225,7 @@ class Nodes:
             return np.array([float(x[0]) for x in inputs[:3] if x is not None])
         if kind in ("ShaderNodeMix", "ShaderNodeMixRGB"):
             factor, a, b = self._mix_inputs(node)
-            values = [self._constant(s, depth + 1) for s in (factor, a, b)]
+            values = [self.known(s, depth + 1) for s in (factor, a, b)]
             if any(v is None for v in values):
                 return None
             return _blend(node.blend_type if hasattr(node, "blend_type") else "MIX", *values)  # type: ignore[arg-type]
@@ -184,68 +253,80 @@ class Nodes:
             self.add_to(parameters, a, "tex1", kind)
             self.add_to(parameters, b, "tex2", kind)
             plugin = "mix"
-        elif mode == "MULTIPLY" and self._constant(factor) is not None and self.number(factor) == 1:
+        elif mode == "MULTIPLY" and self.known(factor) is not None and self.number(factor) == 1:
             self.add_to(parameters, a, "tex", kind)
             self.add_to(parameters, b, "scale", kind)
             plugin = "scale"
         else:
             return None
+        return self.add_texture(kind, plugin, parameters)
+
+    def add_texture(self, kind: str, plugin: str, parameters: dict[str, Any]) -> str:
         name = self._name()
         self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", plugin, parameters)
         return name
 
     def _picture(self, node: Any, kind: str, is_alpha: bool) -> str | None:
         image = node.image
-        file = self._file_of(node, image)
+        space = image.colorspace_settings.name
+        wraps = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black", "MIRROR": "mirror"}
+        linear = space in ("Non-Color", "Linear Rec.709", "Raw", "Linear")
+        faults = []
+        if space != "sRGB" and not linear:
+            faults.append(f"the colour space {space} of a picture is taken as sRGB")
+        if node.extension not in wraps:
+            faults.append(f"the extension {node.extension} of a picture is taken as repetition")
+        if node.projection != "FLAT":
+            faults.append(f"the projection {node.projection} of a picture is left out")
+        if is_alpha and (kind == "rgb" or image.channels < 4):
+            faults.append("the opacity of a picture is taken as its colour")
+        if kind == "float" and not is_alpha and image.channels == 4 and image.depth not in (24, 8):
+            faults.append("of a picture with an opacity, taken as a number, the opacity counts")
+        mapping = self.mapping_of(node, faults)
+        if faults and self.bakery is not None:
+            return None
+        for fault in faults:
+            self.warn(node, fault)
+        file = self.file_of(node, image)
         if file is None:
             return None
-        space = image.colorspace_settings.name
-        if space not in ("sRGB", "Non-Color", "Linear Rec.709", "Raw", "Linear"):
-            self.warn(node, f"the colour space {space} of a picture is taken as sRGB")
-        linear = space not in ("sRGB",) and space in ("Non-Color", "Linear Rec.709", "Raw", "Linear")
-        wraps = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black"}
-        if node.extension not in wraps:
-            self.warn(node, f"the extension {node.extension} of a picture is taken as repetition")
         parameters: dict[str, Any] = {
             "string filename": file,
             "string encoding": "linear" if linear else "sRGB",
             "string wrap": wraps.get(node.extension, "repeat"),
         }
-        if node.projection != "FLAT":
-            self.warn(node, f"the projection {node.projection} of a picture is left out")
-        self._map(node, parameters)
-        if kind == "float" and not is_alpha and image.channels == 4 and image.depth not in (24, 8):
-            self.warn(node, "of a picture with an opacity, taken as a number, the opacity counts")
-        name = self._name()
-        self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", "imagemap", parameters)
-        return name
+        return self.add_texture(kind, "imagemap", parameters | mapping)
 
-    def _map(self, node: Any, parameters: dict[str, Any]) -> None:
-        """Of texture coordinates, scale and place."""
+    def mapping_of(self, node: Any, faults: list[str]) -> dict[str, Any]:
+        """Of texture coordinates, an affine map; what it leaves out is added to `faults`."""
         found = self.source(node.inputs["Vector"])
+        parameters: dict[str, Any] = {}
         if found is None or not found.is_output:
-            return
+            return parameters
         mapping = found.node
         if mapping.bl_idname == "ShaderNodeMapping":
-            scale, place = self.colour(mapping.inputs["Scale"]), self.colour(mapping.inputs["Location"])
-            if np.abs(self.colour(mapping.inputs["Rotation"])).max() > 1e-6 or mapping.vector_type != "POINT":
-                self.warn(mapping, "of a mapping, only scale and location of points are taken")
-            parameters |= {
-                "float uscale": float(scale[0]),
-                "float vscale": float(scale[1]),
-                "float udelta": float(place[0]),
-                "float vdelta": float(place[1]),
-            }
+            given = [self.known(mapping.inputs[name]) for name in ("Scale", "Rotation", "Location")]
+            if any(x is None for x in given) or mapping.vector_type != "POINT" or np.abs(given[1][:2]).max() > 1e-6:  # type: ignore[index]
+                faults.append("of a mapping, only scale, place and a turn in the plane that are constant are taken")
+            else:
+                scale, turn, place = (np.broadcast_to(x, 3) for x in given)  # type: ignore[arg-type]
+                c, s = math.cos(turn[2]), math.sin(turn[2])
+                parameters["float uvmatrix"] = (
+                    c * scale[0], -s * scale[1], place[0], s * scale[0], c * scale[1], place[1]
+                )  # fmt: skip
             found = self.source(mapping.inputs["Vector"])
-        if found is not None and found.is_output and not (
-            found.node.bl_idname == "ShaderNodeUVMap" or (found.node.bl_idname == "ShaderNodeTexCoord" and found.name == "UV")
-        ):
+        uv_name = self.bakery.uv_name if self.bakery is not None else ""
+        if found is not None and found.is_output and not is_uv(found, uv_name):
             label = found.node.bl_idname.removeprefix("ShaderNode")
-            self.warn(node, f"texture coordinates of {label} are taken as UV")
+            faults.append(f"texture coordinates of {label} are taken as UV")
+        return parameters
 
-    def _file_of(self, node: Any, image: Any) -> str | None:
+    def file_of(self, node: Any, image: Any) -> str | None:
         import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
+        if isinstance(self.bakery, Probe):
+            self.bakery.modes.add("picture")
+            return ""
         if image.source == "FILE" and not image.packed_file and image.filepath:
             path = str(bpy.path.abspath(image.filepath, library=image.library))
             if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
@@ -262,7 +343,7 @@ class Nodes:
         return None
 
 
-def _blackbody(kelvin: float) -> Colour:
+def blackbody(kelvin: float) -> Colour:
     """Of luminance 1, by Planck's law and fits of the colour matching functions (wyman2013)."""
     nanometres = np.arange(380.0, 781.0, 5.0)
 

@@ -57,12 +57,15 @@ class Geometry:
         return parameters
 
 
-def mesh_parts(mesh: Any, ends: tuple[Geometry, Geometry] | None) -> Iterator[tuple[int, Parameters]]:
+def mesh_parts(
+    mesh: Any, ends: tuple[Geometry, Geometry] | None, uvs: npt.NDArray[np.float32] | None = None
+) -> Iterator[tuple[int, Parameters]]:
     """Of an evaluated mesh, the triangles of each material: its number, and the parameters of a "trianglemesh".
 
     Args:
         mesh: as it is at the frame.
         ends: what goes with it where the shutter opens and where it closes; None: it does not change.
+        uvs: of corners, in place of the mesh's; None: those.
     """
     mesh.calc_loop_triangles()
     if not len(mesh.loop_triangles):
@@ -72,7 +75,9 @@ def mesh_parts(mesh: Any, ends: tuple[Geometry, Geometry] | None) -> Iterator[tu
     materials = _taken(mesh.loop_triangles, "material_index", 1, np.int32)
     start, end = ends or (Geometry.of(mesh), None)
     layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
-    coordinates = None if layer is None else _taken(layer.uv, "vector", 2, np.float32)
+    coordinates = uvs
+    if coordinates is None and layer is not None:
+        coordinates = _taken(layer.uv, "vector", 2, np.float32)
     for number in np.unique(materials):
         chosen = materials == number
         if coordinates is None and start.corner_normals is None:

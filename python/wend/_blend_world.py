@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._blend_materials import volume_parameters
+from ._blend_volumes import volume_parameters
 from ._blend_nodes import Nodes, output_node
 from ._film import Film, read
 from ._scene_reader import SceneReader
@@ -28,7 +28,7 @@ def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
     if node is None:
         return False
     if node.bl_idname == "ShaderNodeBackground":
-        colour, strength = nodes._constant(node.inputs["Color"]), nodes._constant(node.inputs["Strength"])
+        colour, strength = nodes.known(node.inputs["Color"]), nodes.known(node.inputs["Strength"])
         if colour is not None and strength is not None:
             return _add_even(reader, np.broadcast_to(colour, 3) * float(strength[0]))
     if not can_render:

@@ -122,8 +122,9 @@ class Scene:
                 are an "rgb", a text is a "string". A pair (type, value), such as ("spectrum", "metal-Cu-eta") or
                 ("texture", "marble"), says the type itself.
 
-        The file is not read again (meshes, pictures and volumes of their own are); what renders the scene is built
-        anew.
+        What the changes do not touch is shared with this scene: shapes and what finds them for rays (unless a
+        parameter of a shape changes, or it becomes one that rays can pass), media, and the content of files, which
+        are not read again.
 
         Raises:
             InputError: for a directive that the scene has not, or a value that it does not take.
@@ -135,6 +136,10 @@ class Scene:
         native = self._native.with_parameters([_change(name, value, known.get(name)) for name, value in changes.items()])
         before = set(self.warnings)
         return _checked(native, before)
+
+    def shares_geometry_with(self, other: Scene) -> bool:
+        """Whether shapes, and what finds them for rays, lie in memory once for both scenes."""
+        return self._native.shares_geometry_with(other._native)
 
     def __repr__(self) -> str:
         width, height = self.resolution

@@ -29,6 +29,7 @@ class Look:
     emission: tuple[float, ...] | None = None
     medium: str | None = None  #: inside
     shape_parameters: dict[str, Any] = field(default_factory=dict)
+    shown: str | None = None  #: file of a picture that it shines with, in place of the emission
 
 
 class SceneReader:
@@ -45,10 +46,11 @@ class SceneReader:
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)
 
-    def tell(self, place: str, text: str) -> None:
-        """Warns, once for each text."""
-        if text not in self._told:
-            self._told.add(text)
+    def tell(self, place: str, text: str, *, each: bool = False) -> None:
+        """Warns, once for each text; `each`: once for each place and text."""
+        key = f"{place} {text}" if each else text
+        if key not in self._told:
+            self._told.add(key)
             warnings.warn(f"{place}: warning: {text}", SceneWarning, stacklevel=3)
 
     def map_file(self, name: str) -> str:

@@ -9,17 +9,27 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import UsdLux  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import UsdGeom, UsdLux  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from . import _ies
+from . import _usd_blender as blender
 from ._film import Film, read
 from ._scene_reader import Places
-from ._sky import directions, equal_area
+from ._sky import directions
+from ._usd_files import file_of
 
 Matrix = npt.NDArray[np.float64]
 
+#: From pbrt's pictures by latitude and longitude, whose middle is towards x and whose left is towards y, to a dome's.
+_LATLONG = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
+
 #: Of pictures of how lights are shaped.
 _SHAPED_SIDE = 512
+
+#: Of the rim of a cone, in degrees: what is narrower is finer than such a picture.
+_NARROW = 2.0
+
+_IS_POINT = "a light that is shaped is taken as a point: its shadows are hard"
 
 #: Half a turn around x, from -z to z.
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -42,9 +52,22 @@ def add(reader: Any, prim: Any, world: Places) -> bool:
         return False
     if kind in ("DistantLight", "DomeLight", "DomeLight_1", "CylinderLight") and Shaping.of(reader, prim).is_any():
         reader.warn(prim, "the shaping of a light that is neither a sphere, a rectangle nor a disk is left out")
+    _tell_of_others(reader, prim)
     with reader.builder.block():
         kinds[kind](reader, prim, world)
     return True
+
+
+def _tell_of_others(reader: Any, prim: Any) -> None:
+    """What a light says of whom it is for."""
+    light = UsdLux.LightAPI(prim)
+    if light.GetFiltersRel().GetTargets():
+        reader.warn(prim, "filters of lights are left out")
+    if any(attribute.Get(reader.time) != 1 for attribute in (light.GetDiffuseAttr(), light.GetSpecularAttr())):
+        reader.warn(prim, "a light's factors of what is diffuse or specular are left out")
+    for collection in (light.GetLightLinkCollectionAPI(), light.GetShadowLinkCollectionAPI()):
+        if collection.GetExcludesRel().GetTargets() or collection.GetIncludesRel().GetTargets():
+            reader.warn(prim, "lights that are for some things alone shine on all")
 
 
 @dataclass
@@ -53,6 +76,7 @@ class Shaping:
 
     cone: float | None  #: degrees from the axis; None: everywhere
     softness: float
+    inner: float | None  #: of Blender's cones, where the rim begins, in degrees
     focus: float
     profile: str | None  #: a file of IES LM-63
     angle_scale: float
@@ -61,15 +85,16 @@ class Shaping:
     @staticmethod
     def of(reader: Any, prim: Any) -> Shaping:
         if not prim.HasAPI(UsdLux.ShapingAPI):
-            return Shaping(None, 0.0, 0.0, None, 0.0, False)
+            return Shaping(None, 0.0, None, 0.0, None, 0.0, False)
         api, time = UsdLux.ShapingAPI(prim), reader.time
         angle = float(api.GetShapingConeAngleAttr().Get(time))
         file = api.GetShapingIesFileAttr().Get(time)
         return Shaping(
             angle if angle < 90 else None,
             min(max(float(api.GetShapingConeSoftnessAttr().Get(time)), 0.0), 1.0),
+            blender.inner_angle(api.GetShapingConeSoftnessAttr(), angle),
             max(float(api.GetShapingFocusAttr().Get(time)), 0.0),
-            (file.resolvedPath or file.path) if file and file.path else None,
+            file_of(reader, file) if file and file.path else None,
             float(api.GetShapingIesAngleScaleAttr().Get(time)),
             bool(api.GetShapingIesNormalizeAttr().Get(time)),
         )
@@ -78,8 +103,9 @@ class Shaping:
         return self.cone is not None or self.needs_picture()
 
     def needs_picture(self) -> bool:
-        """Whether a cone is not all."""
-        return self.focus > 0 or self.profile is not None
+        """Whether a cone is not all, or one whose rim is wide and falls off as USD has it, by the angle."""
+        is_soft = self.cone is not None and self.inner is None and self.cone * self.softness > _NARROW
+        return self.focus > 0 or self.profile is not None or is_soft
 
     def factor(self, reader: Any, prim: Any, x: Matrix, y: Matrix, z: Matrix) -> Matrix:
         """What the light is multiplied with in directions of its own space, whose axis is -z."""
@@ -105,20 +131,34 @@ def emission(reader: Any, prim: Any) -> npt.NDArray[np.float64]:
     light = UsdLux.LightAPI(prim)
     time = reader.time
     colour = np.array(light.GetColorAttr().Get(time), dtype=np.float64)
-    if light.GetEnableColorTemperatureAttr().Get(time):
+    if light.GetEnableColorTemperatureAttr().Get(time) and not blender.has_no_temperature(light):
         colour = colour * blackbody_colour(light.GetColorTemperatureAttr().Get(time))
     factor = float(light.GetIntensityAttr().Get(time)) * 2.0 ** float(light.GetExposureAttr().Get(time))
-    return np.asarray(colour * factor, dtype=np.float64)
+    result = np.asarray(colour * factor, dtype=np.float64)
+    if not np.isfinite(result).all():
+        raise ValueError(f"a light of {result.tolist()}")
+    if result.min() < 0:
+        reader.warn(prim, "light that is negative is left out")
+    return np.maximum(result, 0)
 
 
 def blackbody_colour(kelvin: float) -> npt.NDArray[np.float64]:
-    """Of luminance 1."""
+    """Of luminance 1. UsdLux never ends with what is no number."""
+    if not math.isfinite(kelvin):
+        raise ValueError(f"a colour temperature of {kelvin}")
     return np.array(UsdLux.BlackbodyTemperatureAsRgb(float(kelvin)), dtype=np.float64)
 
 
+def _is_normalised(reader: Any, prim: Any) -> bool:
+    return bool(UsdLux.LightAPI(prim).GetNormalizeAttr().Get(reader.time))
+
+
 def _radiance(reader: Any, prim: Any, area: float) -> npt.NDArray[np.float64]:
-    normalised = UsdLux.LightAPI(prim).GetNormalizeAttr().Get(reader.time)
-    return emission(reader, prim) / (max(area, 1e-30) if normalised else 1.0)
+    """Nothing of what has no area, which is told."""
+    if not area > 0:
+        reader.warn(prim, "a light without an area gives no light")
+        return np.zeros(3)
+    return emission(reader, prim) / (area if _is_normalised(reader, prim) else 1.0)
 
 
 def _value(reader: Any, prim: Any, name: str) -> float:
@@ -127,16 +167,18 @@ def _value(reader: Any, prim: Any, name: str) -> float:
 
 def _stand(reader: Any, prim: Any, world: Places, turned: bool = False) -> None:
     """Puts a light without a size. Their lights shine along -z; pbrt's, if turned, along z."""
+    place = world[0]
     if not np.allclose(world[0], world[1], rtol=1e-12, atol=0):
-        reader.warn(prim, "a light without a size stays where it is when the shutter opens")
-    reader.builder.add("Transform", _TURNED @ world[0] if turned else world[0])
+        reader.warn(prim, "a light without a size stays where it is at the time of the picture")
+        place = reader.place_at_time(prim, world)
+    reader.builder.add("Transform", _TURNED @ place if turned else place)
 
 
 def _distant(reader: Any, prim: Any, world: Places) -> None:
     light = UsdLux.LightAPI(prim)
     half = math.radians(_value(reader, prim, "angle")) / 2
-    irradiance = emission(reader, prim)
-    if not light.GetNormalizeAttr().Get(reader.time) and half > 0:
+    irradiance = emission(reader, prim) * blender.sun_factor(reader, light)
+    if not _is_normalised(reader, prim) and half > 0:
         irradiance = irradiance * math.pi * math.sin(min(half, math.pi / 2)) ** 2
     _stand(reader, prim, world, turned=True)
     parameters: dict[str, Any] = {"rgb L": irradiance, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
@@ -148,47 +190,49 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
     dome = UsdLux.DomeLight_1(prim) if str(prim.GetTypeName()) == "DomeLight_1" else UsdLux.DomeLight(prim)
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
-    _stand(reader, prim, world)
-    if not texture or not texture.path:
-        reader.builder.add("LightSource", "infinite", {"rgb L": radiance})
+    file = file_of(reader, texture) if texture and texture.path else None
+    picture = read(file).image if file is not None else np.ones((1, 1, 3))
+    if np.ptp(picture, axis=(0, 1)).max() == 0:
+        _stand(reader, prim, world)
+        reader.builder.add("LightSource", "infinite", {"rgb L": radiance * picture[0, 0]})
         return
+    local = np.array(UsdGeom.Xformable(prim).GetLocalTransformation(reader.time))
+    _stand(reader, prim, _LATLONG @ blender.turned_sky(reader, prim, local) @ world)
     if format_ not in ("automatic", "latlong"):
         reader.warn(prim, f"a {format_} picture of a dome is taken as a latlong one")
-    picture = read(texture.resolvedPath or texture.path).image
-    file = reader.map_file(f"dome{len(reader.builder)}.exr")
-    Film.of(equal_area(picture) * radiance.astype(np.float32)).save(file)
-    reader.builder.add("LightSource", "infinite", {"string filename": file})
+    sky: dict[str, Any] = {"string filename": file, "string mapping": "equirectangular"}
+    if np.ptp(radiance) == 0:
+        sky["float scale"] = float(radiance[0])
+    else:
+        sky["string filename"] = reader.map_file(f"dome{len(reader.builder)}.exr")
+        Film.of(picture * radiance.astype(np.float32)).save(sky["string filename"])
+    reader.builder.add("LightSource", "infinite", sky)
 
 
 def _sphere(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
+    world = blender.unscaled(prim, world)
     scale = _scales(world[0])
     area = 4 * math.pi * radius**2 * float(np.cbrt(np.prod(scale))) ** 2
-    radiance = _radiance(reader, prim, area)
+    # From afar a sphere has this intensity, however small it is where it is normalised.
+    intensity = emission(reader, prim) / 4 * (1.0 if _is_normalised(reader, prim) else area)
     shaping = Shaping.of(reader, prim)
-    as_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
-    # From afar a sphere has this intensity.
-    intensity = radiance * (area / 4)
+    is_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
     if shaping.needs_picture():
         _throw(reader, prim, world, shaping, intensity, is_flat=False)
     elif shaping.cone is not None:
+        if not is_point and radius > 0:
+            reader.warn(prim, _IS_POINT)
+        rim = shaping.cone * shaping.softness if shaping.inner is None else shaping.cone - shaping.inner
         _stand(reader, prim, world, turned=True)
-        reader.builder.add(
-            "LightSource",
-            "spot",
-            {
-                "rgb I": intensity,
-                "point3 from": (0, 0, 0),
-                "point3 to": (0, 0, 1),
-                "float coneangle": shaping.cone,
-                "float conedeltaangle": shaping.cone * shaping.softness,
-            },
-        )
-    elif as_point:
+        cone = {"float coneangle": shaping.cone, "float conedeltaangle": rim}
+        towards: dict[str, Any] = {"point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
+        reader.builder.add("LightSource", "spot", {"rgb I": intensity} | towards | cone)
+    elif is_point:
         _stand(reader, prim, world)
         reader.builder.add("LightSource", "point", {"rgb I": intensity})
     else:
-        _shine(reader, world, {"rgb L": radiance}, "sphere", {"float radius": radius})
+        _shine(reader, prim, world, {"rgb L": _radiance(reader, prim, area)}, "sphere", {"float radius": radius})
 
 
 def _throw(
@@ -196,7 +240,7 @@ def _throw(
 ) -> None:
     """A light as a point whose intensity is shaped by direction; on its axis it is what is given. `is_flat`: it shines
     forwards alone, by the cosine."""
-    reader.warn(prim, "a light that is shaped is taken as a point: its shadows are hard")
+    reader.warn(prim, _IS_POINT)
     # pbrt's pole is y.
     x, z, y = directions(_SHAPED_SIDE)
     factor = shaping.factor(reader, prim, x, y, z) * (np.maximum(-z, 0) if is_flat else 1.0)
@@ -213,7 +257,11 @@ def _scales(world: Matrix) -> npt.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(world[:3, :3], axis=1), dtype=np.float64)
 
 
-def _shine(reader: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]) -> None:
+def _shine(
+    reader: Any, prim: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]
+) -> None:
+    if blender.is_unseen(reader, prim):
+        parameters = parameters | {"float alpha": 0.0}
     reader.put(world)
     reader.builder.add("AreaLightSource", "diffuse", light)
     # Lights reflect nothing.
@@ -230,18 +278,18 @@ def _rect(reader: Any, prim: Any, world: Places) -> None:
     # Seen from -z, where it shines, the corners go around against the clock.
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
     parameters = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
-    picture = read(texture.resolvedPath or texture.path).image if texture and texture.path else None
+    picture = read(file_of(reader, texture)).image if texture and texture.path else None
     if _is_thrown(reader, prim, world, radiance * area * (1 if picture is None else picture.mean(axis=(0, 1)))):
         if picture is not None:
             reader.warn(prim, "of the picture of a light that is shaped the mean is taken")
     elif picture is None:
-        _shine(reader, world, {"rgb L": radiance}, "trianglemesh", parameters)
+        _shine(reader, prim, world, {"rgb L": radiance}, "trianglemesh", parameters)
     else:
         file = reader.map_file(f"rect{len(reader.builder)}.exr")
         Film.of(picture * radiance.astype(np.float32)).save(file)
         # Upright and unmirrored for who looks at it: its left is at +x.
         coordinates = [[1, 0], [1, 1], [0, 1], [0, 0]]
-        _shine(reader, world, {"string filename": file}, "trianglemesh", parameters | {"point2 uv": coordinates})
+        _shine(reader, prim, world, {"string filename": file}, "trianglemesh", parameters | {"point2 uv": coordinates})
 
 
 def _is_thrown(reader: Any, prim: Any, world: Places, intensity: npt.NDArray[np.float64]) -> bool:
@@ -257,14 +305,17 @@ def _disk(reader: Any, prim: Any, world: Places) -> None:
     area = math.pi * radius**2 * float(np.linalg.norm(np.cross(world[0, 0, :3], world[0, 1, :3])))
     radiance = _radiance(reader, prim, area)
     if not _is_thrown(reader, prim, world, radiance * area):
-        _shine(reader, _TURNED @ world, {"rgb L": radiance}, "disk", {"float radius": radius})
+        _shine(reader, prim, _TURNED @ world, {"rgb L": radiance}, "disk", {"float radius": radius})
 
 
 def _cylinder(reader: Any, prim: Any, world: Places) -> None:
     radius, length = _value(reader, prim, "radius"), _value(reader, prim, "length")
     x, y, z = _scales(world[0])
+    if radius == 0 and UsdLux.CylinderLight(prim).GetTreatAsLineAttr().Get(reader.time):
+        reader.warn(prim, "a light that is a line is a thousandth as thick as it is long")
+        radius = length / 1000
     radiance = _radiance(reader, prim, 2 * math.pi * radius * math.sqrt(y * z) * length * x)
     # Theirs is along x, pbrt's along z.
     turn = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1.0]])
     parameters = {"float radius": radius, "float zmin": -length / 2, "float zmax": length / 2}
-    _shine(reader, turn @ world, {"rgb L": radiance}, "cylinder", parameters)
+    _shine(reader, prim, turn @ world, {"rgb L": radiance}, "cylinder", parameters)

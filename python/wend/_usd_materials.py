@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
+from . import _usd_blender as blender
 from ._scene_reader import Look
+from ._usd_textures import Inputs
 
 
 def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:
@@ -20,9 +23,25 @@ def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:
     return (float(red), float(green), float(blue))
 
 
-def look_of(reader: Any, prim: Any, bound: Any) -> Look:
-    """Makes the material if it is not there yet; the builder is inside the shape's block."""
-    looks: dict[str, Look] = reader.materials
+def shines(reader: Any, prim: Any) -> bool:
+    """Whether the prim, or some of its faces, give light by their material."""
+    if not prim.IsA(UsdGeom.Gprim):
+        return False
+    subsets = UsdGeom.Subset.GetGeomSubsets(UsdGeom.Mesh(prim), UsdGeom.Tokens.face, "materialBind") if prim.IsA(UsdGeom.Mesh) else []
+    return any(look_of(reader, prim, bound).shine is not None for bound in (prim, *(subset.GetPrim() for subset in subsets)))
+
+
+@dataclass
+class UsdLook(Look):
+    """What a shape of USD is given."""
+
+    shine: dict[str, Any] | None = None  #: parameters of its light; None: it is dark
+    coordinates: str | None = None  #: the primvar that its pictures lie by; None: the usual one
+
+
+def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
+    """Makes the material if it is not there yet, wherever the builder is."""
+    looks: dict[str, UsdLook] = reader.materials
     material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
     if material:
         key = str(material.GetPath())
@@ -34,68 +53,8 @@ def look_of(reader: Any, prim: Any, bound: Any) -> Look:
     if key not in looks:
         parameters = {"string type": "diffuse", "rgb reflectance": np.clip(colour, 0, 1)}
         reader.builder.add("MakeNamedMaterial", key, parameters)
-        looks[key] = Look(key)
+        looks[key] = UsdLook(key)
     return looks[key]
-
-
-class _Inputs:
-    """Of a shader: constants, and textures of the renderer."""
-
-    def __init__(self, reader: Any, shader: Any, key: str) -> None:
-        self.reader, self.shader, self.key = reader, shader, key
-
-    def _source(self, name: str) -> tuple[Any, Any]:
-        """The value, or the shader that makes it."""
-        given = self.shader.GetInput(name)
-        if not given:
-            return None, None
-        attributes = given.GetValueProducingAttributes()
-        if not attributes:
-            return None, None
-        attribute = attributes[0]
-        if UsdShade.Output.IsOutput(attribute):
-            return None, attribute
-        return attribute.Get(self.reader.time), None
-
-    def constant(self, name: str, fallback: Any) -> Any:
-        value, output = self._source(name)
-        if output is not None:
-            self.reader.warn(self.shader.GetPrim(), f"a texture of {name} is left out")
-        return fallback if value is None else value
-
-    def add_to(self, parameters: dict[str, Any], name: str, ours: str, kind: str, fallback: Any) -> None:
-        """Adds the parameter, as a constant or a texture. `kind` is "rgb" or "float"."""
-        value, output = self._source(name)
-        texture = None if output is None else self._texture(name, output, kind)
-        if texture is not None:
-            parameters[f"texture {ours}"] = texture
-        else:
-            parameters[f"{kind} {ours}"] = fallback if value is None else value
-
-    def _texture(self, name: str, output: Any, kind: str) -> str | None:
-        shader = UsdShade.Shader(output.GetPrim())
-        kind_of_node = str(shader.GetIdAttr().Get())
-        if kind_of_node != "UsdUVTexture" and not kind_of_node.startswith(("ND_image_", "ND_tiledimage_")):
-            self.reader.warn(self.shader.GetPrim(), f"{kind_of_node} as {name} is left out")
-            return None
-        inputs = _Inputs(self.reader, shader, self.key)
-        file = inputs.constant("file", None)
-        if not file or not file.path:
-            return None
-        space = inputs.constant("sourceColorSpace", "auto")
-        encoding = {"raw": "linear", "sRGB": "sRGB"}.get(str(space), "linear" if kind == "float" else "sRGB")
-        parameters: dict[str, Any] = {"string filename": file.resolvedPath or file.path, "string encoding": encoding}
-        wrap = {"repeat": "repeat", "clamp": "clamp", "black": "black"}.get(str(inputs.constant("wrapS", "repeat")))
-        parameters["string wrap"] = wrap or "repeat"
-        scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
-        if np.ptp(scale[:3]) > 1e-6 or np.abs(np.array(inputs.constant("bias", (0, 0, 0, 0)))).max() > 1e-6:
-            self.reader.warn(shader.GetPrim(), "bias, and scale by channel, of a texture are left out")
-        parameters["float scale"] = float(scale[:3].mean())
-        if kind == "float":
-            self.reader.warn(shader.GetPrim(), "of a texture for a number the mean of red, green and blue is taken")
-        texture = f"{self.key} {name}"
-        self.reader.builder.add("Texture", texture, "spectrum" if kind == "rgb" else "float", "imagemap", parameters)
-        return texture
 
 
 #: What shaders of surfaces call the same things; the names that a shader has not are left out.
@@ -107,6 +66,7 @@ _WORDS: dict[str, dict[str, str]] = {
         "ior": "ior",
         "coat": "clearcoat",
         "coat_roughness": "clearcoatRoughness",
+        "shine_colour": "emissiveColor",
     },
     "ND_standard_surface_surfaceshader": {
         "colour": "base_color",
@@ -114,6 +74,8 @@ _WORDS: dict[str, dict[str, str]] = {
         "metal": "metalness",
         "roughness": "specular_roughness",
         "ior": "specular_IOR",
+        "specular": "specular",
+        "opacity": "opacity",
         "coat": "coat",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_IOR",
@@ -136,6 +98,8 @@ _WORDS: dict[str, dict[str, str]] = {
         "metal": "base_metalness",
         "roughness": "specular_roughness",
         "ior": "specular_ior",
+        "specular": "specular_weight",
+        "opacity": "geometry_opacity",
         "coat": "coat_weight",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_ior",
@@ -155,80 +119,181 @@ _WORDS: dict[str, dict[str, str]] = {
 }
 
 
-def _surface(reader: Any, material: Any, key: str) -> Look:
-    shader = material.ComputeSurfaceSource("mtlx")[0]
-    if not shader or shader.GetIdAttr().Get() not in _WORDS:
-        name = shader.GetIdAttr().Get() if shader else "no surface"
-        reader.warn(material.GetPrim(), f"a material of {name} is taken as grey")
-        reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0.18, 0.18, 0.18)})
-        return Look(key)
-    name = str(shader.GetIdAttr().Get())
-    words = _WORDS[name]
-    inputs = _Inputs(reader, shader, key)
+#: What has no counterpart, and its value where it is off.
+_NOT_HERE = {"sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0}
 
-    def constant(word: str, fallback: Any) -> Any:
-        return inputs.constant(words[word], fallback) if word in words else fallback
+#: What is not OpenPBR's value where none is given.
+_COAT_ROUGHNESS = {"UsdPreviewSurface": 0.01, "ND_standard_surface_surfaceshader": 0.1}
+_COAT_IOR = {"ND_standard_surface_surfaceshader": 1.5}
 
-    look = Look(key)
-    if name == "UsdPreviewSurface":
-        emission = np.array(inputs.constant("emissiveColor", (0, 0, 0)), dtype=np.float64)
-        opacity = float(inputs.constant("opacity", 1))
-        is_clear = opacity <= 0.01
-        if not is_clear and opacity < 1:
-            look.shape_parameters["float alpha"] = opacity
-        _tell_of_others(reader, inputs, {"displacement": 0, "useSpecularWorkflow": 0})
-    else:
-        emission = float(constant("shine", 0)) * np.array(constant("shine_colour", (1, 1, 1)), dtype=np.float64)
-        is_clear = float(constant("clear", 0)) > 0.5
-        _tell_of_others(reader, inputs, {"sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0})
-    if emission.max() > 0:
-        look.emission = tuple(float(x) for x in emission)
-    roughness = 0.5 if name == "UsdPreviewSurface" else 0.2
 
-    def facets() -> dict[str, Any]:
+class _Surface:
+    """A shader of a surface, by the words above.
+
+    Args:
+        reader: of the stage.
+        shader: of a kind that has words.
+        key: what its material is called.
+    """
+
+    def __init__(self, reader: Any, shader: Any, key: str) -> None:
+        self.reader, self.key = reader, key
+        self.kind = str(shader.GetIdAttr().Get())
+        self.is_preview = self.kind == "UsdPreviewSurface"
+        self.words = _WORDS[self.kind]
+        self.inputs = Inputs(reader, shader, key)
+        self.look = UsdLook(key)
+
+    def constant(self, word: str, fallback: Any) -> Any:
+        return self.inputs.constant(self.words[word], fallback) if word in self.words else fallback
+
+    def add_to(self, parameters: dict[str, Any], word: str, ours: str, kind: str, fallback: Any) -> None:
+        if word in self.words:
+            self.inputs.add_to(parameters, self.words[word], ours, kind, fallback)
+
+    def made(self) -> UsdLook:
+        """The look, after its material was made."""
+        plain = {"displacement": 0, "useSpecularWorkflow": 0} if self.is_preview else _NOT_HERE
+        for name, value in plain.items():
+            if float(self.inputs.constant(name, value)) != value:
+                self.reader.warn(self.inputs.shader.GetPrim(), f"{name} is left out")
+        self._shine()
+        is_clear = self._opacity() if self.is_preview else float(self.constant("clear", 0)) > 0.5
+        ior = float(self.constant("ior", 1.5))
+        if is_clear:
+            parameters = self._glass(ior)
+        elif self.is_preview and blender.is_matt(self.inputs):
+            parameters = {"string type": "diffuse"}
+            self.add_to(parameters, "colour", "reflectance", "rgb", self._grey())
+        elif float(self.constant("inside", 0)) > 0.5:
+            parameters = self._wax(ior)
+        else:
+            parameters = self._solid(ior)
+        self._normals(parameters)
+        self.reader.builder.add("MakeNamedMaterial", self.key, parameters)
+        named = self.inputs.coordinates
+        if named:
+            self.look.coordinates = named[0]
+            if any(name != named[0] for name in named):
+                self.reader.warn(self.inputs.shader.GetPrim(), "all pictures of a material lie by the coordinates of the first")
+        return self.look
+
+    def _shine(self) -> None:
+        name = self.words["shine_colour"]
+        strength = float(self.constant("shine", 1.0 if self.is_preview else 0.0))
+        picture = self.inputs.picture(name) if strength > 0 else None
+        if picture is not None:
+            picture.scale = picture.scale * strength
+            if not np.array_equal(picture.uv_matrix, np.eye(3)):
+                self.reader.warn(self.inputs.shader.GetPrim(), "a picture that shines is not scaled or moved")
+            self.look.shine = {"string filename": self.inputs.made(picture), "bool twosided": True}
+            return
+        colour = np.array(self.inputs.constant(name, (0, 0, 0) if self.is_preview else (1, 1, 1)), dtype=np.float64) * strength
+        if colour.max() > 0:
+            self.look.shine = {"rgb L": colour, "bool twosided": True}
+
+    def _opacity(self) -> bool:
+        """Of a preview surface: whether it is clear."""
+        threshold = float(self.inputs.constant("opacityThreshold", 0))
+        if self.inputs.is_connected("opacity"):
+            if threshold > 0:
+                self.reader.warn(self.inputs.shader.GetPrim(), "the opacityThreshold of a picture is left out")
+            self._add_alpha("opacity")
+            return False
+        opacity = float(self.inputs.constant("opacity", 1))
+        if threshold > 0:
+            opacity = 1.0 if opacity >= threshold else 0.0
+            self.look.shape_parameters["float alpha"] = opacity
+            return False
+        if 0.01 < opacity < 1:
+            self.look.shape_parameters["float alpha"] = opacity
+        return opacity <= 0.01
+
+    def _add_alpha(self, name: str) -> None:
+        self.inputs.add_to(self.look.shape_parameters, name, "alpha", "float", 1.0)
+
+    def _facets(self) -> dict[str, Any]:
         # All of them square the roughness: that is the facets' alpha.
-        return {"float roughness": float(constant("roughness", roughness)) ** 2, "bool remaproughness": False}
+        roughness = float(self.constant("roughness", self._roughness()))
+        return {"float roughness": roughness**2, "bool remaproughness": False}
 
-    ior = float(constant("ior", 1.5))
-    grey = (0.18, 0.18, 0.18) if name == "UsdPreviewSurface" else (0.8, 0.8, 0.8)
-    parameters: dict[str, Any]
-    if is_clear:
-        parameters = facets() | {"string type": "dielectric", "float eta": ior}
-        look.medium = _inside_of_glass(reader, key, constant)
-    elif float(constant("inside", 0)) > 0.5:
-        parameters = facets() | {"string type": "subsurface", "float eta": ior, "float g": float(constant("inside_g", 0))}
-        inputs.add_to(parameters, words["inside_colour"], "reflectance", "rgb", grey)
-        radius = np.array(constant("inside_radius", (1, 1, 1)), dtype=np.float64) * float(constant("inside_scale", 1))
-        radii = radius * np.array(constant("inside_radii", (1, 1, 1)), dtype=np.float64)
+    def _roughness(self) -> float:
+        return 0.5 if self.is_preview else 0.2 if self.kind == "ND_standard_surface_surfaceshader" else 0.3
+
+    def _grey(self) -> tuple[float, float, float]:
+        return (0.18, 0.18, 0.18) if self.is_preview else (0.8, 0.8, 0.8)
+
+    def _glass(self, ior: float) -> dict[str, Any]:
+        parameters = self._facets() | {"string type": "dielectric", "float eta": ior}
+        if float(self.constant("clear_depth", 0)) > 0:
+            self.look.medium = _inside_of_glass(self.reader, self.key, self.constant)
+        elif "clear_colour" in self.words:
+            colour = np.clip(np.array(self.constant("clear_colour", (1, 1, 1)), dtype=np.float64), 0, 1)
+            # Blender's is that of two boundaries.
+            is_of_two = blender.wrote(self.inputs.shader.GetInput(self.words["clear_colour"]).GetAttr())
+            parameters["rgb transmittance"] = np.sqrt(colour) if is_of_two else colour
+        return parameters
+
+    def _wax(self, ior: float) -> dict[str, Any]:
+        parameters = self._facets() | {"string type": "subsurface", "float eta": ior, "float g": float(self.constant("inside_g", 0))}
+        self.add_to(parameters, "inside_colour", "reflectance", "rgb", self._grey())
+        radius = np.array(self.constant("inside_radius", (1, 1, 1)), dtype=np.float64) * float(self.constant("inside_scale", 1))
+        radii = radius
+        if "inside_radii" in self.words:
+            radii = radius * np.array(self.constant("inside_radii", (1, 0.5, 0.25)), dtype=np.float64)
         parameters["rgb mfp"] = np.maximum(np.broadcast_to(radii, 3), 1e-6)
-    else:
-        parameters = {"string type": "principled", "float eta": ior}
-        inputs.add_to(parameters, words["colour"], "reflectance", "rgb", grey)
-        inputs.add_to(parameters, words["roughness"], "roughness", "float", roughness)
-        inputs.add_to(parameters, words["metal"], "metallic", "float", 0.0)
-        inputs.add_to(parameters, words["coat"], "coat", "float", 0.0)
-        inputs.add_to(parameters, words["coat_roughness"], "coatroughness", "float", 0.01 if name == "UsdPreviewSurface" else 0.1)
-        parameters["float coateta"] = float(constant("coat_ior", ior if name == "UsdPreviewSurface" else 1.5))
+        return parameters
+
+    def _solid(self, ior: float) -> dict[str, Any]:
+        parameters: dict[str, Any] = {"string type": "principled", "float eta": ior}
+        self.add_to(parameters, "colour", "reflectance", "rgb", self._grey())
+        self.add_to(parameters, "roughness", "roughness", "float", self._roughness())
+        self.add_to(parameters, "metal", "metallic", "float", 0.0)
+        self.add_to(parameters, "coat", "coat", "float", 0.0)
+        self.add_to(parameters, "coat_roughness", "coatroughness", "float", _COAT_ROUGHNESS.get(self.kind, 0.0))
+        parameters["float coateta"] = float(self.constant("coat_ior", ior if self.is_preview else _COAT_IOR.get(self.kind, 1.6)))
+        specular = blender.specular(self.inputs) if self.is_preview else float(self.constant("specular", 1))
+        if specular != 1:
+            parameters["float specular"] = specular
         if "rgb reflectance" in parameters:
-            parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(constant("weight", 1))
-    reader.builder.add("MakeNamedMaterial", key, parameters)
-    return look
+            parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(self.constant("weight", 1))
+        if not self.is_preview and "opacity" in self.words:
+            opacity = self.inputs.constant(self.words["opacity"], 1)
+            if np.min(opacity) < 1:
+                self.look.shape_parameters["float alpha"] = float(np.clip(np.mean(opacity), 0, 1))
+        return parameters
+
+    def _normals(self, parameters: dict[str, Any]) -> None:
+        if not self.is_preview or not self.inputs.is_connected("normal"):
+            return
+        picture = self.inputs.picture("normal")
+        if picture is None:
+            return
+        unpacked = np.allclose(picture.scale[:3], 2) and np.allclose(picture.bias[:3], -1)
+        if picture.is_encoded or not (unpacked or (np.allclose(picture.scale[:3], 1) and np.allclose(picture.bias[:3], 0))):
+            self.reader.warn(self.inputs.shader.GetPrim(), "a picture of normals is taken as they are packed in 8 bits")
+        if not np.array_equal(picture.uv_matrix, np.eye(3)):
+            self.reader.warn(self.inputs.shader.GetPrim(), "a picture of normals is not scaled or moved")
+        parameters["string normalmap"] = picture.file
 
 
-def _tell_of_others(reader: Any, inputs: _Inputs, plain: dict[str, float]) -> None:
-    for name, value in plain.items():
-        if float(inputs.constant(name, value)) != value:
-            reader.warn(inputs.shader.GetPrim(), f"{name} is left out")
+def _surface(reader: Any, material: Any, key: str) -> UsdLook:
+    of_materialx, plain = (material.ComputeSurfaceSource(context)[0] for context in ("mtlx", ""))
+    names = [str(shader.GetIdAttr().Get()) if shader else "no surface" for shader in (of_materialx, plain)]
+    if names[0] in _WORDS:
+        return _Surface(reader, of_materialx, key).made()
+    if names[1] in _WORDS:
+        reader.warn(material.GetPrim(), f"of a material of {names[0]} the {names[1]} is taken")
+        return _Surface(reader, plain, key).made()
+    reader.warn(material.GetPrim(), f"a material of {names[0]} is taken as grey")
+    reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0.18, 0.18, 0.18)})
+    return UsdLook(key)
 
 
 def _inside_of_glass(reader: Any, key: str, constant: Any) -> str | None:
     """A medium that colours what is `clear_depth` thick as it should, and scatters; none for clear glass."""
     depth = float(constant("clear_depth", 0))
     colour = np.clip(np.array(constant("clear_colour", (1, 1, 1)), dtype=np.float64), 1e-6, 1)
-    if depth <= 0:
-        if colour.min() < 1:
-            reader.warn(reader.stage.GetPrimAtPath(key), "a colour of transmission without a depth is left out")
-        return None
     scattering = np.broadcast_to(np.array(constant("clear_scatter", (0, 0, 0)), dtype=np.float64), 3) / depth
     absorption = -np.log(colour) / depth - scattering
     # Where more is scattered than goes missing, all channels absorb more, so that none is negative.

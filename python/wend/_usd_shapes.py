@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Sdf, UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from . import _usd_subdivision as subdivision
+from ._usd_materials import look_of
 
 Parameters = dict[str, Any]
 
@@ -30,8 +31,10 @@ def mesh_parts(
         return
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
     is_left_handed = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
-    values = _values(reader, prim, counts, corners, len(points), end_points is not None)
     parts = _parts(mesh, time, len(counts))
+    wanted = (look_of(reader, prim, bound).coordinates for bound, chosen in parts if chosen.any())
+    coordinates = _coordinates(reader, prim, next((name for name in wanted if name is not None), None))
+    values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates)
     if scheme != UsdGeom.Tokens.none:
         faces = subdivision.Faces(counts, corners, scheme, is_left_handed)
         surface = subdivision.surface(reader, prim, points, faces, values.get("point2 uv"), world, in_object)
@@ -73,7 +76,13 @@ def _points(reader: Any, prim: Any) -> tuple[npt.NDArray[np.float32], npt.NDArra
 
 
 def _values(
-    reader: Any, prim: Any, counts: npt.NDArray[np.int64], corners: npt.NDArray[np.int64], points: int, moves: bool
+    reader: Any,
+    prim: Any,
+    counts: npt.NDArray[np.int64],
+    corners: npt.NDArray[np.int64],
+    points: int,
+    moves: bool,
+    coordinates: tuple[npt.NDArray[np.float32], str] | None,
 ) -> dict[str, tuple[npt.NDArray[np.float32], str]]:
     """Normals and texture coordinates, with their interpolation. Subdivision surfaces have their own normals."""
     mesh = UsdGeom.Mesh(prim)
@@ -85,7 +94,6 @@ def _values(
             end_normals = _normals(mesh, reader.shutter[1])
             if moves and end_normals is not None:
                 values["normal3 N1"] = end_normals
-    coordinates = _coordinates(prim, reader.time)
     if coordinates is not None:
         values["point2 uv"] = coordinates
     sizes = {
@@ -131,13 +139,14 @@ def _mesh(
     values: dict[str, tuple[npt.NDArray[np.float32], str]],
 ) -> Parameters:
     """`triangles` count corners. Points stay shared where every value is one of a point."""
-    vertices = corners[triangles]
+    vertices = corners[triangles].astype(np.int32)
+    values = {name: _of_points(array, kind, corners, len(points)) for name, (array, kind) in values.items()}
     if all(kind in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying) for _, kind in values.values()):
-        parameters: Parameters = {"point3 P": points, "integer indices": vertices.astype(np.int32)}
+        parameters: Parameters = {"point3 P": points, "integer indices": vertices}
         return parameters | {name: array for name, (array, _) in values.items()}
     flat = vertices.reshape(-1)
     parameters = {"point3 P": points[flat], "integer indices": np.arange(len(flat), dtype=np.int32)}
-    of_corner = {
+    of_corner: dict[str, npt.NDArray[np.integer[Any]]] = {
         UsdGeom.Tokens.constant: np.zeros(len(flat), dtype=np.int64),
         UsdGeom.Tokens.uniform: np.repeat(faces, 3),
         UsdGeom.Tokens.vertex: flat,
@@ -145,6 +154,20 @@ def _mesh(
         UsdGeom.Tokens.faceVarying: triangles.reshape(-1),
     }
     return parameters | {name: array[of_corner[kind]] for name, (array, kind) in values.items()}
+
+
+def _of_points(
+    array: npt.NDArray[np.float32], kind: str, corners: npt.NDArray[np.int64], points: int
+) -> tuple[npt.NDArray[np.float32], str]:
+    """Values of corners as those of points, where all corners of a point have the same: many exporters write no others."""
+    if kind != UsdGeom.Tokens.faceVarying:
+        return array, kind
+    # Some corner of each point; of what is no corner the first, which nobody sees.
+    some = np.zeros(points, dtype=np.int64)
+    some[corners] = np.arange(len(corners))
+    of_points = array[some]
+    same = np.array_equal(of_points[corners], array)
+    return (of_points, UsdGeom.Tokens.vertex) if same else (array, kind)
 
 
 def _triangulate(counts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
@@ -164,9 +187,11 @@ def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None
     return (np.array(found, dtype=np.float32).reshape(-1, 3), mesh.GetNormalsInterpolation()) if found else None
 
 
-def _coordinates(prim: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
-    api = UsdGeom.PrimvarsAPI(prim)
-    primvars = [api.GetPrimvar("st"), api.GetPrimvar("UVMap"), *api.GetPrimvarsWithValues()]
+def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
+    """Those that are asked for, or the usual ones."""
+    api, time = UsdGeom.PrimvarsAPI(prim), reader.time
+    names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
+    primvars = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names)), *api.GetPrimvarsWithValues()]
     for primvar in primvars:
         if primvar and primvar.HasValue() and primvar.GetTypeName().role == "TextureCoordinate":
             array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
@@ -242,53 +267,3 @@ def _turned(profile: npt.NDArray[np.float64], segments: int, axis: str) -> Param
 def _along(points: npt.NDArray[np.float64], axis: str) -> npt.NDArray[np.float64]:
     """What was made around z, around another axis: the cyclic order of the axes keeps the surface's sides."""
     return np.roll(points, {"Z": 0, "X": 1, "Y": 2}[axis], axis=-1)
-
-
-def curve_segments(reader: Any, prim: Any) -> Iterator[Parameters]:
-    """Each curve as cubic pieces of pbrt's."""
-    curves = UsdGeom.BasisCurves(prim)
-    time = reader.time
-    points = np.array(curves.GetPointsAttr().Get(time) or [], dtype=np.float64).reshape(-1, 3)
-    counts = np.array(curves.GetCurveVertexCountsAttr().Get(time) or [], dtype=np.int64)
-    if not len(counts) or counts.min() < 2 or counts.sum() != len(points):
-        reader.warn(prim, "curves whose counts are not of their points are left out")
-        return
-    kind = curves.GetTypeAttr().Get(time)
-    basis = "linear" if kind == UsdGeom.Tokens.linear else curves.GetBasisAttr().Get(time)
-    if curves.GetWrapAttr().Get(time) == UsdGeom.Tokens.periodic:
-        reader.warn(prim, "periodic curves are left open")
-    widths = np.array(curves.GetWidthsAttr().Get(time) or [1.0], dtype=np.float64)
-    by_point = len(widths) == len(points)
-    if not by_point and len(widths) > 1:
-        reader.warn(prim, "of widths that are not of the curves' points the mean is taken")
-    first = 0
-    for count in counts:
-        p = points[first : first + count]
-        w = widths[first : first + count] if by_point else np.full(count, widths.mean())
-        first += count
-        yield from _pieces(p, w, basis)
-
-
-#: Control points of a Bézier piece by those of a piece in another basis.
-_TO_BEZIER = {
-    "bspline": np.array([[1, 4, 1, 0], [0, 4, 2, 0], [0, 2, 4, 0], [0, 1, 4, 1]]) / 6,
-    "catmullRom": np.array([[0, 6, 0, 0], [-1, 6, 1, 0], [0, 1, 6, -1], [0, 0, 6, 0]]) / 6,
-    "bezier": np.eye(4),
-}
-
-
-def _pieces(points: npt.NDArray[np.float64], widths: npt.NDArray[np.float64], basis: str) -> Iterator[Parameters]:
-    if basis == "linear" or len(points) < 4:
-        for k in range(len(points) - 1):
-            t = np.linspace(0, 1, 4)[:, None]
-            yield _piece((1 - t) * points[k] + t * points[k + 1], widths[k], widths[k + 1])
-        return
-    step = 3 if basis == "bezier" else 1
-    matrix = _TO_BEZIER[basis]
-    for k in range(0, len(points) - 3, step):
-        width = matrix @ widths[k : k + 4]
-        yield _piece(matrix @ points[k : k + 4], width[0], width[3])
-
-
-def _piece(points: npt.NDArray[np.float64], width0: float, width1: float) -> Parameters:
-    return {"string type": "cylinder", "point3 P": points, "float width0": width0, "float width1": width1}

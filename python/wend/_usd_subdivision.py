@@ -99,7 +99,8 @@ class Refinement:
     def __init__(self, levels: int | None) -> None:
         if levels is not None and levels < 0:
             raise InputError(f"subdivision {levels}: must not be below 0")
-        self.asked = levels
+        # Far above what is ever made; more would leave the range of numbers.
+        self.asked = None if levels is None else min(levels, 64)
         self.view: View | None = None
         self._triangles = 0.0
 

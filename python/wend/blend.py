@@ -26,11 +26,14 @@ except ImportError as error:
 
 from . import _blend_lights as lights
 from . import _reader_command as command
+from ._blend_bake import Bakeries
 from ._blend_camera import add_view
-from ._blend_materials import look_of, volume_parameters
+from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
+from ._blend_render_mode import as_rendered
 from ._blend_shapes import Geometry, box_of, hair_segments, mesh_parts, strands
+from ._blend_volumes import volume_parameters
 from ._blend_world import add_world, add_world_volume
 
 #: Kinds of objects that have a surface once they are evaluated.
@@ -46,6 +49,7 @@ def read(
     resolution: tuple[int, int] | None = None,
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
+    bake_resolution: int = 1024,
 ) -> SceneBuilder:
     """A .blend file, which is opened in place of what is open now, in the terms of the renderer.
 
@@ -57,6 +61,7 @@ def read(
         resolution: (width, height) of the picture; None: the scene's.
         spp: samples per pixel.
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
+        bake_resolution: width and height of pictures that are baked where textures have no counterpart.
 
     Raises:
         InputError: for a file that cannot be opened, or a scene or camera that is not in it.
@@ -79,6 +84,7 @@ def read(
         resolution=resolution,
         spp=spp,
         maps=maps,
+        bake_resolution=bake_resolution,
     )
 
 
@@ -94,6 +100,7 @@ def of_scene(
     depsgraph: Any = None,
     set_frame: Callable[[int, float], Any] | None = None,
     can_render: bool = True,
+    bake_resolution: int = 1024,
 ) -> SceneBuilder:
     """The same of a scene that is open in Blender.
 
@@ -102,22 +109,25 @@ def of_scene(
         name: what messages call it; file names are relative to its folder.
         depsgraph: the evaluated scene, where a render is going on; None: it is evaluated here.
         set_frame: evaluates that at a frame and a part of one, for motion blur; None: as the scene does.
-        can_render: whether Cycles may be called for what has no counterpart, such as a sky.
-        frame, camera, resolution, spp, maps: as for `read`.
+        can_render: whether Cycles may be called for what has no counterpart, such as a sky or a texture.
+        frame, camera, resolution, spp, maps, bake_resolution: as for `read`.
     """
-    reader = _Reader(scene, name, maps, can_render)
-    if depsgraph is None:
-        if frame is not None:
-            scene.frame_set(frame)
-        bpy.context.window.scene = scene
-        depsgraph = bpy.context.evaluated_depsgraph_get()
+    reader = _Reader(scene, name, maps, can_render, bake_resolution)
     eye = _named(scene.objects, camera, "camera") or scene.camera
     if set_frame is None:
 
         def set_frame(whole: int, part: float) -> None:
             scene.frame_set(whole, subframe=part)
 
-    return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+    if depsgraph is not None:
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+    with as_rendered(scene):
+        if frame is not None:
+            scene.frame_set(frame)
+        bpy.context.window.scene = scene
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        depsgraph.update()
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
 
 
 def _named(things: Any, name: str | None, kind: str) -> Any:
@@ -135,9 +145,13 @@ def _place(matrix: Any) -> Any:
 
 
 class _Reader(SceneReader):
-    def __init__(self, scene: Any, name: str, maps: str | os.PathLike[str] | None, can_render: bool) -> None:
+    def __init__(
+        self, scene: Any, name: str, maps: str | os.PathLike[str] | None, can_render: bool, bake_resolution: int
+    ) -> None:
         super().__init__(name, maps)
         self.scene = scene
+        self.bake_resolution = bake_resolution
+        self.bakeries: Bakeries | None = None  #: where Cycles may be called
         self.can_render = can_render
         self.around: str | None = None  #: the medium of the world
         self.has_light = False
@@ -151,11 +165,14 @@ class _Reader(SceneReader):
         if self.around is not None:
             add("MediumInterface", "", self.around)
         add_view(self, self.scene, eye, resolution, spp, motion)
+        self.tell_collections(self.scene)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
         seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
         times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
+        if self.can_render:
+            self.bake(depsgraph, seen, times)
         for instance, shown in zip(depsgraph.object_instances, seen):
             if shown:
                 object_ = instance.object
@@ -165,6 +182,21 @@ class _Reader(SceneReader):
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
         return self.builder
+
+    def bake(self, depsgraph: Any, seen: list[bool], times: Counter[str]) -> None:
+        """Makes materials, and pictures of what has no counterpart."""
+        self.bakeries = Bakeries(self, depsgraph, self.bake_resolution)
+        for instance, shown in zip(depsgraph.object_instances, seen):
+            key = self.key_of(instance.object)
+            if not shown or instance.object.type not in _SOLID or self.bakeries.get(key):
+                continue
+            bakery = self.bakeries.add(instance.object, key, times[key] > 1)
+            materials = [slot.material for slot in instance.object.material_slots if slot.material]
+            for material in materials:
+                bakery.decide(wants_of(self, material, bakery))
+            for material in materials:
+                look_of(self, material, bakery)
+        self.bakeries.bake(self.scene)
 
     @staticmethod
     def key_of(object_: Any) -> str:
@@ -218,14 +250,15 @@ class _Reader(SceneReader):
         mesh = object_.to_mesh()
         if mesh is None:
             return
+        bakery = self.bakeries.get(key) if self.bakeries is not None else None
         ends = self.shapes
         if ends is not None and not all(end.goes_with(Geometry.of(mesh)) for end in ends):
             self.tell(f"object '{name}'", "what changes its number of points while the shutter is open is as at the frame")
             ends = None
         try:
             parts = [
-                (look_of(self, materials[min(number, len(materials) - 1)] if materials else None), parameters)
-                for number, parameters in mesh_parts(mesh, ends)
+                (look_of(self, materials[min(number, len(materials) - 1)] if materials else None, bakery), parameters)
+                for number, parameters in mesh_parts(mesh, ends, bakery.uvs if bakery is not None else None)
             ]
         finally:
             object_.to_mesh_clear()
@@ -257,7 +290,8 @@ class _Reader(SceneReader):
                 if kind == "curve":
                     self.tell(f"object '{name}'", "hair does not shine")
                 else:
-                    add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
+                    light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
+                    add("AreaLightSource", "diffuse", light | {"bool twosided": True})
                     self.has_light = True
             add("Shape", kind, parameters | look.shape_parameters)
 
@@ -275,6 +309,16 @@ class _Reader(SceneReader):
         unseen = [ray.replace("_", " ") for ray in rays if not getattr(object_, f"visible_{ray}")]
         if unseen:
             self.tell(where, f"an object that rays of {', '.join(unseen)} do not see is seen by all")
+
+    def tell_collections(self, scene: Any) -> None:
+        """Says which collections are to be seen in part, which is not there."""
+        todo = [scene.view_layers[0].layer_collection]
+        while todo:
+            collection = todo.pop()
+            todo += collection.children
+            for role in ("holdout", "indirect_only"):
+                if getattr(collection, role):
+                    self.tell(f"collection '{collection.name}'", f"a collection that is {role.replace('_', ' ')} is as others")
 
     def hold(self, place: Any, where: str) -> None:
         """What cannot move is said to stay where the shutter opens."""
@@ -298,6 +342,9 @@ class _Reader(SceneReader):
         grid = "density"
         if node.bl_idname == "ShaderNodeVolumePrincipled":
             grid = node.inputs["Density Attribute"].default_value or "density"
+            heat = node.inputs["Temperature Attribute"].default_value
+            if nodes.number(node.inputs["Blackbody Intensity"]) > 0 and any(g.name == heat for g in volume.grids):
+                self.tell(where, f"the temperatures of the grid '{heat}' are taken as the material's own")
         elif not any(g.name == "density" for g in volume.grids):
             grid = volume.grids[0].name
         if volume.render.space == "OBJECT":
@@ -346,11 +393,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--scene", metavar="NAME", help="(default: the file's)")
     parser.add_argument("--camera", metavar="NAME", help="(default: the scene's)")
     parser.add_argument("--resolution", metavar="WxH", help="(default: the scene's)")
+    parser.add_argument("--bake-resolution", type=int, default=1024, metavar="N", help="of textures that have no counterpart (1024)")
     command.add_options(parser)
     options = command.parsed(parser, arguments)
 
     def convert() -> None:
         resolution = command.size_of(options.resolution) if options.resolution else None
+        if not 1 <= options.bake_resolution <= 16384:
+            raise InputError(f"--bake-resolution {options.bake_resolution}: expected 1 to 16384")
         frames: list[int | None] = [None] if not options.frames else [*_frames(options.frames)]
         names = [options.output or "", options.render or ""]
         if len(frames) > 1 and any(name and "#" not in name for name in names):
@@ -365,6 +415,7 @@ def main(arguments: list[str] | None = None) -> int:
                 resolution=resolution,
                 spp=options.spp,
                 maps=command.maps_of(output),
+                bake_resolution=options.bake_resolution,
             )
             command.deliver(builder, options, output, picture)
 

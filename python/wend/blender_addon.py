@@ -52,12 +52,16 @@ def register() -> None:
     bpy.types.Scene.wend = bpy.props.PointerProperty(type=_classes()[0])
     for panel in _panels_of_others():
         panel.COMPAT_ENGINES.add("WEND")
+    if bpy.app.background:
+        bpy.app.handlers.render_pre.append(_prepare)
 
 
 def unregister() -> None:
     """Takes it back."""
     import bpy
 
+    if _prepare in bpy.app.handlers.render_pre:
+        bpy.app.handlers.render_pre.remove(_prepare)
     for panel in _panels_of_others():
         panel.COMPAT_ENGINES.discard("WEND")
     del bpy.types.Scene.wend
@@ -113,6 +117,8 @@ def _classes() -> list[Any]:
         bl_label = "Wend"
         bl_use_preview = False
         bl_use_shading_nodes_custom = False
+        #: What was read before the render, by the scene's name and its frame: the scene or an error, and warnings.
+        prepared: dict[tuple[str, int], tuple[Any, list[str]]] = {}
 
         def render(self, depsgraph: Any) -> None:
             _render(self, depsgraph)
@@ -148,19 +154,54 @@ def _classes() -> list[Any]:
     return _made
 
 
-def _render(engine: Any, depsgraph: Any) -> None:
-    from ._render import Render
+def _prepare(scene: Any, _: Any = None) -> None:
+    """Reads the scene while Cycles may still be called, for its sky and for textures that are baked. That is so before a
+    render without windows, where it happens in the main thread."""
+    from .blend import of_scene
+
+    if scene.render.engine != "WEND":
+        return
+    told: list[str] = []
+    found: Any
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", SceneWarning)
+        warnings.showwarning = lambda message, *_, **__: told.append(str(message))
+        try:
+            found = of_scene(scene, resolution=_size_of(scene))
+        except InputError as error:
+            found = error
+    _classes()[1].prepared[scene.name, scene.frame_current] = found, told
+
+
+def _size_of(scene: Any) -> tuple[int, int]:
+    share = scene.render.resolution_percentage / 100
+    return max(int(scene.render.resolution_x * share), 1), max(int(scene.render.resolution_y * share), 1)
+
+
+def _scene_of(engine: Any, depsgraph: Any) -> Any:
+    """What was prepared, or can be read while a render is going on."""
     from .blend import of_scene
 
     scene = depsgraph.scene
-    share = scene.render.resolution_percentage / 100
-    size = (max(int(scene.render.resolution_x * share), 1), max(int(scene.render.resolution_y * share), 1))
+    found, told = engine.prepared.pop((scene.name, scene.frame_current), (None, []))
+    for text in told:
+        engine.report({"WARNING"}, text)
+    if isinstance(found, InputError):
+        raise found
+    return found or of_scene(
+        scene, resolution=_size_of(scene), depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False
+    )
+
+
+def _render(engine: Any, depsgraph: Any) -> None:
+    from ._render import Render
+
     settings = depsgraph.scene_eval.wend
     with warnings.catch_warnings():
         warnings.simplefilter("always", SceneWarning)
         warnings.showwarning = lambda message, *_, **__: engine.report({"WARNING"}, str(message))
         try:
-            builder = of_scene(scene, resolution=size, depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False)
+            builder = _scene_of(engine, depsgraph)
             render = Render(
                 builder.scene(),
                 spp=None if settings.seconds > 0 else settings.samples,

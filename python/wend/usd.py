@@ -7,10 +7,10 @@ kind, as a `SceneWarning` with the prim's path.
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,18 +19,23 @@ import numpy as np
 from . import _wend
 from ._builder import SceneBuilder
 from ._errors import InputError
+from ._progress import Bar
 from ._scene_reader import Places, SceneReader
 
 try:
-    from pxr import Gf, Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from pxr import Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
 except ImportError as error:
     raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
 
 from . import _reader_command as command
+from . import _usd_blender as blender
+from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_materials as materials
-from ._usd_shapes import box_mesh, curve_segments, mesh_parts, primitive_mesh
-from ._usd_subdivision import Refinement, View
+from ._usd_curves import curve_segments
+from ._usd_files import file_of
+from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
+from ._usd_subdivision import Refinement
 
 
 def read(
@@ -42,6 +47,7 @@ def read(
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
     subdivision: int | None = None,
+    progress: bool = False,
 ) -> SceneBuilder:
     """A stage as it is composed, in the terms of the renderer.
 
@@ -55,6 +61,7 @@ def read(
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
         subdivision: how often edges of subdivision surfaces are halved; None: until they are two pixels long where the
             surface is nearest, 1 to 6 times, and 2 times for what is copied.
+        progress: show a bar (tqdm).
 
     Raises:
         InputError: for a file that is no stage, or a camera that is not in it.
@@ -66,14 +73,20 @@ def read(
         stage = Usd.Stage.Open(os.fspath(path))
     except Tf.ErrorException as error:
         raise InputError(f"{os.fspath(path)}: error: {_reason(error)}") from None
+    except UnicodeDecodeError:
+        # USD's own message quotes what is wrong.
+        raise InputError(f"{os.fspath(path)}: error: its text is not UTF-8") from None
     if time is None and stage.HasAuthoredTimeCodeRange():
         time = stage.GetStartTimeCode()
     when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
-    return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp)
+    return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp, progress)
 
 
 #: Instances within instances multiply.
 _MOST_NESTED = 2**20
+
+#: Of lights and what shines, of which each copy is a light of its own.
+_MOST_LIGHTS = 2**14
 
 
 @dataclass
@@ -82,6 +95,8 @@ class Prototype:
 
     name: str | None  #: None: it has no shapes of its own
     inner: list[tuple[Prototype, Places]]
+    #: what no object may hold: lights, what shines, volumes; with where in the prototype it is
+    lights: list[tuple[Any, Places]]
     is_made: bool
 
 
@@ -90,6 +105,7 @@ class _Reader(SceneReader):
         self, stage: Any, file: str, time: Any, maps: str | os.PathLike[str] | None, refinement: Refinement
     ) -> None:
         super().__init__(file, maps)
+        self.file = file
         self.refinement = refinement
         self.stage = stage
         self.time = time
@@ -97,28 +113,46 @@ class _Reader(SceneReader):
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.prototypes: dict[str, Prototype] = {}
-        self.nested = 0
+        self.nested = self.lights = 0
         self.has_light = False
 
     def warn(self, prim: Any, text: str) -> None:
         self.tell(str(prim.GetPath()), text)
 
-    def read(self, path: str | None, resolution: tuple[int, int], spp: int) -> SceneBuilder:
+    def read(self, path: str | None, resolution: tuple[int, int], spp: int, progress: bool) -> SceneBuilder:
         add = self.builder.add
-        self.add_camera(self.find_camera(path), resolution)
+        eye = cameras.find(self, path)
+        with _named(eye or self.stage.GetPseudoRoot()):
+            cameras.add(self, eye, resolution)
         add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 64})
         add("WorldBegin")
-        for prim in self.prims(self.stage.GetPseudoRoot()):
-            self.add_prim(prim, self.world(prim), in_object=False)
+        for error in getattr(self.stage, "GetCompositionErrors", list)():
+            self.tell(str(error.rootSite.path), f"of the composition is left out: {error}".strip())
+        prims = list(self.prims(self.stage.GetPseudoRoot()))
+        bar = Bar(os.path.basename(self.file), progress)
+        for i, prim in enumerate(prims):
+            bar.update(i / len(prims), prim.GetName())
+            with _named(prim):
+                self.add_prim(prim, self.world(prim), in_object=False)
+        bar.close()
         if not self.has_light:
             self.warn(self.stage.GetPseudoRoot(), "no light: a grey sky of radiance 1 is put around")
             add("LightSource", "infinite", {"rgb L": (1, 1, 1)})
         return self.builder
 
     def world(self, prim: Any) -> Places:
-        return np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
+        """Raises ValueError for places that are no numbers."""
+        places = np.array([transforms.GetLocalToWorldTransform(prim) for transforms in self.transforms])
+        if not np.isfinite(places).all():
+            raise ValueError("its place is no number")
+        return places
+
+    def place_at_time(self, prim: Any, world: Places) -> Any:
+        """At the time of the picture, as far as the prim is no copy; else where the shutter opens."""
+        is_copy = not np.array_equal(self.world(prim), world)
+        return world[0] if is_copy else np.array(UsdGeom.XformCache(self.time).GetLocalToWorldTransform(prim))
 
     def prims(self, root: Any) -> Iterator[Any]:
         """Those that are to be seen; what an instancer copies is left to it."""
@@ -135,12 +169,11 @@ class _Reader(SceneReader):
             yield prim
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
-        if prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase):
-            if in_object:
-                self.warn(prim, "a light that is copied by an instancer is left out")
-            else:
-                self.has_light = lights.add(self, prim, world) or self.has_light
+        if _is_light(prim):
+            self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
+            if prim.HasAPI(UsdLux.MeshLightAPI):
+                self.warn(prim, "a mesh that is a light shines by its material alone")
             for part, faces in mesh_parts(self, prim, world[0], in_object):
                 self.add_shape(prim, part, world, faces, in_object)
         elif prim.IsA(UsdGeom.BasisCurves):
@@ -150,7 +183,7 @@ class _Reader(SceneReader):
             radius = float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(self.time))
             self.add_shape(prim, prim, world, ("sphere", {"float radius": radius}), in_object)
         elif prim.IsA(UsdVol.Volume):
-            self.add_volume(prim, world, in_object)
+            self.add_volume(prim, world)
         elif prim.IsA(UsdGeom.PointInstancer):
             self.add_instances(prim, world)
         elif prim.IsA(UsdGeom.Gprim):
@@ -171,12 +204,11 @@ class _Reader(SceneReader):
             self.builder.add("NamedMaterial", look.name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
-            if look.emission is not None:
-                if in_object:
-                    self.warn(prim, "what shines and is copied by an instancer does not shine")
-                else:
-                    self.builder.add("AreaLightSource", "diffuse", {"rgb L": look.emission, "bool twosided": True})
-                    self.has_light = True
+            if look.shine is not None:
+                if "float alpha" in look.shape_parameters or "texture alpha" in look.shape_parameters:
+                    self.warn(prim, "what shines and is not opaque shines less where it is seen")
+                self.builder.add("AreaLightSource", "diffuse", look.shine)
+                self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
     def add_instances(self, prim: Any, world: Places) -> None:
@@ -191,6 +223,9 @@ class _Reader(SceneReader):
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
+        if not len(start) == len(end) == len(shown):
+            self.warn(prim, "an instancer whose positions are not as many as what it copies is left out")
+            return
         for i, places in zip(shown, zip(start, end)):
             if not 0 <= indices[i] < len(prototypes):
                 raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(prototypes)}")
@@ -202,21 +237,29 @@ class _Reader(SceneReader):
         if key in self.prototypes:
             if not self.prototypes[key].is_made:
                 self.warn(self.stage.GetPrimAtPath(path), "what copies itself is left out")
-                return Prototype(None, [], True)
+                return Prototype(None, [], [], True)
             return self.prototypes[key]
-        made = self.prototypes[key] = Prototype(None, [], False)
+        made = self.prototypes[key] = Prototype(None, [], [], False)
         root = self.stage.GetPrimAtPath(path)
+        if not root:
+            raise InputError(f"{path}: error: what an instancer copies is not there")
         from_root = np.linalg.inv(self.world(root))
-        parts = list(self.prims(root))
-        # An object holds no instances: what an instancer within copies is placed where all of it is.
-        for part in parts:
+        held = []
+        # An object holds no instances and no lights: they are placed where all of it is.
+        for part in self.prims(root):
+            with _named(part):
+                place = self.world(part) @ from_root
             if part.IsA(UsdGeom.PointInstancer):
-                made.inner += self.instances(part, self.world(part) @ from_root)
+                made.inner += self.instances(part, place)
+            elif _is_light(part) or part.IsA(UsdVol.Volume) or materials.shines(self, part):
+                made.lights.append((part, place))
+            else:
+                held.append((part, place))
         empty = len(self.builder) + 2
         with self.builder.block("Object", key):
-            for part in parts:
-                if not part.IsA(UsdGeom.PointInstancer):
-                    self.add_prim(part, self.world(part) @ from_root, in_object=True)
+            for part, place in held:
+                with _named(part):
+                    self.add_prim(part, place, in_object=True)
         made.name = key if len(self.builder) > empty else None
         made.is_made = True
         return made
@@ -226,6 +269,12 @@ class _Reader(SceneReader):
             with self.builder.block():
                 self.put(places)
                 self.builder.add("ObjectInstance", prototype.name)
+        for part, within in prototype.lights:
+            self.lights += 1
+            if self.lights > _MOST_LIGHTS:
+                self.warn(prim, f"of copies of lights, of what shines and of volumes no more than {_MOST_LIGHTS} are there")
+                break
+            self.add_prim(part, within @ places, in_object=False)
         for inner, within in prototype.inner:
             self.nested += 1
             if self.nested > _MOST_NESTED:
@@ -233,22 +282,23 @@ class _Reader(SceneReader):
                 return
             self.place(prim, inner, within @ places)
 
-    def add_volume(self, prim: Any, world: Places, in_object: bool) -> None:
+    def add_volume(self, prim: Any, world: Places) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
         field = self.stage.GetPrimAtPath(fields["density"]) if "density" in fields else None
-        if not field or not field.IsA(UsdVol.OpenVDBAsset) or in_object:
-            self.warn(prim, "a volume without a field 'density' of OpenVDB, or one that is copied, is left out")
+        if not field or not field.IsA(UsdVol.OpenVDBAsset):
+            self.warn(prim, "a volume without a field 'density' of OpenVDB is left out")
             return
         asset = UsdVol.OpenVDBAsset(field)
         path = asset.GetFilePathAttr().Get(self.time)
         if not path:
             self.warn(prim, "a volume without a file is left out")
             return
-        file = path.resolvedPath or path.path
+        file = file_of(self, path)
         grid = asset.GetFieldNameAttr().Get(self.time) or "density"
         extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
         colour = materials.display_colour(prim, self.time)
-        name = str(prim.GetPath())
+        # A copy has its own: it lies where it was made.
+        name = f"{prim.GetPath()} {len(self.builder)}"
         with self.builder.block():
             self.put(world)
             self.builder.add(
@@ -260,6 +310,7 @@ class _Reader(SceneReader):
                     "string gridname": grid,
                     "rgb sigma_s": colour,
                     "rgb sigma_a": np.maximum(1 - np.asarray(colour), 0),
+                    "float scale": blender.density_factor(prim, world[0]),
                 },
             )
             self.builder.add("MediumInterface", name, "")
@@ -267,72 +318,42 @@ class _Reader(SceneReader):
             self.builder.add("Shape", "trianglemesh", box_mesh(np.array(extent[0]), np.array(extent[1])))
         self.warn(prim, "a volume scatters as much as its density says, with the display colour as its albedo")
 
-    def find_camera(self, path: str | None) -> Any:
-        """The prim; None where the stage has none."""
-        if path is None:
-            return next((p for p in self.prims(self.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
-        prim = self.stage.GetPrimAtPath(path)
-        if not prim or not prim.IsA(UsdGeom.Camera):
-            raise InputError(f"{path}: error: no camera of the stage")
-        return prim
 
-    def add_camera(self, prim: Any, resolution: tuple[int, int]) -> None:
-        aspect = resolution[0] / resolution[1]
-        if prim is None:
-            self.warn(self.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
-            self.view_of_all(resolution)
-            return
-        camera = UsdGeom.Camera(prim)
-        lens = camera.GetCamera(self.time)
-        shutter = [camera.GetShutterOpenAttr().Get(self.time), camera.GetShutterCloseAttr().Get(self.time)]
-        if shutter[0] < shutter[1] and not self.time.IsDefault():
-            self.shutter = [Usd.TimeCode(self.time.GetValue() + offset) for offset in shutter]
-            self.transforms = [UsdGeom.XformCache(time) for time in self.shutter]
-        # A tenth of a scene unit, which is a millimetre where that is a centimetre.
-        width, height = lens.horizontalAperture, lens.verticalAperture
-        shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
-        # The aperture is widened to the shape of the picture.
-        if aspect > width / height:
-            width = height * aspect
-        else:
-            height = width / aspect
-        window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
-        # A camera of USD looks along its -z.
-        places = self.world(prim)
-        self.put(np.asarray(np.linalg.inv(np.diag([1, 1, -1, 1]) @ places), dtype=np.float64))
-        is_parallel = lens.projection == Gf.Camera.Orthographic
-        pixel = width / (10 if is_parallel else lens.focalLength) / resolution[0]
-        self.refinement.view = View(places[0, 3, :3], pixel, is_parallel)
-        if is_parallel:
-            self.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
-            return
-        parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
-        if lens.fStop > 0:
-            parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
-            parameters["float focaldistance"] = lens.focusDistance
-        self.builder.add("Camera", "perspective", parameters)
+#: What a value of a wrong type, or one that is not finite, ends in.
+_BAD_VALUES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError, Tf.ErrorException)
 
-    def view_of_all(self, resolution: tuple[int, int]) -> None:
-        aspect = resolution[0] / resolution[1]
-        bounds = UsdGeom.BBoxCache(self.time, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
-        box = bounds.ComputeWorldBound(self.stage.GetPseudoRoot()).ComputeAlignedRange()
-        middle = np.zeros(3) if box.IsEmpty() else np.array(box.GetMidpoint())
-        radius = 1.0 if box.IsEmpty() else max(float(np.linalg.norm(np.array(box.GetSize()))) / 2, 1e-6)
-        upwards = np.array([0, 0, 1.0]) if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else np.array([0, 1.0, 0])
-        forwards = np.array([0, 1.0, 0]) if upwards[2] else np.array([0, 0, -1.0])
-        fov = 40.0
-        eye = middle + (0.35 * upwards - forwards) * radius / math.sin(math.radians(fov / 2)) / min(aspect, 1)
-        self.refinement.view = View(eye, 2 * math.tan(math.radians(fov / 2)) / min(resolution))
-        # The camera's own axes are of the other hand, as pbrt's are.
-        self.builder.add("Scale", -1, 1, 1)
-        self.builder.add("LookAt", eye, middle, upwards)
-        self.builder.add("Camera", "perspective", {"float fov": fov})
+
+@contextmanager
+def _named(prim: Any) -> Iterator[None]:
+    """Errors that the prim's values end in are the file's, not ours.
+
+    Raises:
+        InputError: with the prim's path.
+    """
+    try:
+        yield
+    except InputError:
+        raise
+    except _BAD_VALUES as error:
+        reason = _reason(error) if isinstance(error, Tf.ErrorException) else str(error)
+        raise InputError(f"{prim.GetPath()}: error: a value is none that there can be ({reason})") from error
+
+
+def _is_light(prim: Any) -> bool:
+    return bool(prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase))
 
 
 def _reason(error: Any) -> str:
     """The first of USD's errors, which tells the place in the text."""
-    reasons = [str(getattr(reason, "commentary", reason)).strip() for reason in error.args]
-    return next((reason for reason in reasons if reason), "cannot be read")
+    for reason in error.args:
+        try:
+            text = str(getattr(reason, "commentary", reason)).strip()
+        except UnicodeDecodeError:
+            # It quotes what is wrong.
+            text = "its text is not UTF-8"
+        if text:
+            return text
+    return "cannot be read"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -357,6 +378,7 @@ def main(arguments: list[str] | None = None) -> int:
             spp=options.spp,
             maps=command.maps_of(options.output),
             subdivision=options.subdivision,
+            progress=True,
         )
         command.deliver(builder, options, options.output, options.render)
 

@@ -2,6 +2,10 @@
 // docs/embedding.md and examples/embed show how.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "Wend's headers are C++20: compile with -std=c++20 or later"
+#endif
+
 #include <wend/decision/direction.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/decision/learned_lights.h>

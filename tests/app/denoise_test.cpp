@@ -1,5 +1,7 @@
 // Denoising: what is asked for where the library is, and one sentence where it is not.
+#include <tests/support/scratch_folder.h>
 #include <wend/app/denoiser.h>
+#include <wend/app/oidn_library.h>
 #include <wend/core/error.h>
 #include <wend/core/random.h>
 
@@ -8,7 +10,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -26,11 +32,47 @@ TEST(Denoise, WhereTheLibraryIsNotOneSentenceSaysSo) {
     EXPECT_THROW(Denoiser("libm.so.6"), InputError) << "another library";
 }
 
-TEST(Denoise, TakesNoiseOutAndKeepsWhatWas) {
-    if (!std::getenv("WEND_OIDN")) {
-        GTEST_SKIP() << "WEND_OIDN does not say where Open Image Denoise is";
+/// Sets a variable of the environment, and puts back what it was.
+class Variable {
+public:
+    Variable(const char* name, const char* value) : name_(name) {
+        if (const char* const old = std::getenv(name)) {
+            old_ = old;
+        }
+        set(value);
     }
-    // A grey wall with noise, behind fog on its left half.
+    ~Variable() { set(old_ ? old_->c_str() : nullptr); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    void set(const char* value) const { value ? setenv(name_, value, 1) : unsetenv(name_); }
+
+    const char* name_;
+    std::optional<std::string> old_;
+};
+
+TEST(Denoise, TheLibraryIsLookedForInThePythonEnvironmentAtHand) {
+    const Variable none("WEND_OIDN", nullptr), no_conda("CONDA_PREFIX", nullptr);
+    const test::ScratchFolder folder;
+    const std::filesystem::path environment = folder.file("environment");
+    const std::filesystem::path library =
+        environment / "lib/python3.99/site-packages/pyoidn/oidn/lib/libOpenImageDenoise.so.2";
+    std::filesystem::create_directories(library.parent_path());
+    std::ofstream(library) << "a library";
+    const Variable active("VIRTUAL_ENV", environment.c_str());
+    const std::vector<std::string> found = oidn_candidates({});
+    ASSERT_GE(found.size(), 2u);
+    EXPECT_EQ(found[0], "libOpenImageDenoise.so.2") << "the system's";
+    EXPECT_EQ(found[1], library.string());
+    EXPECT_EQ(oidn_candidates("/there"), std::vector<std::string>{"/there"}) << "what is given is all";
+    EXPECT_EQ(oidn_candidates(library.parent_path()), std::vector<std::string>{library.string()}) << "a folder";
+    const Variable named("WEND_OIDN", "/named.so");
+    EXPECT_EQ(oidn_candidates({}), std::vector<std::string>{"/named.so"});
+}
+
+/// A grey wall with noise, behind thin fog.
+Picture noisy_wall() {
     constexpr int side = 64;
     Picture picture;
     picture.image = Image(side, side);
@@ -42,17 +84,71 @@ TEST(Denoise, TakesNoiseOutAndKeepsWhatWas) {
         pixel = Rgb(random.uniform() < 0.25f ? 4.0f : 0.0f);
     }
     picture.layers = {albedo, normal, scatter};
-    const Denoiser denoiser;
-    const Picture result = denoised(picture, denoiser);
-    double error = 0, before = 0;
-    for (std::size_t i = 0; i < result.image.pixels.size(); ++i) {
-        error += std::abs(static_cast<double>(result.image.pixels[i].g) - 1) / (side * side);
-        before += std::abs(static_cast<double>(picture.image.pixels[i].g) - 1) / (side * side);
+    return picture;
+}
+
+/// Mean distance from what the wall would be without noise.
+double error_of(const Picture& picture) {
+    double error = 0;
+    for (const Rgb& pixel : picture.image.pixels) {
+        error += std::abs(static_cast<double>(pixel.g) - 1);
     }
-    EXPECT_LT(error, 0.1 * before);
+    return error / static_cast<double>(picture.image.pixels.size());
+}
+
+/// The library; none where it is not installed.
+std::optional<Denoiser> installed_denoiser() {
+    try {
+        return std::optional<Denoiser>(std::in_place);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+TEST(Denoise, TakesNoiseOutAndKeepsWhatWas) {
+    const std::optional<Denoiser> denoiser = installed_denoiser();
+    if (!denoiser) {
+        GTEST_SKIP() << "Open Image Denoise is not installed";
+    }
+    const Picture picture = noisy_wall(), result = denoised(picture, *denoiser);
+    EXPECT_LT(error_of(result), 0.1 * error_of(picture));
     ASSERT_EQ(result.layers.back().name, "noisy");
     EXPECT_EQ(result.layers.back().values[3 * 17 + 1], picture.image.pixels[17].g);
-    EXPECT_EQ(result.metadata.at("wend:denoised"), "Open Image Denoise " + denoiser.version());
+    EXPECT_EQ(result.metadata.at("wend:denoised"), "Open Image Denoise " + denoiser->version());
+}
+
+TEST(Denoise, TakesAPictureThatIsMirroredForTheSame) {
+    const std::optional<Denoiser> denoiser = installed_denoiser();
+    if (!denoiser) {
+        GTEST_SKIP() << "Open Image Denoise is not installed";
+    }
+    const Picture picture = noisy_wall();
+    Picture turned = picture;
+    std::reverse(turned.image.pixels.begin(), turned.image.pixels.end());
+    Image result = denoiser->filter(turned), straight = denoiser->filter(picture);
+    std::reverse(result.pixels.begin(), result.pixels.end());
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+        ASSERT_NEAR(result.pixels[i].g, straight.pixels[i].g, 1e-4f) << "pixel " << i;
+    }
+}
+
+TEST(Denoise, LightOfMediaIsDenoisedApartToo) {
+    const std::optional<Denoiser> denoiser = installed_denoiser();
+    if (!denoiser) {
+        GTEST_SKIP() << "Open Image Denoise is not installed";
+    }
+    Picture picture = noisy_wall();
+    const Image together = denoiser->filter(picture);
+    Layer volume{"volume", {"R", "G", "B"}, {}};
+    for (const Rgb& pixel : picture.image.pixels) {
+        volume.values.insert(volume.values.end(), 3, 0.25f * pixel.g);
+    }
+    picture.layers.push_back(volume);
+    const Picture result = denoised(picture, *denoiser);
+    EXPECT_LT(error_of(result), 0.1 * error_of(picture));
+    EXPECT_FALSE(result.image.pixels == together.pixels) << "the layer is used";
+    std::fill(picture.layers.back().values.begin(), picture.layers.back().values.end(), 0.0f);
+    EXPECT_TRUE(denoiser->filter(picture).pixels == together.pixels) << "and is not where no medium shows";
 }
 
 }  // namespace

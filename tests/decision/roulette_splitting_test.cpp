@@ -139,5 +139,20 @@ TEST(AdjointRouletteSplitting, EndsButTheWorthlessOfThoseThatAreJudgedElsewhere)
               guided_walks_end.after_direction(state));
 }
 
+TEST(ExpectedContribution, IsThroughputTimesInScatteredLightOverTheValue) {
+    struct Known {
+        std::optional<Rgb> light;
+        std::optional<Rgb> in_scattered() const { return light; }
+    };
+    const Known known{Rgb(4, 2, 1)}, nothing{};
+    const Rgb throughput(1, 0.5f, 0.5f), albedo(0.5f, 1, 1);
+    const auto expected = ExpectedContribution::at(known, albedo, throughput, 2, 7);
+    EXPECT_FLOAT_EQ(expected.ratio.value(), (2 + 1 + 0.5f) / 3 / 2);
+    EXPECT_FLOAT_EQ(expected.weight, 2.0f / 3);
+    EXPECT_EQ(expected.split_capacity, 7);
+    EXPECT_FALSE(ExpectedContribution::at(known, albedo, throughput, 0, 1).ratio);
+    EXPECT_FALSE(ExpectedContribution::at(nothing, albedo, throughput, 2, 1).ratio);
+}
+
 }  // namespace
 }  // namespace wend

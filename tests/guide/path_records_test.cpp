@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace wend::guide {
 namespace {
@@ -63,6 +64,23 @@ bool nearly_equal(const Rgb& a, const Rgb& b) {
         }
     }
     return true;
+}
+
+TEST(PathLog, TakesWhatADecisionDrew) {
+    struct Drawn {
+        Vec3 direction{0, 1, 0};
+        float density = 0.5f, classical_density = 0.25f, guided_density = 0.75f;
+        Rgb weight() const { return {1, 0.5f, 2}; }
+    };
+    PathLog log, by_hand;
+    log.scatter(Vec3(1, 2, 3), Drawn(), true);
+    by_hand.scatter(Vec3(1, 2, 3), Vec3(0, 1, 0), 0.5f, Rgb(1, 0.5f, 2), true, 0.25f, 0.75f);
+    const PathVertex &a = log.vertices()[0], &b = by_hand.vertices()[0];
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.scattering, b.scattering);
+    EXPECT_EQ(std::tuple(a.density, a.classical_density, a.guided_density, a.in_volume),
+              std::tuple(b.density, b.classical_density, b.guided_density, b.in_volume));
 }
 
 TEST(PathRecords, MatchAPathMadeByHand) {

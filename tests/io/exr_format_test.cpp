@@ -1,6 +1,7 @@
 // How OpenEXR files call their layers, what they keep as half floats, and what they have as numbers.
 #include <tests/support/scratch_folder.h>
 #include <wend/core/error.h>
+#include <wend/io/gzip.h>
 #include <wend/io/image_file.h>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -17,8 +18,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace wend {
@@ -276,6 +279,52 @@ TEST_F(ExrFormat, PbrtsOwnFilesHaveLayersOfOurNames) {
     EXPECT_EQ(layer(p, "normal").values[2], 1);
     EXPECT_EQ(layer(p, "Variance").values, std::vector<float>(8, 2.0f)) << "of a sample, whose number is not known";
     EXPECT_EQ(layer(p, "").channels, (std::vector<std::string>{"u", "v"}));
+}
+
+/// What reading a file says; empty where it can be read.
+std::string error_of(const std::string& file) {
+    try {
+        read_picture(file);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// A file of three parts, as bytes.
+std::string three_parts(const std::string& file) {
+    write_parts(file,
+                {{"ViewLayer.Combined",
+                  {{"ViewLayer.Combined.R", 1.0f}, {"ViewLayer.Combined.G", 2.0f}, {"ViewLayer.Combined.B", 3.0f}}},
+                 {"ViewLayer.Depth", {{"ViewLayer.Depth.Z", 7.0f}}},
+                 {"ViewLayer.Normal",
+                  {{"ViewLayer.Normal.X", 0.0f}, {"ViewLayer.Normal.Y", 0.0f}, {"ViewLayer.Normal.Z", 1.0f}}}});
+    return read_file(file);
+}
+
+TEST_F(ExrFormat, TruncatedPartsAreRefused) {
+    const std::string file = folder_.file("parts.exr"), whole = three_parts(file);
+    ASSERT_EQ(error_of(file), "");
+    for (std::size_t size = 0; size < whole.size(); size += size < 16 ? 1 : 13) {
+        std::ofstream(file, std::ios::binary) << whole.substr(0, size);
+        EXPECT_NE(error_of(file).find("parts.exr"), std::string::npos) << size << " of " << whole.size() << " bytes";
+    }
+}
+
+TEST_F(ExrFormat, DamagedPartsAreReadOrRefused) {
+    const std::string file = folder_.file("parts.exr"), whole = three_parts(file);
+    int refused = 0;
+    for (std::size_t place = 0; place < whole.size(); place += 5) {
+        for (const int flip : {0x01, 0xff}) {
+            std::string damaged = whole;
+            damaged[place] = static_cast<char>(damaged[place] ^ flip);
+            std::ofstream(file, std::ios::binary) << damaged;
+            const std::string error = error_of(file);
+            EXPECT_TRUE(error.empty() || error.find("parts.exr") != std::string::npos) << place << ": " << error;
+            refused += error.empty() ? 0 : 1;
+        }
+    }
+    EXPECT_GT(refused, 100) << "the magic number, types and sizes of channels, tables of offsets";
 }
 
 TEST_F(ExrFormat, UnknownNamesAreRefused) {

@@ -44,7 +44,7 @@ TEST_P(RealScene, Loads) {
     const LoadedScene loaded = load_scene(file);
     std::size_t triangles = 0, quadrics = 0;
     for (const Surface& surface : loaded.scene.surfaces) {
-        const auto* mesh = std::get_if<TriangleMesh>(&surface.shape);
+        const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get());
         triangles += mesh ? mesh->triangle_count() : 0;
         quadrics += mesh ? 0 : 1;
     }

@@ -50,7 +50,7 @@ TEST(LoadShapes, GivenNormalsDecideTheSide) {
 
 TEST(LoadShapes, NormalsMapByTheInverseTranspose) {
     const LoadedScene loaded = load_text("Scale 2 1 1 " + triangle + "\"normal N\" [ 1 0 1  1 0 1  1 0 1 ]");
-    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_NEAR(length(mesh.normals[0] - normalize(Vec3(0.5f, 0, 1))), 0, 1e-6f);
 }
 
@@ -71,12 +71,12 @@ TEST(LoadShapes, QuadricParameters) {
     const LoadedScene loaded = load_text(
         "Shape \"sphere\" \"float radius\" 2 \"float zmin\" -1 \"float zmax\" 5 \"float phimax\" 90 "
         "Shape \"disk\" \"float height\" 3 \"float radius\" 2 \"float innerradius\" 1");
-    const auto& sphere = std::get<Sphere>(std::get<Quadric>(loaded.scene.surfaces[0].shape).shape);
+    const auto& sphere = std::get<Sphere>(std::get<Quadric>(*loaded.scene.surfaces[0].shape).shape);
     EXPECT_EQ(sphere.radius, 2);
     EXPECT_EQ(sphere.z_min, -1);
     EXPECT_EQ(sphere.z_max, 2);
     EXPECT_NEAR(sphere.phi_max, 0.5f * pi, 1e-6f);
-    const auto& disk = std::get<Disk>(std::get<Quadric>(loaded.scene.surfaces[1].shape).shape);
+    const auto& disk = std::get<Disk>(std::get<Quadric>(*loaded.scene.surfaces[1].shape).shape);
     EXPECT_EQ(disk.height, 3);
     EXPECT_EQ(disk.inner_radius, 1);
     EXPECT_PRED2(contains, message_of([] { load_text("Shape \"sphere\" \"float radius\" -1"); }), "above 0");
@@ -105,13 +105,13 @@ TEST(LoadShapes, MeshesMayChangeTheirShape) {
     const LoadedScene loaded =
         load_text("Translate 0 0 7 " + moving + triangle + "ReverseOrientation Scale 2 2 1 " + moving +
                   "\"normal N\" [ 0 0 1  0 0 1  0 0 1 ] " + "\"normal N1\" [ 0 2 2  0 2 2  0 2 2 ]");
-    const auto mesh = [&](std::size_t i) { return std::get<TriangleMesh>(loaded.scene.surfaces[i].shape); };
+    const auto mesh = [&](std::size_t i) { return std::get<TriangleMesh>(*loaded.scene.surfaces[i].shape); };
     ASSERT_TRUE(mesh(0).is_moving());
     EXPECT_FALSE(mesh(1).is_moving());
     EXPECT_EQ(mesh(0).triangle(0, 0)[1], Vec3(1, 0, 7));
     EXPECT_EQ(mesh(0).triangle(0, 1)[1], Vec3(1, 0, 8));
     EXPECT_EQ(mesh(0).triangle(0, 0.5f)[1], Vec3(1, 0, 7.5f));
-    EXPECT_EQ(bounds(loaded.scene.surfaces[0].shape).max.z, 8);
+    EXPECT_EQ(bounds(*loaded.scene.surfaces[0].shape).max.z, 8);
     EXPECT_EQ(mesh(2).corner_normals(0, 0)[0], Vec3(0, 0, -1));
     EXPECT_LT(length(mesh(2).corner_normals(0, 1)[0] + normalize(Vec3(0, 0.5f, 1))), 1e-6f);
     const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
@@ -129,7 +129,7 @@ TEST(LoadShapes, PlyMesh) {
            "3\n";
     const LoadedScene loaded =
         load_text("Translate 0 0 7 Shape \"plymesh\" \"string filename\" \"wend_load_test.ply\"", "", {}, directory);
-    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_EQ(mesh.triangle_count(), 2u);
     EXPECT_EQ(mesh.vertex(0, 0), Vec3(0, 0, 7));
 }
@@ -168,7 +168,7 @@ TEST(LoadShapes, CylindersAreExact) {
     EXPECT_FALSE(scene.intersect({{-5, 1.1f, 0}, {1, 0, 0}}));
     // What shines is a mesh, as lights are made of triangles.
     const LoadedScene light = load_text("AreaLightSource \"diffuse\" Shape \"cylinder\"");
-    EXPECT_EQ(std::get<TriangleMesh>(light.scene.surfaces[0].shape).triangle_count(), 512u);
+    EXPECT_EQ(std::get<TriangleMesh>(*light.scene.surfaces[0].shape).triangle_count(), 512u);
     EXPECT_EQ(light.scene.lights.size(), 512u);
     EXPECT_EQ(warnings_with(light, "a prism of 256 sides"), 1);
 }
@@ -178,8 +178,8 @@ TEST(LoadShapes, CurvedPatches) {
         "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 1 ] "
         "Shape \"bilinearmesh\" \"point3 P\" [ 5 0 0  6 0 0  5 1 0  6 1 0 ]");
     EXPECT_TRUE(loaded.warnings.empty());
-    EXPECT_EQ(std::get<TriangleMesh>(loaded.scene.surfaces[1].shape).triangle_count(), 2u);
-    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    EXPECT_EQ(std::get<TriangleMesh>(*loaded.scene.surfaces[1].shape).triangle_count(), 2u);
+    const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_GT(mesh.triangle_count(), 100u);
     const Scene scene(loaded.scene);
     for (const float x : {0.13f, 0.5f, 0.77f}) {
@@ -196,7 +196,7 @@ TEST(LoadShapes, CurvedPatches) {
 
 TEST(LoadShapes, CurvesOfBothBasesAndDegrees) {
     const auto curves = [](const std::string& text) {
-        return std::get<CurveSet>(load_text("Shape \"curve\" " + text).scene.surfaces.at(0).shape);
+        return std::get<CurveSet>(*load_text("Shape \"curve\" " + text).scene.surfaces.at(0).shape);
     };
     const auto near = [](const Vec3& a, const Vec3& b) { EXPECT_LT(length(a - b), 1e-5f) << a << " " << b; };
     const std::string points = "\"point3 P\" [0 0 0 1 0 0 2 3 0 3 0 1 4 1 0 5 0 0 6 0 3] ";
@@ -231,8 +231,8 @@ TEST(LoadShapes, CurvesAlikeAreOneSurface) {
     const LoadedScene loaded =
         load_text(curve + curve + "Material \"conductor\" " + curve + "AreaLightSource \"diffuse\" " + curve);
     ASSERT_EQ(loaded.scene.surfaces.size(), 2u);
-    EXPECT_EQ(std::get<CurveSet>(loaded.scene.surfaces[0].shape).segments.size(), 2u);
-    EXPECT_EQ(std::get<CurveSet>(loaded.scene.surfaces[1].shape).segments.size(), 2u);
+    EXPECT_EQ(std::get<CurveSet>(*loaded.scene.surfaces[0].shape).segments.size(), 2u);
+    EXPECT_EQ(std::get<CurveSet>(*loaded.scene.surfaces[1].shape).segments.size(), 2u);
     EXPECT_TRUE(loaded.scene.lights.empty());
     EXPECT_EQ(warnings_with(loaded, "curves neither shine nor bound a medium"), 1);
 }
@@ -242,7 +242,7 @@ TEST(LoadShapes, FlatPatchesAreTwoTriangles) {
     const LoadedScene loaded = load_text(patch + patch);
     EXPECT_EQ(loaded.scene.surfaces.size(), 2u);
     EXPECT_TRUE(loaded.warnings.empty());
-    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_EQ(mesh.triangle_count(), 2u);
     const Scene scene(load_text(patch).scene);
     const auto hit = scene.intersect({{0.25f, 0.75f, 1}, {0, 0, -1}});

@@ -276,7 +276,7 @@ TEST(SubdivisionRulesTest, IsAShapeOfScenes) {
             "[ 10 10 ] \"integer cornerIndices\" 0 \"float cornerSharpnesses\" 10 \"point2 uv\" [ 0 0 1 0 1 1 0 1 ] "
             "\"string faceVaryingLinearInterpolation\" \"all\" \"integer levels\" 2 \"string triangleSubdivisionRule\" "
             "\"smooth\""));
-    const auto& mesh = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_EQ(mesh.triangle_count(), 32u);
     EXPECT_EQ(mesh.uvs.size(), mesh.positions.size());
     EXPECT_TRUE(std::ranges::any_of(mesh.positions, [](const Vec3& p) { return length(p - Vec3(0, 0, 7)) < 1e-6f; }));

@@ -134,11 +134,11 @@ std::string loop_shape(const std::string& levels, const std::string& indices = "
 
 TEST(Subdivision, IsAShapeOfScenes) {
     const LoadedScene loaded = load_text("Translate 0 0 7 " + loop_shape("") + loop_shape("1"));
-    const auto& standard = std::get<TriangleMesh>(loaded.scene.surfaces[0].shape);
+    const auto& standard = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_EQ(standard.triangle_count(), 64u);
     EXPECT_FLOAT_EQ(standard.positions[0].z, 7);
     EXPECT_FLOAT_EQ(standard.normals[0].z, 1);
-    EXPECT_EQ(std::get<TriangleMesh>(loaded.scene.surfaces[1].shape).triangle_count(), 4u);
+    EXPECT_EQ(std::get<TriangleMesh>(*loaded.scene.surfaces[1].shape).triangle_count(), 4u);
     EXPECT_EQ(warnings_with(loaded, "loopsubdiv"), 0);
 }
 

@@ -202,7 +202,9 @@ TEST(BoundaryFaults, AnOpaqueFloorMayCloseAHole) {
     test::add(scene, floor, opaque);
     EXPECT_TRUE(boundary_faults(scene).empty());
     // Another hole is still one.
-    std::get<TriangleMesh>(scene.surfaces[0].shape).indices.resize(3 * 8);
+    auto open = std::get<TriangleMesh>(*scene.surfaces[0].shape);
+    open.indices.resize(3 * 8);
+    scene.surfaces[0].shape = open;
     EXPECT_FALSE(boundary_faults(scene).empty());
 }
 

@@ -47,6 +47,15 @@ PrincipledBsdf principled(float metallic, float alpha, float coat = 0) {
     return b;
 }
 
+PrincipledBsdf waxen(float share, float even) {
+    PrincipledBsdf b = principled(0, 0.3f);
+    b.has_inside = true;
+    b.subsurface = share;
+    b.entry_alpha = 0.3f;
+    b.entry_even = even;
+    return b;
+}
+
 DielectricBsdf coloured_glass(float alpha) {
     DielectricBsdf b{1.5f, alpha, alpha};
     b.reflectance = Rgb(0.9f, 0.5f, 0.1f);
@@ -88,7 +97,9 @@ const std::vector<Model>& models() {
         {"dielectric_beckmann_bubble", DielectricBsdf{1 / 1.5f, 0.4f, 0.3f, 1, 0.25f, FacetSlopes::beckmann}},
         {"dielectric_coloured", coloured_glass(0.4f)},
         {"dielectric_smooth_coloured", coloured_glass(0)},
-        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}}};
+        {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}},
+        {"principled_waxen", waxen(0.6f, 0)},
+        {"principled_skin", waxen(1, 0.5f)}};
     return all;
 }
 
@@ -333,6 +344,19 @@ TEST(SlowPrincipled, ReflectsItsAlbedo) {
                         shares[c], static_cast<double>(b.albedo(wo)[static_cast<int>(c)]), 2e-3))
                         << metallic << ' ' << coat << ' ' << wo << ' ' << shares[c].mean();
                 }
+            }
+        }
+    }
+}
+
+TEST(SlowPrincipled, WhatIsNotReflectedGoesInsideAndComesOut) {
+    for (const float even : {0.0f, 0.5f, 1.0f}) {
+        for (const float share : {0.5f, 1.0f}) {
+            PrincipledBsdf white = waxen(share, even);
+            white.base = Rgb(1.0f);
+            for (const Vec3& wo : incidences()) {
+                EXPECT_TRUE(test::is_within_one_percent(energy(white, wo, 400000)[0], 1, 2e-3))
+                    << even << ' ' << share << ' ' << wo;
             }
         }
     }

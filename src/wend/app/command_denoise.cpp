@@ -45,8 +45,10 @@ Action add_denoise_command(CLI::App& program) {
         .add_option("-o,--output", options->output,
                     "picture to write: an .exr keeps what was as the layer 'noisy'; .png or .jpg")
         ->required();
-    command.add_option("--oidn", options->library,
-                       "the library's file or folder (default: what WEND_OIDN names, or the system's)");
+    command.add_option(
+        "--oidn", options->library,
+        "the library's file or folder (default: what WEND_OIDN names, the system's, or that of the Python "
+        "package pyoidn)");
     options->picture.add_to(command);
     options->common.add_to(command);
     return [options](const Streams& streams) { denoise(*options, streams); };

@@ -288,7 +288,8 @@ Action add_render_command(CLI::App& program) {
                          "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");
     command
         .add_option("--oidn", options->denoiser,
-                    "the library's file or folder (default: what WEND_OIDN names, or the system's)")
+                    "the library's file or folder (default: what WEND_OIDN names, the system's, or that of the Python "
+                    "package pyoidn)")
         ->needs(denoise);
     CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");

@@ -1,27 +1,15 @@
 #include <wend/app/denoiser.h>
-#include <wend/core/error.h>
-
-#include <dlfcn.h>
+#include <wend/app/oidn_library.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
+#include <memory>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace wend {
 namespace {
-
-constexpr const char* file_name = "libOpenImageDenoise.so.2";
-
-std::string where_to_look(const std::filesystem::path& given) {
-    const char* const named = std::getenv("WEND_OIDN");
-    const std::filesystem::path path = !given.empty() ? given : named ? std::filesystem::path(named) : file_name;
-    std::error_code ignored;
-    return std::filesystem::is_directory(path, ignored) ? (path / file_name).string() : path.string();
-}
 
 const Layer* find_layer(const Picture& picture, const std::string& name, std::size_t channels) {
     const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& layer) {
@@ -30,133 +18,179 @@ const Layer* find_layer(const Picture& picture, const std::string& name, std::si
     return found == picture.layers.end() ? nullptr : &*found;
 }
 
-/// A layer of three channels as it shows behind media: what they hide is `hidden` instead.
-std::vector<float> faded(const Layer& layer, const Layer* opacity, float hidden) {
-    std::vector<float> values = layer.values;
-    if (opacity) {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const float passed = 1 - std::clamp(opacity->values[i / 3], 0.0f, 1.0f);
-            values[i] = values[i] * passed + hidden * (1 - passed);
+Image image_of(const Layer& layer, const Image& size) {
+    Image image(size.width, size.height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        image.pixels[i] = {layer.values[3 * i], layer.values[3 * i + 1], layer.values[3 * i + 2]};
+    }
+    return image;
+}
+
+/// What the network is told beside the colours; empty where there is nothing.
+struct Guides {
+    Image albedo, normal;
+};
+
+/// What shows of surfaces behind media of an opacity: what they hide is grey, and looks nowhere.
+Guides faded(Guides guides, const Layer& opacity) {
+    const Rgb grey(0.5f);
+    for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+        const float passed = 1 - std::clamp(opacity.values[i], 0.0f, 1.0f);
+        if (!guides.albedo.pixels.empty()) {
+            guides.albedo.pixels[i] = guides.albedo.pixels[i] * passed + grey * (1 - passed);
+        }
+        if (!guides.normal.pixels.empty()) {
+            guides.normal.pixels[i] *= passed;
         }
     }
-    return values;
+    return guides;
+}
+
+/// Media as though they were surfaces of that albedo which look nowhere.
+Guides guides_of_media(const Layer& opacity, const Image& size) {
+    Guides guides{size, Image(size.width, size.height)};
+    for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+        guides.albedo.pixels[i] = Rgb(std::clamp(opacity.values[i], 0.0f, 1.0f));
+    }
+    return guides;
+}
+
+Guides guides_of_surfaces(const Picture& picture) {
+    Guides guides;
+    if (const Layer* albedo = find_layer(picture, "albedo", 3)) {
+        guides.albedo = image_of(*albedo, picture.image);
+        // Normals alone are of no use to the network.
+        if (const Layer* normal = find_layer(picture, "normal", 3)) {
+            guides.normal = image_of(*normal, picture.image);
+        }
+    }
+    return guides;
+}
+
+/// Turns an image upside down, or its left side to the right, or both: bits 0 and 1 of `way`.
+Image mirrored(const Image& image, int way) {
+    Image result(image.width, image.height);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            result.at(x, y) =
+                image.at((way & 1) != 0 ? image.width - 1 - x : x, (way & 2) != 0 ? image.height - 1 - y : y);
+        }
+    }
+    return result;
+}
+
+/// Adds the second image, times a factor.
+void add(Image& sum, const Image& image, float factor) {
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+        sum.pixels[i] += image.pixels[i] * factor;
+    }
 }
 
 }  // namespace
 
-/// The functions of the library's interface for C, as its documentation has them.
-struct Denoiser::Library {
-    using Object = void*;
-    static constexpr int cpu = 1, three_floats = 3;
+struct Denoiser::Device {
+    using Object = OidnLibrary::Object;
 
-    Object handle = nullptr;
-    Object (*new_device)(int) = nullptr;
-    void (*set_device_int)(Object, const char*, int) = nullptr;
-    int (*get_device_int)(Object, const char*) = nullptr;
-    void (*commit_device)(Object) = nullptr;
-    void (*release_device)(Object) = nullptr;
-    int (*get_error)(Object, const char**) = nullptr;
-    Object (*new_filter)(Object, const char*) = nullptr;
-    void (*set_image)(Object, const char*, void*, int, std::size_t, std::size_t, std::size_t, std::size_t,
-                      std::size_t) = nullptr;
-    void (*set_bool)(Object, const char*, bool) = nullptr;
-    void (*commit_filter)(Object) = nullptr;
-    void (*execute)(Object) = nullptr;
-    void (*release_filter)(Object) = nullptr;
-    Object device = nullptr;
+    OidnLibrary library;
+    Object device;
 
-    explicit Library(const std::string& file) : handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-        if (!handle) {
-            throw InputError("no Open Image Denoise: " + file +
-                             " cannot be loaded; say where the library is (--oidn PATH, or WEND_OIDN)");
+    Device(const std::filesystem::path& given, int threads)
+        : library(oidn_candidates(given)), device(library.new_device(OidnLibrary::cpu)) {
+        if (!device) {
+            throw std::runtime_error("Open Image Denoise does not run on this processor");
         }
-        find(file, "oidnNewDevice", new_device);
-        find(file, "oidnSetDeviceInt", set_device_int);
-        find(file, "oidnGetDeviceInt", get_device_int);
-        find(file, "oidnCommitDevice", commit_device);
-        find(file, "oidnReleaseDevice", release_device);
-        find(file, "oidnGetDeviceError", get_error);
-        find(file, "oidnNewFilter", new_filter);
-        find(file, "oidnSetSharedFilterImage", set_image);
-        find(file, "oidnSetFilterBool", set_bool);
-        find(file, "oidnCommitFilter", commit_filter);
-        find(file, "oidnExecuteFilter", execute);
-        find(file, "oidnReleaseFilter", release_filter);
+        library.set_device_int(device, "numThreads", threads);
+        library.commit_device(device);
+        check();
     }
-    // The library stays loaded: threads of its own may still be ending.
-    ~Library() {
-        if (device) {
-            release_device(device);
-        }
-    }
-    Library(const Library&) = delete;
-    Library& operator=(const Library&) = delete;
+    ~Device() { library.release_device(device); }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
 
-    template <class Function>
-    void find(const std::string& file, const char* name, Function& function) {
-        function = reinterpret_cast<Function>(dlsym(handle, name));
-        if (!function) {
-            throw InputError(file + " is no Open Image Denoise of version 2: it lacks " + name);
-        }
-    }
+    Image filter(const Image& colours, const Guides& guides) const;
+    Image filter_all_ways(const Image& colours, const Guides& guides) const;
     /// Throws where the last calls failed.
     void check() const {
         const char* message = nullptr;
-        if (get_error(device, &message) != 0) {
+        if (library.get_error(device, &message) != 0) {
             throw std::runtime_error(std::string("Open Image Denoise: ") + (message ? message : "an error"));
         }
     }
 };
 
 Denoiser::Denoiser(const std::filesystem::path& library, int threads)
-    : library_(std::make_unique<Library>(where_to_look(library))) {
-    library_->device = library_->new_device(Library::cpu);
-    if (!library_->device) {
-        throw std::runtime_error("Open Image Denoise does not run on this processor");
-    }
-    library_->set_device_int(library_->device, "numThreads", threads);
-    library_->commit_device(library_->device);
-    library_->check();
+    : device_(std::make_unique<Device>(library, threads)) {
 }
 
 Denoiser::~Denoiser() = default;
 
 std::string Denoiser::version() const {
     const auto part = [this](const char* name) {
-        return std::to_string(library_->get_device_int(library_->device, name));
+        return std::to_string(device_->library.get_device_int(device_->device, name));
     };
     return part("versionMajor") + "." + part("versionMinor") + "." + part("versionPatch");
 }
 
-Image Denoiser::filter(const Picture& picture) const {
-    const Library& l = *library_;
-    const auto width = static_cast<std::size_t>(picture.image.width);
-    const auto height = static_cast<std::size_t>(picture.image.height);
-    Image colours = picture.image, result(picture.image.width, picture.image.height);
-    const std::unique_ptr<void, void (*)(void*)> filter(l.new_filter(l.device, "RT"), l.release_filter);
-    const auto set = [&](const char* name, void* values) {
-        l.set_image(filter.get(), name, values, Library::three_floats, width, height, 0, 0, 0);
+Image Denoiser::Device::filter(const Image& colours, const Guides& guides) const {
+    const auto width = static_cast<std::size_t>(colours.width);
+    const auto height = static_cast<std::size_t>(colours.height);
+    Image result(colours.width, colours.height);
+    const std::unique_ptr<void, void (*)(void*)> filter(library.new_filter(device, "RT"), library.release_filter);
+    const auto set = [&](const char* name, const Image& image) {
+        // The interface has one pointer for what it reads and what it writes.
+        library.set_image(filter.get(), name, const_cast<Rgb*>(image.pixels.data()), OidnLibrary::three_floats, width,
+                          height, 0, 0, 0);
     };
-    set("color", colours.pixels.data());
-    set("output", result.pixels.data());
-    std::vector<float> albedo, normal;
-    const Layer* const opacity = find_layer(picture, "scatter", 1);
-    if (const Layer* layer = find_layer(picture, "albedo", 3)) {
-        constexpr float grey = 0.5f;
-        albedo = faded(*layer, opacity, grey);
-        set("albedo", albedo.data());
-        // Normals alone are of no use to it.
-        if (const Layer* normals = find_layer(picture, "normal", 3)) {
-            normal = faded(*normals, opacity, 0);
-            set("normal", normal.data());
+    set("color", colours);
+    set("output", result);
+    if (!guides.albedo.pixels.empty()) {
+        set("albedo", guides.albedo);
+        if (!guides.normal.pixels.empty()) {
+            set("normal", guides.normal);
         }
-        l.set_bool(filter.get(), "cleanAux", true);
+        library.set_bool(filter.get(), "cleanAux", true);
     }
-    l.set_bool(filter.get(), "hdr", true);
-    l.commit_filter(filter.get());
-    l.execute(filter.get());
-    l.check();
+    library.set_bool(filter.get(), "hdr", true);
+    library.commit_filter(filter.get());
+    library.execute(filter.get());
+    check();
     return result;
+}
+
+/// The network errs otherwise in an image that is mirrored, and a mean of four errs less.
+Image Denoiser::Device::filter_all_ways(const Image& colours, const Guides& guides) const {
+    constexpr int ways = 4;
+    Image sum(colours.width, colours.height);
+    for (int way = 0; way < ways; ++way) {
+        const Image result =
+            filter(mirrored(colours, way), {mirrored(guides.albedo, way), mirrored(guides.normal, way)});
+        add(sum, mirrored(result, way), 1.0f / ways);
+    }
+    return sum;
+}
+
+Image Denoiser::filter(const Picture& picture) const {
+    const Guides surfaces = guides_of_surfaces(picture);
+    const Layer* const opacity = find_layer(picture, "scatter", 1);
+    Image together = device_->filter_all_ways(picture.image, opacity ? faded(surfaces, *opacity) : surfaces);
+    const Layer* const volume = find_layer(picture, "volume", 3);
+    const bool has_media =
+        volume && std::any_of(volume->values.begin(), volume->values.end(), [](float v) { return v > 0; });
+    if (!opacity || !has_media) {
+        return together;
+    }
+    const Image of_media = image_of(*volume, picture.image);
+    Image of_surfaces = picture.image;
+    for (std::size_t i = 0; i < of_surfaces.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            of_surfaces.pixels[i][c] = std::max(0.0f, of_surfaces.pixels[i][c] - of_media.pixels[i][c]);
+        }
+    }
+    Image mean(picture.image.width, picture.image.height);
+    add(mean, together, 0.5f);
+    add(mean, device_->filter_all_ways(of_surfaces, surfaces), 0.5f);
+    add(mean, device_->filter_all_ways(of_media, guides_of_media(*opacity, picture.image)), 0.5f);
+    return mean;
 }
 
 Picture denoised(const Picture& picture, const Denoiser& denoiser) {

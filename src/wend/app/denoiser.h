@@ -12,22 +12,24 @@ namespace wend {
 class Denoiser {
 public:
     /// Loads the library: of a file, or in a folder; if the path is empty, of what the environment's WEND_OIDN names,
-    /// or of the system. `threads`: 0: all. Throws InputError, in one sentence, where it is not to be had.
+    /// or of the system, or of the package pyoidn in the Python environment that is active (VIRTUAL_ENV, CONDA_PREFIX)
+    /// or that the program lies in. `threads`: 0: all. Throws InputError, in one sentence, where it is not to be had.
     explicit Denoiser(const std::filesystem::path& library = {}, int threads = 0);
     ~Denoiser();
     Denoiser(const Denoiser&) = delete;
     Denoiser& operator=(const Denoiser&) = delete;
 
-    /// The picture's colours without noise, by its layers `albedo`, `normal` and `scatter` as far as there are any.
-    /// What media hide is faded from the first two: these leave media out. Throws std::runtime_error where the library
-    /// fails.
+    /// The picture's colours without noise, by its layers `albedo`, `normal`, `scatter` and `volume` as far as there
+    /// are any. What media hide is faded from the first two: these leave media out. With `volume`, the result is the
+    /// mean of what comes of all light together, and of light from media and from surfaces apart. Throws
+    /// std::runtime_error where the library fails.
     Image filter(const Picture& picture) const;
     /// "2.3.1", say.
     std::string version() const;
 
 private:
-    struct Library;
-    std::unique_ptr<Library> library_;
+    struct Device;
+    std::unique_ptr<Device> device_;
 };
 
 /// The picture denoised; what it was is kept as the layer `noisy`, and `wend:denoised` in the metadata says by what.

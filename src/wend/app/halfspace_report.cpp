@@ -2,11 +2,11 @@
 #include <wend/app/halfspace_report.h>
 #include <wend/app/halfspace_table.h>
 #include <wend/app/markup.h>
+#include <wend/app/page_frame.h>
 #include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
 #include <wend/app/progress.h>
 #include <wend/app/report_folder.h>
-#include <wend/app/report_template.h>
 #include <wend/app/text_table.h>
 #include <wend/io/atomic_file.h>
 
@@ -85,17 +85,7 @@ std::string html_table(const std::vector<std::vector<std::string>>& cells) {
     return html;
 }
 
-constexpr std::string_view page_template = R"html(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{{title}}</title>
-<style>{{style}}</style>
-</head>
-<body>
-<header>
+constexpr std::string_view page_template = R"html(<header>
 <p class="kicker">Wend</p>
 <h1>{{title}}</h1>
 <p class="scene">A walk enters an endlessly deep medium under a sky of radiance 1. {{walks}} walks a row.</p>
@@ -111,8 +101,6 @@ constexpr std::string_view page_template = R"html(<!doctype html>
 <p class="note"><b>off by</b> is the distance from the exact mean in standard errors. <b>variance</b> is that of one walk, <b>collisions</b> are counted per walk, <b>seconds</b> are summed over threads and leave out the <b>set-up</b> beside them. <b>FOM</b> is 1&nbsp;/&nbsp;(relative error²&nbsp;·&nbsp;seconds), and <b>× classical</b> how many times faster the row reaches the same error as classical sampling.</p>
 </section>
 </main>
-</body>
-</html>
 )html";
 
 std::string page(const std::vector<Figure>& figures, const std::vector<std::vector<std::string>>& cells,
@@ -122,11 +110,12 @@ std::string page(const std::vector<Figure>& figures, const std::vector<std::vect
         sections += fmt::format("<section><figure>\n{}<figcaption>{}</figcaption></figure></section>\n", figure.svg,
                                 escape_markup(figure.caption));
     }
-    return fill_template(page_template, {{"title", "The half-space experiment"},
-                                         {"style", std::string(report_style)},
-                                         {"walks", std::to_string(run.walks)},
-                                         {"figures", sections},
-                                         {"table", html_table(cells)}});
+    const std::string title = "The half-space experiment";
+    return framed_page(title, "",
+                       fill_template(page_template, {{"title", title},
+                                                     {"walks", std::to_string(run.walks)},
+                                                     {"figures", sections},
+                                                     {"table", html_table(cells)}}));
 }
 
 /// With an empty line between albedos.

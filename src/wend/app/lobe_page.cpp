@@ -3,8 +3,8 @@
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>
 #include <wend/app/options.h>
+#include <wend/app/page_frame.h>
 #include <wend/app/plot.h>
-#include <wend/app/report_template.h>
 #include <wend/film/tone.h>
 #include <wend/io/image_file.h>
 
@@ -15,20 +15,6 @@
 
 namespace wend {
 namespace {
-
-std::string hex_colour(float position) {
-    const Rgb colour = false_colour(position);
-    return fmt::format("#{:02x}{:02x}{:02x}", encode_srgb(colour.r), encode_srgb(colour.g), encode_srgb(colour.b));
-}
-
-std::string gradient() {
-    constexpr int steps = 16;
-    std::string css = "linear-gradient(to right";
-    for (int i = 0; i <= steps; ++i) {
-        css += "," + hex_colour(static_cast<float>(i) / steps);
-    }
-    return css + ")";
-}
 
 /// What the script needs, safe within a script element.
 std::string data_text(const LobePage& page, const ColourScale& scale) {
@@ -156,18 +142,17 @@ std::string lobe_page(const LobePage& page) {
     for (std::size_t i = 0; i < page.places.size(); ++i) {
         places += place_section(page.places[i], i, scale);
     }
-    return fill_template(lobe_template, {{"title", escape_markup(page.title)},
-                                         {"report_style", std::string(report_style)},
-                                         {"style", std::string(lobe_style)},
-                                         {"gradient", gradient()},
-                                         {"file", escape_markup(page.file)},
-                                         {"options", options(page)},
-                                         {"low", number_text(static_cast<double>(scale.low))},
-                                         {"high", number_text(static_cast<double>(scale.high))},
-                                         {"flight", page.flight ? flight_section(*page.flight) : std::string()},
-                                         {"places", places},
-                                         {"data", data_text(page, scale)},
-                                         {"script", std::string(lobe_script)}});
+    const std::string body =
+        fill_template(lobe_template, {{"title", escape_markup(page.title)},
+                                      {"file", escape_markup(page.file)},
+                                      {"options", options(page)},
+                                      {"low", number_text(static_cast<double>(scale.low))},
+                                      {"high", number_text(static_cast<double>(scale.high))},
+                                      {"flight", page.flight ? flight_section(*page.flight) : std::string()},
+                                      {"places", places},
+                                      {"data", data_text(page, scale)},
+                                      {"script", std::string(lobe_script)}});
+    return framed_page(page.title, std::string(lobe_style) + bar_style(), body);
 }
 
 }  // namespace wend

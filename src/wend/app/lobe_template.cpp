@@ -2,19 +2,7 @@
 
 namespace wend {
 
-const std::string_view lobe_template = R"html(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{{title}}</title>
-<style>{{report_style}}{{style}}
-.bar i { background: {{gradient}}; }
-</style>
-</head>
-<body>
-<header>
+const std::string_view lobe_template = R"html(<header>
 <p class="kicker">Wend</p>
 <h1>{{title}}</h1>
 <p class="scene">{{file}}</p>
@@ -42,8 +30,6 @@ const std::string_view lobe_template = R"html(<!doctype html>
 {{flight}}{{places}}</main>
 <script type="application/json" id="data">{{data}}</script>
 <script>{{script}}</script>
-</body>
-</html>
 )html";
 
 const std::string_view lobe_style = R"css(
@@ -112,8 +98,9 @@ const std::string_view lobe_script = R"js(
     context.strokeStyle = "#000a";
     context.fillStyle = "#fff";
     const left = x > size - 60 ? x - 10 - context.measureText(text).width : x + 8;
-    context.strokeText(text, left, y - 6);
-    context.fillText(text, left, y - 6);
+    const above = y < 24 ? y + 18 : y - 6;
+    context.strokeText(text, left, above);
+    context.fillText(text, left, above);
   };
 
   const draw = (coarse) => {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/app/session.h>
+#include <wend/io/load/loaded_parts.h>
 #include <wend/io/pbrt/description.h>
 
 #include <filesystem>
@@ -15,10 +16,13 @@ public:
     /// Of `options.file`. Throws InputError, as all of these do.
     static std::shared_ptr<ParsedScene> load(const SceneOptions& options);
     /// Of a text; it refers to files in the folder. `options.file` is what messages call it.
-    static std::shared_ptr<ParsedScene> of_text(std::string text, const std::filesystem::path& folder,
+    static std::shared_ptr<ParsedScene> of_text(const std::string& text, const std::filesystem::path& folder,
                                                 const SceneOptions& options);
-    /// `changes` says in which way it is not that of the files; empty: in none.
-    ParsedScene(const SceneOptions& options, pbrt::Description description, std::string changes);
+    /// `changes` says in which way it is not that of the files; empty: in none. An earlier scene is one whose
+    /// description differs in parameters alone: shapes, media and files that the changed ones do not touch are not
+    /// loaded again, and all that is the same in memory is so once.
+    ParsedScene(const SceneOptions& options, pbrt::Description description, std::string changes,
+                const ParsedScene* earlier = nullptr);
 
     const Session& session() const { return session_; }
     const pbrt::Description& description() const { return description_; }
@@ -29,6 +33,7 @@ private:
     SceneOptions options_;
     pbrt::Description description_;
     std::string changes_;
+    LoadedParts parts_;
     Session session_;
 };
 

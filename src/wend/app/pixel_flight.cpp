@@ -1,7 +1,7 @@
 #include <wend/app/pixel_flight.h>
 #include <wend/core/error.h>
-#include <wend/light/next_event.h>
 #include <wend/medium/transmittance.h>
+#include <wend/view/pixel_ray.h>
 
 #include <fmt/format.h>
 
@@ -29,34 +29,18 @@ double farthest(const Scene& scene, const guide::Fields& fields, const Vec3& fro
     return static_cast<double>(length(reach));
 }
 
-CameraRay middle_ray(const Scene& scene, const Vec2i& pixel) {
-    const Vec2 film(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
-    const Camera& camera = scene.camera();
-    const CameraRay ray = camera.ray(film, {0.5f, 0.5f}, camera.shutter().time(0.5f));
-    if (!(ray.weight > 0)) {
-        throw InputError(
-            fmt::format("--pixel {},{}: the camera lets no light through to its middle", pixel.x, pixel.y));
-    }
-    return ray;
-}
-
-/// Follows the ray to its surface, which it notes.
-std::vector<Stretch> stretches_along(const Scene& scene, double limit, PixelFlight& flight) {
+/// The way of the pixel by distances from the camera; notes the ray, its surface, and how far that is.
+std::vector<Stretch> stretches_along(const std::vector<RayPart>& parts, double limit, PixelFlight& flight) {
     std::vector<Stretch> stretches;
-    TracedRay ray(flight.ray);
-    MediumState medium = scene.medium_around(flight.ray);
     double begin = 0;
-    for (int met = 0; met < most_interfaces; ++met) {
-        const std::optional<Hit> hit = scene.intersect(ray);
-        const double length = hit ? static_cast<double>(hit->distance) : std::max(0.0, limit - begin);
-        stretches.push_back({begin, begin + length, medium.id});
+    for (const RayPart& part : parts) {
+        const double length = part.hit ? static_cast<double>(part.hit->distance) : std::max(0.0, limit - begin);
+        stretches.push_back({begin, begin + length, part.medium});
         begin += length;
-        if (!hit || !scene.is_interface(*hit)) {
-            flight.surface = hit;
-            break;
-        }
-        medium = scene.medium_beyond(*hit, ray.direction, medium);
-        ray.pass(*hit);
+    }
+    flight.ray = parts.front().ray;
+    if (!parts.back().ends_at_interface) {
+        flight.surface = parts.back().hit;
     }
     flight.length = begin;
     return stretches;
@@ -113,9 +97,14 @@ std::optional<double> PixelFlight::guided_collides() const {
 }
 
 PixelFlight pixel_flight(const Scene& scene, const Vec2i& pixel, const guide::Fields& fields, Pcg32& random) {
+    const std::vector<RayPart> parts = pixel_ray(scene, pixel);
+    if (parts.empty()) {
+        throw InputError(
+            fmt::format("--pixel {},{}: the camera lets no light through to its middle", pixel.x, pixel.y));
+    }
     PixelFlight flight;
-    flight.ray = middle_ray(scene, pixel);
-    const std::vector<Stretch> stretches = stretches_along(scene, farthest(scene, fields, flight.ray.origin), flight);
+    const double limit = farthest(scene, fields, parts.front().ray.origin);
+    const std::vector<Stretch> stretches = stretches_along(parts, limit, flight);
     const auto in_media =
         std::count_if(stretches.begin(), stretches.end(), [](const Stretch& s) { return s.medium != vacuum; });
     const int pieces = std::max(4, 256 / std::max(1, static_cast<int>(in_media)));

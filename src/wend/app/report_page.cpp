@@ -1,5 +1,6 @@
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>
+#include <wend/app/page_frame.h>
 #include <wend/app/report_page.h>
 #include <wend/app/report_template.h>
 #include <wend/film/tone.h>
@@ -75,17 +76,6 @@ std::string options(const Report& report, std::size_t selected) {
     return html;
 }
 
-/// The colours of all maps as a CSS gradient.
-std::string gradient() {
-    constexpr int steps = 16;
-    std::string css = "linear-gradient(to right";
-    for (int i = 0; i <= steps; ++i) {
-        const Rgb colour = false_colour(static_cast<float>(i) / steps);
-        css += fmt::format(",#{:02x}{:02x}{:02x}", encode_srgb(colour.r), encode_srgb(colour.g), encode_srgb(colour.b));
-    }
-    return css + ")";
-}
-
 std::string colour_bar(const ReportMap& map) {
     const bool logarithmic = map.scale.kind == ColourScale::Kind::logarithmic;
     return fmt::format(
@@ -149,20 +139,19 @@ std::string view_choices(const Report& report) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-    return fill_template(report_template, {{"style", std::string(report_style)},
-                                           {"gradient", gradient()},
-                                           {"script", std::string(report_script)},
-                                           {"title", escape_markup(report.title)},
-                                           {"scene", escape_markup(report.scene)},
-                                           {"settings", settings_list(report)},
-                                           {"rows", table_rows(report)},
-                                           {"left_options", options(report, report.left)},
-                                           {"right_options", options(report, report.right)},
-                                           {"views", view_choices(report)},
-                                           {"pictures", picture_strip(report)},
-                                           {"maps", map_sections(report)},
-                                           {"spread", spread_section(report)},
-                                           {"convergence", convergence(report)}});
+    const std::string body = fill_template(report_template, {{"script", std::string(report_script)},
+                                                             {"title", escape_markup(report.title)},
+                                                             {"scene", escape_markup(report.scene)},
+                                                             {"settings", settings_list(report)},
+                                                             {"rows", table_rows(report)},
+                                                             {"left_options", options(report, report.left)},
+                                                             {"right_options", options(report, report.right)},
+                                                             {"views", view_choices(report)},
+                                                             {"pictures", picture_strip(report)},
+                                                             {"maps", map_sections(report)},
+                                                             {"spread", spread_section(report)},
+                                                             {"convergence", convergence(report)}});
+    return framed_page(report.title, bar_style(), body);
 }
 
 }  // namespace wend

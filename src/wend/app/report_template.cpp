@@ -2,19 +2,7 @@
 
 namespace wend {
 
-const std::string_view report_template = R"html(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{{title}}</title>
-<style>{{style}}
-.bar i { background: {{gradient}}; }
-</style>
-</head>
-<body>
-<header>
+const std::string_view report_template = R"html(<header>
 <p class="kicker">Wend</p>
 <h1>{{title}}</h1>
 <p class="scene">{{scene}}</p>
@@ -71,8 +59,6 @@ const std::string_view report_template = R"html(<!doctype html>
 
 </main>
 <script>{{script}}</script>
-</body>
-</html>
 )html";
 
 const std::string_view report_spread = R"html(<section>

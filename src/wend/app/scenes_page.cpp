@@ -3,7 +3,7 @@
 #include <wend/app/gains_plot.h>
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>
-#include <wend/app/report_template.h>
+#include <wend/app/page_frame.h>
 #include <wend/app/scenes_page.h>
 #include <wend/app/scenes_template.h>
 
@@ -151,16 +151,17 @@ std::string scenes_page(const ScenesPage& page) {
     for (std::size_t scene = 0; scene < page.comparisons.size(); ++scene) {
         sections += scene_section(page, scene);
     }
-    return fill_template(scenes_template, {{"title", fmt::format("{} scenes compared", page.comparisons.size())},
-                                           {"report_style", std::string(report_style)},
-                                           {"style", std::string(scenes_style)},
-                                           {"note", note(page)},
-                                           {"failed", failures(page.failed)},
-                                           {"gains", gain_rows(gains)},
-                                           {"plot", gains.empty() ? std::string() : gains_svg(gains, page.comparisons)},
-                                           {"cases", case_rows(page.comparisons)},
-                                           {"scenes", sections},
-                                           {"settings", settings(page)}});
+    const std::string title = fmt::format("{} scenes compared", page.comparisons.size());
+    const std::string body =
+        fill_template(scenes_template, {{"title", title},
+                                        {"note", note(page)},
+                                        {"failed", failures(page.failed)},
+                                        {"gains", gain_rows(gains)},
+                                        {"plot", gains.empty() ? std::string() : gains_svg(gains, page.comparisons)},
+                                        {"cases", case_rows(page.comparisons)},
+                                        {"scenes", sections},
+                                        {"settings", settings(page)}});
+    return framed_page(title, scenes_style, body);
 }
 
 }  // namespace wend

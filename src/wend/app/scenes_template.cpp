@@ -2,17 +2,7 @@
 
 namespace wend {
 
-const std::string_view scenes_template = R"html(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{{title}}</title>
-<style>{{report_style}}{{style}}</style>
-</head>
-<body>
-<a class="skip" href="#main">To the results</a>
+const std::string_view scenes_template = R"html(<a class="skip" href="#main">To the results</a>
 <header>
 <p class="kicker">Wend</p>
 <h1>{{title}}</h1>
@@ -50,8 +40,6 @@ const std::string_view scenes_template = R"html(<!doctype html>
 </section>
 
 </main>
-</body>
-</html>
 )html";
 
 const std::string_view scenes_style = R"css(

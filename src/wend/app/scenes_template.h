@@ -5,8 +5,7 @@
 
 namespace wend {
 
-/// HTML, beside the style of report_template.h: {{title}}, {{report_style}}, {{style}}, {{note}}, {{gains}}, {{plot}},
-/// {{cases}}, {{failed}}, {{scenes}}, {{settings}}.
+/// HTML for framed_page(): {{title}}, {{note}}, {{gains}}, {{plot}}, {{cases}}, {{failed}}, {{scenes}}, {{settings}}.
 extern const std::string_view scenes_template;
 extern const std::string_view scenes_style;
 

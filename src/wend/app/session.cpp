@@ -11,19 +11,35 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace wend {
 namespace {
 
-LoadedScene load(const SceneOptions& options, pbrt::Description description) {
+LoadedScene load(const SceneOptions& options, pbrt::Description description, LoadedParts* parts = nullptr) {
     LoadOverrides overrides;
     if (!options.resolution.empty()) {
         const auto [width, height] = parse_resolution(options.resolution);
         overrides.resolution = Vec2i(width, height);
     }
-    return load_scene(std::move(description), overrides);
+    return load_scene(std::move(description), overrides, parts);
+}
+
+/// Of the scene's files; those that were not read again keep what the earlier session knows of them.
+std::vector<FileStamp> stamps_of(const LoadedScene& loaded, const std::filesystem::path& folder,
+                                 const Session* earlier) {
+    std::vector<FileStamp> stamps;
+    for (const std::filesystem::path& file : loaded.files) {
+        const std::string name = stamp_name(file, folder);
+        const std::span<const FileStamp> kept =
+            earlier && loaded.kept_files.contains(file) ? std::span(earlier->files()) : std::span<const FileStamp>();
+        const auto known = std::ranges::find(kept, name, &FileStamp::name);
+        stamps.push_back(known != kept.end() ? *known : stamp_of_file(file, name));
+    }
+    return stamps;
 }
 
 SamplerKind parse_sampler(const std::string& name) {
@@ -81,28 +97,28 @@ void SceneOptions::check() const {
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, parse_scene(options.file), {}) {
+    : Session(options, common, load(options, parse_scene(options.file))) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, pbrt::Description description,
-                 const std::string& changes)
-    : Session(options, common, load(options, std::move(description))) {
+                 const std::string& changes, LoadedParts& parts, const Session* earlier)
+    : Session(options, common, load(options, std::move(description), &parts), earlier) {
     if (!changes.empty()) {
         files_.push_back(stamp_of(changes, "changes"));
     }
 }
 
-Session::Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded)
+Session::Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded, const Session* earlier)
     : scene_file_(options.file),
       film_file_(loaded.film_file),
       resolution_(loaded.resolution),
       crop_(options.crop.empty() ? loaded.crop : parse_crop(options.crop, loaded.resolution)),
-      files_(stamps_of(loaded.files, std::filesystem::path(options.file).parent_path())),
+      files_(stamps_of(loaded, std::filesystem::path(options.file).parent_path(), earlier)),
       warnings_(std::move(loaded.warnings)),
-      scene_(std::move(loaded.scene)) {
+      scene_(std::move(loaded.scene), earlier ? &earlier->scene_ : nullptr) {
     settings_.samples = loaded.samples;
     settings_.sampler = options.sampler.empty() ? loaded.sampler : parse_sampler(options.sampler);
     settings_.seed = common.seed.value_or(loaded.seed);

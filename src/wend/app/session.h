@@ -5,6 +5,7 @@
 #include <wend/film/film.h>
 #include <wend/io/file_stamp.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/io/load/loaded_parts.h>
 #include <wend/render/render.h>
 #include <wend/scene/scene.h>
 
@@ -35,9 +36,11 @@ public:
     /// Loads the scene; warnings go to the notes. Throws InputError.
     Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams);
     /// Of a scene that has been parsed, and perhaps changed. `changes` says in which way: it tells the scene from that
-    /// of the files; empty: in none. Throws InputError.
+    /// of the files; empty: in none. What `parts` has of an `earlier` session (null: there is none), whose description
+    /// differs in parameters alone, is shared with it as far as it is the same, acceleration structures included;
+    /// afterwards they are the parts of this one. Throws InputError.
     Session(const SceneOptions& options, const CommonOptions& common, pbrt::Description description,
-            const std::string& changes);
+            const std::string& changes, LoadedParts& parts, const Session* earlier);
 
     const Scene& scene() const { return scene_; }
     const RenderSettings& settings() const { return settings_; }
@@ -57,7 +60,8 @@ public:
     Picture picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const;
 
 private:
-    Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded);
+    Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded,
+            const Session* earlier = nullptr);
 
     std::string scene_file_;
     std::string film_file_;

@@ -40,6 +40,8 @@ public:
     /// At a time from 0 to 1.
     Placement at(float time) const;
 
+    friend bool operator==(const Motion&, const Motion&) = default;
+
 private:
     Transform first_;
     std::vector<Transform> later_;

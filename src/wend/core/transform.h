@@ -1,5 +1,6 @@
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 
 #include <Imath/ImathMatrix.h>
@@ -10,7 +11,7 @@ namespace wend {
 
 /// An affine (or, for cameras, projective) map with its inverse, in the column-vector convention: `(a * b)(p) ==
 /// a(b(p))`. Held in double precision: scene files chain many transforms, and the world is then float.
-class Transform {
+class WEND_API Transform {
 public:
     /// Row-major matrix m[row][column] acting on column vectors.
     using Matrix = double[4][4];

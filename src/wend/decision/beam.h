@@ -1,6 +1,7 @@
 // Lights that shine from a point into a cone, as flights through their beam know them.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/ray.h>
 
 #include <optional>
@@ -22,6 +23,6 @@ struct RayInterval {
 };
 
 /// Where the first `length` of a ray with a unit direction is in the cone; none where it is not. The cone is convex.
-std::optional<RayInterval> crossing(const Beam& beam, const Ray& ray, float length);
+WEND_API std::optional<RayInterval> crossing(const Beam& beam, const Ray& ray, float length);
 
 }  // namespace wend

@@ -4,6 +4,7 @@
 #include <wend/adjoint/adjoint.h>
 #include <wend/core/colour.h>
 #include <wend/core/contracts.h>
+#include <wend/core/random.h>
 #include <wend/decision/caustic_map.h>
 #include <wend/decision/weight_window.h>
 #include <wend/sampling/axial_lobes.h>
@@ -57,6 +58,11 @@ public:
         explicit Distribution(const F& f) : f_(f) {}
         /// As F::sample(): nothing where the direction would carry nothing.
         std::optional<DirectionSample> sample(float u, const Vec2& u2) const { return f_.sample(u, u2); }
+        /// The same by the next numbers of a generator.
+        std::optional<DirectionSample> sample(Pcg32& random) const {
+            const float u = random.uniform();
+            return sample(u, random.uniform2());
+        }
         /// Per steradian, of any direction; discrete ones have none.
         float density(const Vec3& w) const { return f_.density(w); }
         /// Nothing: no adjoint is known.
@@ -99,6 +105,11 @@ public:
           defensive_fraction_(defensive_fraction),
           surface_caustics_(surface_caustics),
           volume_caustics_(volume_caustics) {}
+
+    /// Of a pair of fields (guide::Fields), which must stay where they are; others may be assigned to them.
+    template <class Fields>
+    requires std::same_as<std::remove_cvref_t<decltype(std::declval<Fields>().surface)>, Field>
+    explicit GuidedDirection(const Fields& fields) : GuidedDirection(&fields.surface, &fields.volume) {}
 
     /// The directions at one vertex. Refers to the scattering function and to the adjoint.
     template <ScatteringFunction F>
@@ -165,6 +176,11 @@ public:
             s.density_ratio = own > 0 ? s.density / own : 1.0f;
             return is_black(s.value) || !(s.density > 0) ? std::nullopt : std::optional(s);
         }
+        /// The same by the next numbers of a generator.
+        std::optional<DirectionSample> sample(Pcg32& random) const {
+            const float u = random.uniform();
+            return sample(u, random.uniform2());
+        }
         /// Per steradian, of any direction, however it might be drawn: for multiple importance sampling. Discrete ones
         /// have none.
         float density(const Vec3& w) const {
@@ -226,5 +242,9 @@ private:
     const CausticMap* surface_caustics_;
     const CausticMap* volume_caustics_;
 };
+
+/// Of a pair of fields, such as guide::Fields.
+template <class Fields>
+GuidedDirection(const Fields& fields) -> GuidedDirection<std::remove_cvref_t<decltype(fields.surface)>>;
 
 }  // namespace wend

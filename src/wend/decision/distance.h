@@ -1,6 +1,7 @@
 // Decision 1: scatter in the medium, and where, or reach the end of the segment.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/random.h>
 #include <wend/decision/flight.h>
 #include <wend/medium/medium.h>
@@ -10,7 +11,7 @@
 namespace wend {
 
 /// Adds to a flight all that a homogeneous medium emits along its segment: the expected value, which has no variance.
-void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length);
+WEND_API void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length);
 
 /// What a walk knows about the end of a flight's segment when the flight is drawn, for decisions that ask what lies
 /// ahead.
@@ -70,13 +71,18 @@ concept DistanceDecision = requires(const D& d, const Medium& m, const FlightSta
 /// inversion; grids by delta tracking against the local majorant. Media that do not scatter are passed with their
 /// transmittance as weight, which is exact: no walk goes on from a collision there. Only in grids that glow are flights
 /// tracked all the same.
-class ClassicalDistance {
+class WEND_API ClassicalDistance {
 public:
     /// Never.
     bool looks_ahead(const Medium& /*medium*/, const FlightStart& /*start*/) const { return false; }
 
     /// `u` is uniform in [0,1).
     Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const;
+    /// The same by the next numbers of a generator alone.
+    Flight sample(const Medium& medium, const FlightStart& start, Pcg32& random) const {
+        const float u = random.uniform();
+        return sample(medium, start, u, random);
+    }
     /// By delta tracking.
     Flight sample(const GridMedium& medium, const FlightStart& start, Pcg32& random) const;
     /// The transmittance of a homogeneous medium; 1 for a grid, where it is not known.

@@ -1,6 +1,7 @@
 // The density of a flight's distance through a homogeneous medium that follows an estimate of what lies ahead.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/decision/channels.h>
 #include <wend/sampling/equiangular.h>
 
@@ -19,7 +20,7 @@ namespace wend {
 /// A light close to a piece adds what its light brings there, drawn by angle (kulla2012), to the second term of the
 /// density; so does one whose beam the ray crosses.
 /// A value of fixed size without heap memory.
-class FlightPieces {
+class WEND_API FlightPieces {
 public:
     /// A place in a flight and its density or, at the end, probability.
     struct Outcome {

@@ -8,7 +8,9 @@
 #include <wend/medium/transmittance.h>
 
 #include <algorithm>
+#include <concepts>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace wend {
@@ -46,6 +48,13 @@ public:
           guiding_(guiding),
           beams_(beams) {}
 
+    /// Of a pair of fields (guide::Fields), which must stay where they are; others may be assigned to them.
+    template <class Fields>
+    requires std::same_as<std::remove_cvref_t<decltype(std::declval<Fields>().surface)>, Field>
+    explicit GuidedDistance(const Fields& fields, float defensive_fraction = 0.3f,
+                            DistanceGuiding guiding = DistanceGuiding::scatter_and_distance)
+        : GuidedDistance(&fields.surface, &fields.volume, defensive_fraction, guiding) {}
+
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
     bool looks_ahead(const Medium& medium, const FlightStart& start) const {
         return std::holds_alternative<HomogeneousMedium>(medium) && scatters(medium) && start.weight < weight_bound &&
@@ -58,6 +67,12 @@ public:
             return classical_.sample(medium, start, u, random);
         }
         return fly(std::get<HomogeneousMedium>(medium), start, u);
+    }
+
+    /// The same by the next numbers of a generator alone.
+    Flight sample(const Medium& medium, const FlightStart& start, Pcg32& random) const {
+        const float u = random.uniform();
+        return sample(medium, start, u, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
@@ -177,5 +192,9 @@ private:
     std::span<const Beam> beams_;
     ClassicalDistance classical_;
 };
+
+/// Of a pair of fields, such as guide::Fields.
+template <class Fields>
+GuidedDistance(const Fields& fields) -> GuidedDistance<std::remove_cvref_t<decltype(fields.surface)>>;
 
 }  // namespace wend

@@ -61,6 +61,11 @@ public:
     /// Makes choices to come follow all that was added; `probability` is that of the first choice. At most `threads`
     /// threads (0: all), on which nothing depends.
     void learn(const std::function<float(const LightReceiver&, int)>& probability, int threads);
+    /// The same for a first choice.
+    template <LightChoice First>
+    void learn(const First& first, int threads) {
+        learn([&](const LightReceiver& receiver, int light) { return first.probability(receiver, light); }, threads);
+    }
 
     /// What is known, for lights of the same number; see ListsMembers.
     template <class Archive, class Self>

@@ -2,6 +2,7 @@
 // measure against.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/image.h>
 
 #include <vector>
@@ -11,6 +12,6 @@ namespace wend {
 /// The mean of the colour channels at each pixel, row by row: averaged over a square of neighbours, the smaller the
 /// more samples a pixel has had, and kept above a tenth of the picture's mean, as the relative error is measured. Zero
 /// everywhere as long as the picture is black.
-std::vector<float> pixel_estimates(const Image& picture, int samples);
+WEND_API std::vector<float> pixel_estimates(const Image& picture, int samples);
 
 }  // namespace wend

@@ -36,6 +36,18 @@ struct ExpectedContribution {
     /// WalkState::index_scale.
     float weight = 1;
     int split_capacity = 1;  ///< for continuations, at least 1
+
+    /// At a vertex with this albedo and distribution of directions, of a walk with this throughput that estimates a
+    /// `value` (a pixel's; 0: not known): the ratio is none where either of the two knows nothing.
+    template <class Distribution>
+    static ExpectedContribution at(const Distribution& directions, const Rgb& albedo, const Rgb& throughput,
+                                   float value, int split_capacity) {
+        ExpectedContribution expected{std::nullopt, mean_value(throughput), split_capacity};
+        if (const auto light = directions.in_scattered(); light && value > 0) {
+            expected.ratio = mean_value(throughput * albedo * *light) / value;
+        }
+        return expected;
+    }
 };
 
 /// Is asked twice at a vertex. `before_direction`: how many directions to draw; nothing if that is to be judged by the

@@ -98,6 +98,13 @@ public:
         vertices_.push_back(v);
     }
 
+    /// The same of a direction as decisions draw it (DirectionSample).
+    template <class Sample>
+    void scatter(const Vec3& position, const Sample& drawn, bool in_volume) {
+        scatter(position, drawn.direction, drawn.density, drawn.weight(), in_volume, drawn.classical_density,
+                drawn.guided_density);
+    }
+
     /// Where the walk is: where it is split, each copy goes on from the place kept before.
     struct Branch {
         /// The last vertex whose direction was drawn.

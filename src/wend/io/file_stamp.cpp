@@ -7,17 +7,22 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 namespace wend {
-namespace {
 
-FileStamp read_stamp(const std::filesystem::path& file, const std::filesystem::path& folder) {
+std::string stamp_name(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    return file.lexically_proximate(folder).generic_string();
+}
+
+FileStamp stamp_of_file(const std::filesystem::path& file, std::string name) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw InputError(Place{file.string()}, std::string("cannot open: ") + std::strerror(errno));
     }
-    FileStamp stamp{file.lexically_proximate(folder).generic_string()};
+    FileStamp stamp{std::move(name)};
     std::vector<char> block(std::size_t{1} << 20);
     uLong checksum = crc32_z(0, nullptr, 0);
     while (stream) {
@@ -28,16 +33,6 @@ FileStamp read_stamp(const std::filesystem::path& file, const std::filesystem::p
     }
     stamp.checksum = static_cast<std::uint32_t>(checksum);
     return stamp;
-}
-
-}  // namespace
-
-std::vector<FileStamp> stamps_of(std::span<const std::filesystem::path> files, const std::filesystem::path& folder) {
-    std::vector<FileStamp> stamps;
-    for (const std::filesystem::path& file : files) {
-        stamps.push_back(read_stamp(file, folder));
-    }
-    return stamps;
 }
 
 FileStamp stamp_of(std::string_view bytes, const std::string& name) {

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace wend {
 
@@ -19,9 +18,11 @@ struct FileStamp {
     friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
 
-/// Reads the files. Names are relative to the folder, so that they stay the same where that is moved. Throws InputError
-/// for one that cannot be read.
-std::vector<FileStamp> stamps_of(std::span<const std::filesystem::path> files, const std::filesystem::path& folder);
+/// A file's name in its stamp: relative to the folder, so that it stays the same where that is moved.
+std::string stamp_name(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// Reads the file. Throws InputError where it cannot be read.
+FileStamp stamp_of_file(const std::filesystem::path& file, std::string name);
 
 /// Of bytes that are no file.
 FileStamp stamp_of(std::string_view bytes, const std::string& name);

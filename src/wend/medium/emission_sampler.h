@@ -1,6 +1,7 @@
 // Where a heterogeneous medium glows, as far as connections to its light need to know.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/transform.h>
 #include <wend/core/vector.h>
 
@@ -11,7 +12,7 @@ namespace wend {
 
 /// Draws points of a glowing medium about in proportion to what it emits there: constant over the cells of a regular
 /// grid, at most 32 a side. Where it is dark at all 27 points that a cell is judged by, none is drawn.
-class EmissionSampler {
+class WEND_API EmissionSampler {
 public:
     /// `box` in index space, with cells of about one voxel where the limit allows that; `emitted` is the radiance
     /// emitted per unit length at a point of the world, as a scalar, not negative.

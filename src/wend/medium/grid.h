@@ -1,5 +1,6 @@
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/vector.h>
 
 #include <array>
@@ -27,7 +28,7 @@ struct VoxelBox {
 /// A scalar field sampled at integer points ("voxels") and interpolated trilinearly between them. Stored in bricks of
 /// 8³ voxels, of which only the occupied ones take memory. Voxels that are not stored are 0, so the field falls
 /// continuously to 0 within one cell around the voxels and is 0 outside `bounds()`. Copies share the voxels.
-class Grid {
+class WEND_API Grid {
 public:
     /// Voxels along the side of a brick, whose first one has coordinates that are multiples of it.
     static constexpr int brick_side = 8;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/ray.h>
 #include <wend/core/vector.h>
 #include <wend/medium/grid.h>
@@ -11,7 +12,7 @@ namespace wend {
 
 /// Bounds of a density over the cells of a coarse regular grid: what tracking needs to know of a heterogeneous medium
 /// ahead of time.
-class MajorantGrid {
+class WEND_API MajorantGrid {
 public:
     /// What is known of a cell.
     struct Cell {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/export.h>
 #include <wend/core/ray.h>
 #include <wend/core/transform.h>
 #include <wend/medium/colour_grid.h>
@@ -18,7 +19,7 @@
 namespace wend {
 
 /// Light that a heterogeneous medium emits: radiance per unit length is the absorption coefficient times at().
-struct GridEmission {
+struct WEND_API GridEmission {
     /// Emitted radiance where `field` is 1, or what multiplies the black body.
     Rgb radiance;
     std::shared_ptr<const Grid> field;          ///< scale or temperature; null: emits wherever it absorbs
@@ -44,7 +45,7 @@ struct VoxelCoefficients {
 
 /// A medium whose coefficients vary in proportion to a density grid, or from voxel to voxel below the bound that such a
 /// grid gives.
-class GridMedium {
+class WEND_API GridMedium {
 public:
     /// Coefficients are per scene unit at density 1. `box` (index space) is where the medium is; density outside is not
     /// looked at.
@@ -125,12 +126,12 @@ inline const PhaseFunction& phase_function(const Medium& medium) {
 }
 
 /// Extinction at a point in the world, per scene unit.
-Rgb extinction_at(const Medium& medium, const Vec3& position);
+WEND_API Rgb extinction_at(const Medium& medium, const Vec3& position);
 
 /// Whether a collision can be anything but absorption.
-bool scatters(const Medium& medium);
+WEND_API bool scatters(const Medium& medium);
 
 /// Single-scattering albedo: the same at every density, or a mean where voxels have albedos of their own.
-Rgb albedo(const Medium& medium);
+WEND_API Rgb albedo(const Medium& medium);
 
 }  // namespace wend

@@ -1,6 +1,7 @@
 // Unbiased estimates of transmittance exp(-optical thickness).
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/core/random.h>
 #include <wend/medium/medium.h>
 
@@ -38,7 +39,7 @@ inline Rgb emitted_along(const HomogeneousMedium& medium, float distance) {
 /// have become small are ended by roulette, so that a dense medium costs no more than a few mean free paths. Cells in
 /// which that would still be many steps are crossed voxel by voxel, exactly. So are all cells of a medium that does not
 /// scatter: there transmittance is all that is seen, and without noise it is worth its voxels.
-Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random);
+WEND_API Rgb estimate_transmittance(const GridMedium& medium, const Ray& ray, float distance, Pcg32& random);
 
 /// The same for either kind; exact in a homogeneous medium.
 inline Rgb estimate_transmittance(const Medium& medium, const Ray& ray, float distance, Pcg32& random) {

@@ -25,7 +25,8 @@ const std::vector<int>& surfaces_of(const SceneDescription& scene, int object) {
 
 bool is_passable(const SceneDescription& scene, const Surface& surface) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
-    return std::holds_alternative<InterfaceMaterial>(material) ||
+    const auto* principled = std::get_if<PrincipledMaterial>(&material);
+    return (principled && principled->subsurface >= 0) || std::holds_alternative<InterfaceMaterial>(material) ||
            std::holds_alternative<DielectricMaterial>(material) ||
            std::holds_alternative<ThinDielectricMaterial>(material) ||
            std::holds_alternative<DiffuseTransmissionMaterial>(material) ||
@@ -53,7 +54,7 @@ std::vector<Boundary> boundaries(const SceneDescription& scene) {
                     continue;
                 }
                 Boundary& b = result[static_cast<std::size_t>(medium)];
-                const auto* quadric = std::get_if<Quadric>(&surface.shape);
+                const auto* quadric = std::get_if<Quadric>(surface.shape.get());
                 const auto* sphere = quadric ? std::get_if<Sphere>(&quadric->shape) : nullptr;
                 b.is_decidable = b.is_decidable && (b.surfaces.empty() || b.object == object) &&
                                  (!quadric || (sphere && sphere->is_full()));
@@ -83,7 +84,7 @@ public:
         : scene_(scene), medium_(medium), boundary_(boundary) {
         for (const int s : boundary.surfaces) {
             const Surface& surface = scene.surfaces[static_cast<std::size_t>(s)];
-            if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+            if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
                 const bool turned = mesh->normals.empty() && surface.flip_normal;
                 meshes_.push_back({mesh, turned != (surface.interior != medium)});
                 surface_of_mesh_.push_back(s);
@@ -210,7 +211,7 @@ private:
             if (is_passable(scene_, surface)) {
                 continue;
             }
-            if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+            if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
                 for (std::size_t i = 0; i < mesh->triangle_count() && !points.empty(); ++i) {
                     Box3 box(mesh->vertex(i, 0));
                     box.extendBy(mesh->vertex(i, 1));
@@ -218,7 +219,7 @@ private:
                     remove(box);
                 }
             } else {
-                remove(bounds(surface.shape));
+                remove(bounds(*surface.shape));
             }
         }
     }
@@ -248,7 +249,7 @@ private:
         }
         for (const int s : boundary_.surfaces) {
             const Surface& surface = scene_.surfaces[static_cast<std::size_t>(s)];
-            if (const auto* quadric = std::get_if<Quadric>(&surface.shape)) {
+            if (const auto* quadric = std::get_if<Quadric>(surface.shape.get())) {
                 const auto axis = [&](const Vec3& v) { return quadric->world_from_object.vector(v); };
                 const float scale = std::abs(dot(axis({1, 0, 0}), cross(axis({0, 1, 0}), axis({0, 0, 1}))));
                 const double radius = std::get<Sphere>(quadric->shape).radius;

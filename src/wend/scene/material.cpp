@@ -146,6 +146,13 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
     b.coat = share(m.coat);
     b.coat_alpha = alpha(m.coat_roughness);
     b.coat_ior = m.coat_ior;
+    if (m.subsurface >= 0) {
+        b.has_inside = true;
+        b.subsurface = share(m.subsurface);
+        b.entry_ior = m.entry_ior;
+        b.entry_alpha = alpha(m.entry_roughness);
+        b.entry_even = m.entry_even;
+    }
     b.below = m.below.get();
     b.above = m.above.get();
     return b;

@@ -95,6 +95,11 @@ struct PrincipledMaterial {
     TextureId coat = 0;
     TextureId coat_roughness = 0;
     float ior = 1.5f, coat_ior = 1.5f;
+    TextureId subsurface = -1;  ///< -1: there is nothing inside
+    float entry_ior = 1.5f;
+    TextureId entry_roughness = 0;  ///< alpha is its square
+    float entry_even = 0;
+    TextureId relative_albedo = -1;                   ///< that of DielectricMaterial
     std::shared_ptr<const FacetAlbedo> below, above;  ///< of both
 };
 

@@ -99,10 +99,10 @@ private:
     void add(int s) {
         const Surface& surface = scene_.surfaces[static_cast<std::size_t>(s)];
         std::vector<std::uint32_t>& sets = sets_.emplace_back(s, std::vector<std::uint32_t>()).second;
-        const auto* mesh = std::get_if<TriangleMesh>(&surface.shape);
+        const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get());
         if (!mesh) {
             sets.push_back(sets_of_all_.add());
-            const auto* sphere = std::get_if<Sphere>(&std::get<Quadric>(surface.shape).shape);
+            const auto* sphere = std::get_if<Sphere>(&std::get<Quadric>(*surface.shape).shape);
             if (!sphere || !sphere->is_full()) {
                 edges_.push_back({0, 1, sets.back()});
             }
@@ -186,12 +186,12 @@ private:
                 Part& part = list_[static_cast<std::size_t>(found->second)];
                 add_once(part.interiors, surface.interior);
                 add_once(part.exteriors, surface.exterior);
-                if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+                if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
                     for (const Vec3& corner : mesh->triangle(i, 0)) {
                         part.box.extendBy(corner);
                     }
                 } else {
-                    part.box.extendBy(bounds(surface.shape));
+                    part.box.extendBy(bounds(*surface.shape));
                 }
                 parts.push_back(found->second);
             }
@@ -262,7 +262,7 @@ MediumRegions::MediumRegions(const SceneDescription& scene) {
     }
     bool is_moving = scene.camera.is_moving() && !regions.empty();
     for (const Surface& surface : scene.surfaces) {
-        is_moving = is_moving || (surface.bounds_medium() && wend::is_moving(surface.shape));
+        is_moving = is_moving || (surface.bounds_medium() && wend::is_moving(*surface.shape));
     }
     for (const Instance& instance : scene.instances) {
         first.push_back(static_cast<std::int32_t>(regions.size()));

@@ -15,7 +15,7 @@ constexpr std::size_t most_points = 8;
 /// Calls f(t, along) where a line meets a surface in the world; `along`: whether the normal is along the line.
 template <class F>
 void for_each_crossing(const Surface& surface, const Vec3& from, const Vec3& along, F&& f) {
-    if (const auto* quadric = std::get_if<Quadric>(&surface.shape)) {
+    if (const auto* quadric = std::get_if<Quadric>(surface.shape.get())) {
         const Vec3 origin = quadric->object_from_world.point(from), way = quadric->object_from_world.vector(along);
         for (const auto& crossing : crossings(*quadric, origin, way)) {
             f(static_cast<double>(crossing.t), crossing.along != surface.flip_normal);
@@ -23,7 +23,7 @@ void for_each_crossing(const Surface& surface, const Vec3& from, const Vec3& alo
         return;
     }
     // Only meshes and quadrics bound media.
-    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const auto& mesh = std::get<TriangleMesh>(*surface.shape);
     const Imath::V3d o(from), d(along);
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
         const Imath::V3d p(mesh.vertex(i, 0)), a = Imath::V3d(mesh.vertex(i, 1)) - p,
@@ -102,14 +102,14 @@ bool is_within(const Surface& surface, const Vec3& place) {
 
 std::vector<Vec3> some_points(const Surface& surface) {
     std::vector<Vec3> points;
-    if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
         const std::size_t step = std::max<std::size_t>(1, mesh->triangle_count() / most_points);
         for (std::size_t i = 0; i < mesh->triangle_count(); i += step) {
             points.push_back((mesh->vertex(i, 0) + mesh->vertex(i, 1) + mesh->vertex(i, 2)) / 3.0f);
         }
         return points;
     }
-    const auto& quadric = std::get<Quadric>(surface.shape);
+    const auto& quadric = std::get<Quadric>(*surface.shape);
     for (const Vec3& w : directions()) {
         points.push_back(quadric.world_from_object.point(w * extent(quadric)));
     }
@@ -117,7 +117,7 @@ std::vector<Vec3> some_points(const Surface& surface) {
 }
 
 Box3 box_of(const Surface& surface) {
-    return bounds(surface.shape);
+    return bounds(*surface.shape);
 }
 
 /// What is wrong with a surface that meets another one around a different medium.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <wend/core/ray.h>
+#include <wend/scene/acceleration.h>
 #include <wend/scene/embree.h>
 #include <wend/scene/scene.h>
 
@@ -14,11 +15,11 @@ namespace wend {
 /// every machine.
 class RayCaster {
 public:
-    /// Which surfaces a ray sees.
-    enum Visible : unsigned { opaque = 1, interfaces = 2, everything = 3 };
+    /// Refers to the description, which must not move nor change. Shares the structure of another one where it is that
+    /// of this description as well.
+    explicit RayCaster(const SceneDescription& description, const RayCaster* other = nullptr);
 
-    /// Refers to the description, which must not move nor change.
-    explicit RayCaster(const SceneDescription& description);
+    bool shares_structure_with(const RayCaster& other) const { return structure_ == other.structure_; }
 
     std::optional<RayHit> intersect(const TracedRay& ray, float distance, Visible visible) const;
     bool is_occluded(const TracedRay& ray, float distance) const;
@@ -32,25 +33,16 @@ public:
     Box3 bounds() const;
 
 private:
-    struct Release {
-        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-    };
-    using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
-    using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
-
     /// A query's ray, for the callbacks.
     struct Query;
     static void filter(const RTCFilterFunctionNArguments* arguments);
     static void intersect_own_shape(const RTCIntersectFunctionNArguments* arguments);
     static void occlude_own_shape(const RTCOccludedFunctionNArguments* arguments);
 
-    void attach(RTCScene scene, int surface);
     /// A ray from further than Embree reckons, or of what is not a number, leaves the scene: it hits nothing.
     bool reaches_scene(const TracedRay& ray, float distance) const;
     /// The scene's index of Embree's instance.
     int instance(unsigned id) const;
-    void add_instance(const Instance& instance);
     /// Where an instance stands at a time; null for -1. `moved` is room for it.
     const Placement* placement_of(int instance, float time, std::optional<Placement>& moved) const {
         if (instance < 0) {
@@ -64,12 +56,9 @@ private:
     }
 
     const SceneDescription& d_;
-    Device device_;
-    std::vector<SceneHandle> objects_;
-    SceneHandle scene_;
+    std::shared_ptr<const AccelerationStructure> structure_;
     std::vector<Placement> placements_;  ///< of instances, at time 0
     bool is_moving_ = false;
-    float reach_;  ///< largest coordinate of a ray's origin
 };
 
 }  // namespace wend

@@ -22,7 +22,7 @@ bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
 
 /// Primitives of a surface, each of which is a light if the surface shines.
 std::size_t lights_on(const Surface& surface) {
-    const auto* mesh = std::get_if<TriangleMesh>(&surface.shape);
+    const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get());
     return mesh ? mesh->triangle_count() : 1;
 }
 
@@ -36,12 +36,12 @@ std::uint32_t flat_primitives(const Shape& shape) {
 
 }  // namespace
 
-Scene::Scene(SceneDescription description) : d_(std::move(description)) {
-    caster_ = std::make_unique<RayCaster>(d_);
+Scene::Scene(SceneDescription description, const Scene* other) : d_(std::move(description)) {
+    caster_ = std::make_unique<RayCaster>(d_, other ? other->caster_.get() : nullptr);
     regions_ = MediumRegions(d_);
     is_moving_ = d_.camera.is_moving() ||
                  std::ranges::any_of(d_.instances, [](const Instance& i) { return i.world_from_object.is_moving(); }) ||
-                 std::ranges::any_of(d_.surfaces, [](const Surface& s) { return wend::is_moving(s.shape); });
+                 std::ranges::any_of(d_.surfaces, [](const Surface& s) { return wend::is_moving(*s.shape); });
     camera_medium_ = MediumState(d_.camera_medium);
     if (!regions_.is_empty()) {
         ways_out_of_camera_ = ways_out(d_.camera.middle());
@@ -64,7 +64,7 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
     const std::vector<int> instance_of = instances_of_surfaces();
     for (std::size_t i = 0; i < d_.surfaces.size(); ++i) {
         const Surface& surface = d_.surfaces[i];
-        const std::uint32_t flat = surface.first_light >= 0 ? flat_primitives(surface.shape) : 0;
+        const std::uint32_t flat = surface.first_light >= 0 ? flat_primitives(*surface.shape) : 0;
         const auto first = static_cast<std::size_t>(std::max(surface.first_light, 0));
         flat_lights_.resize(std::max(flat_lights_.size(), first + flat));
         for (std::uint32_t k = 0; k < flat; ++k) {
@@ -92,6 +92,10 @@ Scene::Scene(SceneDescription description) : d_(std::move(description)) {
 
 Scene::~Scene() = default;
 
+bool Scene::shares_geometry_with(const Scene& other) const {
+    return caster_->shares_structure_with(*other.caster_);
+}
+
 std::vector<Hit> Scene::ways_out(const Ray& start) const {
     // A region whose boundary a ray crosses outwards first is one that the ray started in.
     constexpr int most_crossings = 10000;
@@ -99,7 +103,7 @@ std::vector<Hit> Scene::ways_out(const Ray& start) const {
     std::vector<Hit> ways;
     std::vector<int> met;
     for (int i = 0; i < most_crossings; ++i) {
-        const auto found = caster_->intersect(ray, infinity, RayCaster::everything);
+        const auto found = caster_->intersect(ray, infinity, Visible::everything);
         if (!found) {
             break;
         }
@@ -176,7 +180,7 @@ std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
     TracedRay rest = ray;
     for (;;) {
         const float passed = rest.passed() - ray.passed();
-        auto found = caster_->intersect(rest, distance - passed, RayCaster::everything);
+        auto found = caster_->intersect(rest, distance - passed, Visible::everything);
         if (!found) {
             return found;
         }
@@ -216,11 +220,13 @@ float Scene::presence(int light, const TexturePoint& p) const {
 }
 
 std::optional<Rgb> Scene::relative_albedo(const Hit& hit) const {
-    const auto* boundary = std::get_if<DielectricMaterial>(&material(hit));
-    if (!boundary || boundary->relative_albedo < 0) {
-        return std::nullopt;
+    TextureId albedo = -1;
+    if (const auto* boundary = std::get_if<DielectricMaterial>(&material(hit))) {
+        albedo = boundary->relative_albedo;
+    } else if (const auto* principled = std::get_if<PrincipledMaterial>(&material(hit))) {
+        albedo = principled->relative_albedo;
     }
-    return d_.textures.evaluate(boundary->relative_albedo, texture_point(hit));
+    return albedo < 0 ? std::nullopt : std::optional(d_.textures.evaluate(albedo, texture_point(hit)));
 }
 
 Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {
@@ -236,7 +242,7 @@ bool Scene::blocks(const Hit& hit, const Ray& ray) const {
 }
 
 std::optional<Hit> Scene::intersect_interface(const TracedRay& ray, float distance) const {
-    const auto raw = caster_->intersect(ray, distance, RayCaster::interfaces);
+    const auto raw = caster_->intersect(ray, distance, Visible::interfaces);
     if (!raw) {
         return std::nullopt;
     }

@@ -27,7 +27,7 @@ namespace wend {
 
 /// A shape with what it is made of.
 struct Surface {
-    Shape shape;
+    SharedShape shape;
     int material = 0;
     /// Media on the two sides; the same on both where the surface bounds no medium, and then the walk keeps the medium
     /// it is in.
@@ -46,10 +46,14 @@ struct Surface {
 /// Shapes that are placed several times, or that move together.
 struct ObjectDefinition {
     std::vector<int> surfaces;
+
+    friend bool operator==(const ObjectDefinition&, const ObjectDefinition&) = default;
 };
 struct Instance {
     int object = 0;
     Motion world_from_object;
+
+    friend bool operator==(const Instance&, const Instance&) = default;
 };
 
 /// What a scene consists of. Indices refer to the vectors here.
@@ -106,9 +110,10 @@ class RayCaster;
 
 class Scene {
 public:
-    /// Builds the acceleration structures. Throws InputError if the scene holds nothing that can be rendered (no finite
-    /// vertex ...).
-    explicit Scene(SceneDescription description);
+    /// Builds the acceleration structures, or shares those of another scene where they are the same: of the same
+    /// shapes, seen alike and placed alike. Throws InputError if the scene holds nothing that can be rendered (no
+    /// finite vertex ...).
+    explicit Scene(SceneDescription description, const Scene* other = nullptr);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -165,6 +170,8 @@ public:
     }
     /// What the scene was built from.
     const SceneDescription& description() const { return d_; }
+    /// Whether the acceleration structures are those of the other scene, and so all shapes.
+    bool shares_geometry_with(const Scene& other) const;
     const Camera& camera() const { return d_.camera; }
     /// Whether anything depends on the time of rays.
     bool is_moving() const { return is_moving_; }

@@ -6,10 +6,12 @@
 #include <wend/scene/curve.h>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -146,6 +148,22 @@ Box3 bounds(const Quadric& quadric);
 Box3 bounds(const CylinderShell& cylinder);
 
 using Shape = std::variant<TriangleMesh, Quadric, CylinderShell, CurveSet>;
+
+/// A shape that does not change any more: copies are the same shape, which surfaces and scenes so have together.
+class SharedShape {
+public:
+    template <class T>
+    requires std::constructible_from<Shape, T&&> SharedShape(T&& shape)
+        : shape_(std::make_shared<const Shape>(std::forward<T>(shape))) {}
+
+    const Shape& operator*() const { return *shape_; }
+    const Shape* get() const { return shape_.get(); }
+    /// Whether they are one, and not just alike.
+    friend bool operator==(const SharedShape&, const SharedShape&) = default;
+
+private:
+    std::shared_ptr<const Shape> shape_;
+};
 
 /// Bounds in the world, at all times.
 Box3 bounds(const Shape& shape);

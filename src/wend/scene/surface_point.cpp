@@ -143,18 +143,18 @@ Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const P
     hit.element = raw.element;
     hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.element.primitive);
     LocalPoint point;
-    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(hit.surface->shape.get())) {
         point = point_of(*mesh, raw, hit);
     } else {
         const Vec3 in_world = ray.at(raw.distance);
         const Vec3 p = placement ? placement->object_from_world.point(in_world) : in_world;
-        if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
+        if (const auto* quadric = std::get_if<Quadric>(hit.surface->shape.get())) {
             point = point_of(*quadric, p, has_uv, hit);
-        } else if (const auto* cylinder = std::get_if<CylinderShell>(&hit.surface->shape)) {
+        } else if (const auto* cylinder = std::get_if<CylinderShell>(hit.surface->shape.get())) {
             point = point_of(*cylinder, p, has_uv, hit);
         } else {
             const Vec3 way = placement ? placement->object_from_world.vector(ray.direction) : ray.direction;
-            point = point_of(std::get<CurveSet>(hit.surface->shape), raw, p, way, hit);
+            point = point_of(std::get<CurveSet>(*hit.surface->shape), raw, p, way, hit);
         }
     }
     if (placement) {
@@ -178,7 +178,7 @@ Vec3 normal_change(const Hit& hit, const Placement* placement, const Vec3& displ
     const Vec3 moved = placement ? placement->object_from_world.vector(displacement) : displacement;
     Vec3 normal;
     Vec3 change;
-    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(hit.surface->shape.get())) {
         if (mesh->normals.empty()) {
             return {0, 0, 0};
         }
@@ -203,9 +203,9 @@ Vec3 normal_change(const Hit& hit, const Placement* placement, const Vec3& displ
             change =
                 solid.object_from_world.transposed_vector(solid.object_from_world.vector(moved) * point.normal_slope);
         };
-        if (const auto* quadric = std::get_if<Quadric>(&hit.surface->shape)) {
+        if (const auto* quadric = std::get_if<Quadric>(hit.surface->shape.get())) {
             set(*quadric);
-        } else if (const auto* cylinder = std::get_if<CylinderShell>(&hit.surface->shape)) {
+        } else if (const auto* cylinder = std::get_if<CylinderShell>(hit.surface->shape.get())) {
             set(*cylinder);
         } else {
             return {0, 0, 0};  // curves are too thin for it to matter
@@ -225,7 +225,7 @@ Vec3 normal_change(const Hit& hit, const Placement* placement, const Vec3& displ
 
 SurfaceDerivatives surface_derivatives(const Hit& hit, const Placement* placement) {
     SurfaceDerivatives d{hit.shading.s, hit.shading.t, {}, {}};
-    if (const auto* mesh = std::get_if<TriangleMesh>(&hit.surface->shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(hit.surface->shape.get())) {
         const std::uint32_t* i = &mesh->indices[3 * std::size_t{hit.element.primitive}];
         const auto [p0, p1, p2] = mesh->triangle(hit.element.primitive, hit.time);
         const Vec3 e1 = p1 - p0;
@@ -237,15 +237,15 @@ SurfaceDerivatives surface_derivatives(const Hit& hit, const Placement* placemen
             d.dpdu = u.dpdu;
             d.dpdv = tangents(e1, e2, Vec2(d1.y, d1.x), Vec2(d2.y, d2.x)).dpdu;
         }
-    } else if (!std::holds_alternative<CurveSet>(hit.surface->shape)) {
+    } else if (!std::holds_alternative<CurveSet>(*hit.surface->shape)) {
         const Vec3 place = placement ? placement->object_from_world.point(hit.position) : hit.position;
         const auto set = [&](const auto& solid) {
             const QuadricTangents local = tangents(solid, solid.object_from_world.point(place));
             d.dpdu = solid.world_from_object.vector(local.dpdu);
             d.dpdv = solid.world_from_object.vector(local.dpdv);
         };
-        const auto* quadric = std::get_if<Quadric>(&hit.surface->shape);
-        quadric ? set(*quadric) : set(std::get<CylinderShell>(hit.surface->shape));
+        const auto* quadric = std::get_if<Quadric>(hit.surface->shape.get());
+        quadric ? set(*quadric) : set(std::get<CylinderShell>(*hit.surface->shape));
     } else {
         return d;  // the frame is in the world already, and what a curve is across has no length of its own
     }

@@ -44,7 +44,7 @@ SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2, float time
     const Surface& surface = *element.surface;
     // Of curves and cylinders there are none: see add_surface().
     Point point{&surface, {}, {}};
-    if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
         const auto [p0, p1, p2] = mesh->triangle(element.primitive, time);
         const Vec3 e1 = p1 - p0;
         const Vec3 e2 = p2 - p0;
@@ -57,7 +57,7 @@ SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2, float time
             point.normal = -point.normal;
         }
     } else {
-        const auto& quadric = std::get<Quadric>(surface.shape);
+        const auto& quadric = std::get<Quadric>(*surface.shape);
         const QuadricPoint on =
             project(quadric, std::visit([&](const auto& s) { return random_point(s, u2); }, quadric.shape));
         point.position = quadric.world_from_object.point(on.position);
@@ -73,13 +73,13 @@ SurfaceSampler::Point SurfaceSampler::sample(float u, const Vec2& u2, float time
 
 void SurfaceSampler::add_surface(const Surface& surface) {
     const AffineMap& to = placements_.back().world_from_object;
-    if (const auto* mesh = std::get_if<TriangleMesh>(&surface.shape)) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get())) {
         for (std::size_t i = 0; i < mesh->triangle_count(); ++i) {
             const Vec3 e1 = to.vector(mesh->vertex(i, 1) - mesh->vertex(i, 0));
             const Vec3 e2 = to.vector(mesh->vertex(i, 2) - mesh->vertex(i, 0));
             add_element(surface, i, 0.5f * length(cross(e1, e2)));
         }
-    } else if (const auto* found = std::get_if<Quadric>(&surface.shape)) {
+    } else if (const auto* found = std::get_if<Quadric>(surface.shape.get())) {
         const Quadric& quadric = *found;
         const auto edge = [&](const Vec3& axis) { return to.vector(quadric.world_from_object.vector(axis)); };
         const float volume = std::abs(dot(edge({1, 0, 0}), cross(edge({0, 1, 0}), edge({0, 0, 1}))));

@@ -12,8 +12,8 @@ constexpr float least_cosine = 1.0f / 32;
 
 /// Whether a ray that starts inwards may meet the same element again, on its way out.
 bool is_round(const Surface& surface) {
-    const auto* quadric = std::get_if<Quadric>(&surface.shape);
-    return std::holds_alternative<CylinderShell>(surface.shape) ||
+    const auto* quadric = std::get_if<Quadric>(surface.shape.get());
+    return std::holds_alternative<CylinderShell>(*surface.shape) ||
            (quadric && std::holds_alternative<Sphere>(quadric->shape));
 }
 
@@ -61,7 +61,7 @@ TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_
     own_ = hit.element;
     own_again_ = !along && is_round(*hit.surface);
     zone_ = 2 * behind;
-    if (const auto* curves = std::get_if<CurveSet>(&hit.surface->shape)) {
+    if (const auto* curves = std::get_if<CurveSet>(hit.surface->shape.get())) {
         curve_offset_ = hit.normal * (cosine > 0 ? hit.thickness : -hit.thickness);
         curve_reach_ = curves->pieces;
     }

@@ -1,6 +1,7 @@
 // What interior walks in dense media tell of the ways to sample them: sums, counted apart by each thread.
 #pragma once
 
+#include <wend/core/export.h>
 #include <wend/subsurface/interior_walk_record.h>
 
 #include <array>
@@ -12,7 +13,7 @@ namespace wend {
 /// F. With the share of technique i, of density p_i in the mixture p, that changes by E[F² p_i / p + 2 F dF]: F itself
 /// falls by F p_i / p, but for what is weighted against connections to lights. E[p_i / p] is 1, so the covariance with
 /// F² does for the first term, which is the less noisy the less F varies.
-class SecondMoments {
+class WEND_API SecondMoments {
 public:
     /// What an interior walk may count for, over what is expected: what is found by a rare chance says little of the
     /// ways to sample an interior walk, and its square would decide on them.

@@ -2,9 +2,9 @@
 #include <wend/decision/guided_distance.h>
 #include <wend/io/json_text.h>
 #include <wend/light/beams.h>
-#include <wend/light/next_event.h>
 #include <wend/render/preset.h>
 #include <wend/view/direction_bins.h>
+#include <wend/view/pixel_ray.h>
 #include <wend/view/pixel_report.h>
 
 #include <nlohmann/json.hpp>
@@ -27,10 +27,7 @@ constexpr DirectionBins bins_of_records{64, 32};
 constexpr std::size_t most_cells = 160;
 
 /// The first flight of a pixel: from the camera to the first surface or interface.
-struct Segment {
-    Ray ray;
-    std::optional<Hit> hit;
-    MediumId medium = vacuum;
+struct Segment : RayPart {
     float length = longest_segment;
     float shown = 0;  ///< of the length, what is worth showing
 };
@@ -47,33 +44,29 @@ float way_through(const Box3& box, const Ray& ray) {
     return t_in < t_out && std::isfinite(t_out) ? t_out : 0.0f;
 }
 
-Segment first_segment(const Scene& scene, const Vec2i& pixel) {
-    const Vec2 middle(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f);
-    Segment segment;
-    segment.ray = scene.camera().ray(middle, {0.5f, 0.5f});
-    TracedRay ray(segment.ray);
-    MediumState medium = scene.medium_around(segment.ray);
-    segment.hit = scene.intersect(ray);
-    // Through vacuum nothing happens: what counts is the flight that begins at the first boundary. There a ray may meet
-    // two triangles in their edge.
-    const auto begins_later = [&] {
-        return segment.hit && scene.is_interface(*segment.hit) &&
-               (medium.id == vacuum || segment.hit->distance <= segment.hit->clearance);
-    };
-    for (int met = 0; met < most_interfaces && begins_later(); ++met) {
-        medium = scene.medium_beyond(*segment.hit, ray.direction, medium);
-        segment.ray.origin = segment.hit->position;
-        ray.pass(*segment.hit);
-        segment.hit = scene.intersect(ray);
+/// None where the camera lets no light through. Through vacuum nothing happens: what counts is the flight that begins
+/// at the first boundary. There a ray may meet two triangles in their edge.
+std::optional<Segment> first_segment(const Scene& scene, const Vec2i& pixel) {
+    const std::vector<RayPart> parts = pixel_ray(scene, pixel);
+    if (parts.empty()) {
+        return std::nullopt;
     }
-    segment.medium = medium.id;
-    segment.length = segment.hit ? segment.hit->distance : longest_segment;
-    segment.shown = segment.hit ? segment.length : way_through(scene.bounds(), segment.ray);
+    const auto counts = [](const RayPart& part) {
+        return !part.ends_at_interface || (part.medium != vacuum && part.hit->distance > part.hit->clearance);
+    };
+    const auto found = std::find_if(parts.begin(), parts.end(), counts);
+    const RayPart& part = found == parts.end() ? parts.back() : *found;
+    Segment segment{part, longest_segment, 0};
+    if (part.hit) {
+        segment.length = segment.shown = part.hit->distance;
+    } else {
+        segment.shown = way_through(scene.bounds(), part.ray);
+    }
     return segment;
 }
 
-Json segment_json(const Scene& scene, const Segment& segment) {
-    const char* end = !segment.hit ? "nothing" : scene.is_interface(*segment.hit) ? "interface" : "surface";
+Json segment_json(const Segment& segment) {
+    const char* end = !segment.hit ? "nothing" : segment.ends_at_interface ? "interface" : "surface";
     return {{"origin", json_vector(segment.ray.origin)},
             {"direction", json_vector(segment.ray.direction)},
             {"length", segment.hit ? json_number(segment.length) : Json(nullptr)},
@@ -119,10 +112,9 @@ FlightEnds ends_of_flights(const Scene& scene, const Segment& segment, const gui
     start.ray = segment.ray;
     start.length = segment.length;
     if (segment.hit) {
-        const bool is_interface = scene.is_interface(*segment.hit);
         const Vec3 normal = segment.hit->normal;
-        start.end = {is_interface ? FlightEnd::Kind::interface : FlightEnd::Kind::surface, segment.hit->position,
-                     dot(normal, segment.ray.direction) < 0 ? normal : -normal, 0};
+        start.end = {segment.ends_at_interface ? FlightEnd::Kind::interface : FlightEnd::Kind::surface,
+                     segment.hit->position, dot(normal, segment.ray.direction) < 0 ? normal : -normal, 0};
     }
     FlightEnds ends{draw(ClassicalDistance(), medium, start, segment.shown), std::nullopt};
     if (fields && fields->volume.is_trained()) {
@@ -230,8 +222,12 @@ guide::Records SharedRecords::in(const guide::Field& field, const guide::Region*
 }
 
 Json pixel_report(const Scene& scene, const PixelQuestion& question) {
-    const Segment segment = first_segment(scene, question.pixel);
-    Json report = {{"segment", segment_json(scene, segment)},
+    const std::optional<Segment> first = first_segment(scene, question.pixel);
+    if (!first) {
+        return nullptr;
+    }
+    const Segment& segment = *first;
+    Json report = {{"segment", segment_json(segment)},
                    {"flight", nullptr},
                    {"at", nullptr},
                    {"guide", nullptr},

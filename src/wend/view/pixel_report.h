@@ -38,6 +38,7 @@ struct PixelQuestion {
 /// The first segment of the ray through the pixel's middle; in a medium, where guided and classical flights end; at a
 /// point of the segment the lobes of the field, its share of classical sampling, what the records saw by direction, and
 /// the cells around. Keys: `segment`, `flight`, `at`, `guide`, `cells`; those that there is nothing to say of are null.
+/// Null where the camera lets no light through to the pixel.
 nlohmann::json pixel_report(const Scene& scene, const PixelQuestion& question);
 
 }  // namespace wend

@@ -187,6 +187,12 @@ TEST(MitsubaDocument, WhatGrowsIsBounded) {
     }
     EXPECT_PRED2(contains, files.error_of(deep + closing), "nested more than 64 deep");
 
+    std::string wide = "<shape";
+    for (int i = 0; i < 200'000; ++i) {
+        wide += fmt::format(" a{}=\"\"", i);
+    }
+    EXPECT_PRED2(contains, files.error_of(wide + "/>"), "at most 64 attributes");
+
     const std::string many(11'000'000, '<');
     EXPECT_PRED2(contains, files.error_of(many), "elements and attributes");
 }

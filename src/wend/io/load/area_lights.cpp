@@ -22,7 +22,7 @@ bool flips(const Surface& surface, const TriangleMesh& mesh, std::size_t triangl
 void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surface& surface,
                        std::vector<Light>& lights) {
     QuadricLight source =
-        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(surface.shape)), at.world_from_object,
+        make_quadric_light(std::make_shared<const Quadric>(std::get<Quadric>(*surface.shape)), at.world_from_object,
                            surface.flip_normal, light.radiance, light.two_sided);
     source.motion = at.motion;
     // Exact where the transform keeps shapes similar.
@@ -44,7 +44,7 @@ void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& sou
 
 /// A triangle of a mesh, which moves as the mesh does.
 TriangleLight lamp_of(const AreaLight& light, const LampPlace& at, const Surface& surface, std::size_t triangle) {
-    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const auto& mesh = std::get<TriangleMesh>(*surface.shape);
     const bool flip = flips(surface, mesh, triangle);
     TriangleLight source = make_triangle_light(mesh.vertex(triangle, 0), mesh.vertex(triangle, 1),
                                                mesh.vertex(triangle, 2), flip, light.radiance, light.two_sided);
@@ -62,7 +62,7 @@ TriangleLight lamp_of(const AreaLight& light, const LampPlace& at, const Surface
 }
 
 void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& surface, std::vector<Light>& lights) {
-    const auto& mesh = std::get<TriangleMesh>(surface.shape);
+    const auto& mesh = std::get<TriangleMesh>(*surface.shape);
     // Below, the area's inverse and its products leave the range of floats.
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
@@ -95,7 +95,7 @@ void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::
         return;
     }
     surface.first_light = static_cast<int>(lights.size());
-    if (std::holds_alternative<Quadric>(surface.shape)) {
+    if (std::holds_alternative<Quadric>(*surface.shape)) {
         attach_to_quadric(light, at, surface, lights);
     } else {
         attach_to_mesh(light, at, surface, lights);

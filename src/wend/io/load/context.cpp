@@ -8,8 +8,20 @@
 namespace wend {
 
 void Warnings::add(const Place& place, const std::string& text) {
+    add(text, to_string(place) + ": warning: " + text);
+}
+
+void Warnings::add(const std::string& text, const std::string& message) {
     if (texts_.insert(text).second) {
-        all_.push_back(to_string(place) + ": warning: " + text);
+        all_.push_back(message);
+        text_lengths_.push_back(text.size());
+    }
+}
+
+void Warnings::add_all(const Warnings& others) {
+    for (std::size_t i = 0; i < others.all_.size(); ++i) {
+        const std::string& message = others.all_[i];
+        add(message.substr(message.size() - others.text_lengths_[i]), message);
     }
 }
 

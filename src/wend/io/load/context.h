@@ -21,13 +21,20 @@ public:
     /// One warning for each parameter that nobody asked for: once for a name in directives of this kind and type.
     void add_unused(std::string_view directive, const pbrt::Entity& entity);
     void add_unused(const std::string& owner, const pbrt::ParameterSet& parameters);
+    /// Adds those of others in their order, unless the text was there before.
+    void add_all(const Warnings& others);
 
     const std::vector<std::string>& all() const { return all_; }
 
 private:
+    void add(const std::string& text, const std::string& message);
+
     std::set<std::string> texts_;
     std::vector<std::string> all_;
+    std::vector<std::size_t> text_lengths_;  ///< of all: what they end with
 };
+
+class LoadedParts;
 
 struct LoadContext {
     std::filesystem::path base_directory;
@@ -36,6 +43,12 @@ struct LoadContext {
     std::shared_ptr<std::set<std::filesystem::path>> files = std::make_shared<std::set<std::filesystem::path>>();
     /// Triangles that subdivision led to so far.
     double subdivided = 0;
+    /// Of an earlier scene whose directives are the same but for parameters; null: there is none.
+    const LoadedParts* earlier = nullptr;
+    /// For later ones, being filled; null: there will be none.
+    LoadedParts* parts = nullptr;
+    /// Those whose content was taken from the earlier scene, and not read again.
+    std::set<std::filesystem::path> kept_files{};
 };
 
 /// The existing file that a string parameter names. Throws InputError at the parameter if there is none, at the

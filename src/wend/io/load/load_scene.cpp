@@ -3,6 +3,7 @@
 #include <wend/io/load/curves.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/load_scene.h>
+#include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/parse_scene.h>
@@ -57,7 +58,9 @@ public:
         }
         for (const pbrt::MediumEntity& medium : description_.media) {
             const int group = light_group(medium);
-            scene_.media.push_back(load_medium(context_, medium));
+            scene_.media.push_back(load_part(
+                context_, &LoadedParts::media, scene_.media.size(), medium.parameters,
+                [](const Medium&) { return true; }, [&] { return load_medium(context_, medium); }));
             LightGroups::set(scene_.light_groups.of_media, scene_.media.size() - 1, scene_.media.size(), group);
         }
         add_materials();
@@ -75,9 +78,10 @@ public:
         scene_.objects.resize(description_.objects.size());
         object_boxes_.resize(description_.objects.size());
         groups_.resize(description_.objects.size() + 1);
-        for (pbrt::ShapeEntity& shape : description_.shapes) {
-            add_shape(shape);
+        for (std::size_t i = 0; i < description_.shapes.size(); ++i) {
+            add_shape(i);
         }
+        finish_curves();
         for (const Group& group : groups_.back()) {
             place(group.object, *group.motion, group.place);
         }
@@ -139,23 +143,38 @@ private:
         }
     }
 
-    void add_shape(pbrt::ShapeEntity& entity) {
+    /// None for one without triangles.
+    std::optional<SharedShape> shape_of(std::size_t index, bool as_mesh) {
+        pbrt::ShapeEntity& entity = description_.shapes[index];
+        const auto load = [&] { return LoadedShape{load_shape(context_, entity, as_mesh), as_mesh}; };
+        if (entity.type == "curve") {
+            return load().shape;  // a part of what finish_curves() shares
+        }
+        const pbrt::ParameterSet parameters = context_.parts ? entity.parameters : pbrt::ParameterSet();
+        return load_part(
+                   context_, &LoadedParts::shapes, index, parameters,
+                   [&](const LoadedShape& known) { return known.as_mesh == as_mesh; }, load)
+            .shape;
+    }
+
+    void add_shape(std::size_t index) {
+        const pbrt::ShapeEntity& entity = description_.shapes[index];
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
         const std::size_t patches = patches_of(entity);
         const ObjectNames::Name name = name_of(entity);
-        std::optional<Shape> shape = load_shape(context_, entity, entity.area_light || interior != exterior);
+        const std::optional<SharedShape> shape = shape_of(index, entity.area_light || interior != exterior);
         if (!shape) {
             return;
         }
-        const bool is_curve = std::holds_alternative<CurveSet>(*shape);
+        const bool is_curve = std::holds_alternative<CurveSet>(**shape);
         const Box3 box =
-            require_near(entity.place, fmt::format("Shape \"{}\" reaches to a point", entity.type), *shape);
+            require_near(entity.place, fmt::format("Shape \"{}\" reaches to a point", entity.type), **shape);
         const std::optional<std::size_t> object = entity.motion ? group_of(entity) : entity.object;
         if (object) {
             object_boxes_[*object].extendBy(box);
         }
-        Surface surface{std::move(*shape)};
+        Surface surface{*shape};
         surface.material = static_cast<int>(entity.material);
         surface.interior = is_curve ? exterior : interior;
         surface.exterior = exterior;
@@ -168,8 +187,11 @@ private:
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = object ? scene_.objects[*object].surfaces : scene_.world_surfaces;
-        if (is_curve && !group.empty() && joins(scene_.surfaces[static_cast<std::size_t>(group.back())], surface)) {
+        if (is_curve && !group.empty() && joins(group.back(), surface, index)) {
             return;
+        }
+        if (is_curve) {
+            curves_.try_emplace(static_cast<int>(scene_.surfaces.size()), Curves{std::get<CurveSet>(**shape), {index}});
         }
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
@@ -192,11 +214,52 @@ private:
 
     /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last
     /// one.
-    static bool joins(Surface& last, const Surface& surface) {
-        auto* curves = std::get_if<CurveSet>(&last.shape);
-        return curves && last.material == surface.material && last.interior == surface.interior &&
-               last.exterior == surface.exterior && last.flip_normal == surface.flip_normal &&
-               last.alpha == surface.alpha && merge(*curves, std::get<CurveSet>(surface.shape));
+    bool joins(int last_index, const Surface& surface, std::size_t directive) {
+        const Surface& last = scene_.surfaces[static_cast<std::size_t>(last_index)];
+        const auto curves = curves_.find(last_index);
+        if (curves == curves_.end() || last.material != surface.material || last.interior != surface.interior ||
+            last.exterior != surface.exterior || last.flip_normal != surface.flip_normal ||
+            last.alpha != surface.alpha || !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
+            return false;
+        }
+        curves->second.directives.push_back(directive);
+        return true;
+    }
+
+    /// Gives surfaces all the curves that joined them; the earlier scene's, where they are the same.
+    void finish_curves() {
+        for (auto& [surface, curves] : curves_) {
+            SharedShape& shape = scene_.surfaces[static_cast<std::size_t>(surface)].shape;
+            if (const SharedShape* known = earlier_curves(curves.directives)) {
+                shape = *known;
+            } else {
+                shape = std::move(curves.set);
+            }
+            if (context_.parts) {
+                LoadedCurves loaded{std::move(curves.directives), {}, shape};
+                for (const std::size_t directive : loaded.directives) {
+                    loaded.parameters.push_back(description_.shapes[directive].parameters);
+                }
+                context_.parts->curves.emplace(loaded.directives.front(), std::move(loaded));
+            }
+        }
+        curves_.clear();
+    }
+
+    const SharedShape* earlier_curves(const std::vector<std::size_t>& directives) const {
+        if (!context_.earlier) {
+            return nullptr;
+        }
+        const auto found = context_.earlier->curves.find(directives.front());
+        if (found == context_.earlier->curves.end() || found->second.directives != directives) {
+            return nullptr;
+        }
+        const auto is_same = [&](const pbrt::ParameterSet& known, std::size_t directive) {
+            return known.is_same_as(description_.shapes[directive].parameters);
+        };
+        const LoadedCurves& known = found->second;
+        return std::equal(known.parameters.begin(), known.parameters.end(), directives.begin(), is_same) ? &known.shape
+                                                                                                         : nullptr;
     }
 
     /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is
@@ -273,6 +336,12 @@ private:
     std::vector<Place> places_;  ///< of the scene's surfaces
     std::map<std::string, int> texts_;
     std::vector<Box3> object_boxes_;
+    /// Those of a surface that more may join.
+    struct Curves {
+        CurveSet set;
+        std::vector<std::size_t> directives;
+    };
+    std::map<int, Curves> curves_;            ///< by surface
     std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
     std::map<std::pair<std::size_t, const Motion*>, std::size_t> group_objects_;
 };
@@ -283,8 +352,11 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& o
     return load_scene(parse_scene(file), overrides);
 }
 
-LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides) {
+LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides, LoadedParts* parts) {
+    const LoadedParts earlier = parts ? std::exchange(*parts, {}) : LoadedParts();
     LoadContext context{description.base_directory, {}};
+    context.earlier = parts ? &earlier : nullptr;
+    context.parts = parts;
     context.files->insert(description.files.begin(), description.files.end());
     LoadedScene loaded;
     const FilmSettings film = load_film(context, description.film, overrides.resolution);
@@ -309,6 +381,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     SceneBuilder(context, description, integrator.sees_media, loaded.scene).build();
     context.warnings.add_unused("Option", description.options);
     loaded.files.assign(context.files->begin(), context.files->end());
+    loaded.kept_files = std::move(context.kept_files);
     loaded.warnings = std::move(description.warnings);
     loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());
     return loaded;

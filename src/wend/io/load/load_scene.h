@@ -11,10 +11,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace wend {
+
+class LoadedParts;
 
 /// What a scene file asks for.
 struct LoadedScene {
@@ -31,6 +34,8 @@ struct LoadedScene {
     std::string film_file;  ///< where the file wants the picture
     /// All that was read, in order of their names.
     std::vector<std::filesystem::path> files;
+    /// Those of them that were not read again, since an earlier scene has what is in them.
+    std::set<std::filesystem::path> kept_files;
     /// What Wend lacks or ignores, each kind once, and shapes that do not hold their medium, as `file:line:column:
     /// warning: ...`.
     std::vector<std::string> warnings;
@@ -47,7 +52,9 @@ struct LoadOverrides {
 /// it; what is right but not implemented is replaced by the nearest there is, and named in a warning.
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& overrides = {});
 
-/// The same for a file that has been parsed.
-LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides = {});
+/// The same for a file that has been parsed. What `parts` holds of an earlier scene, whose description is the same but
+/// for parameters, is shared where the parameters are the same; afterwards it holds those of this scene.
+LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides = {},
+                       LoadedParts* parts = nullptr);
 
 }  // namespace wend

@@ -7,6 +7,7 @@
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
 #include <wend/sampling/warp.h>
+#include <wend/scene/bsdf/rough_coat.h>
 
 #include <fmt/format.h>
 
@@ -110,8 +111,16 @@ private:
         material.mean_cosine = textures_.real(p, "g", 0);
         material.max_depth = load_count(p, "maxdepth", 10);
         material.walks = load_count(p, "nsamples", 1);
-        if (!textures_.varies(material.thickness)) {
-            material.returned = coat_return(material.ior, std::max(textures_.mean(material.thickness).r, 0.0f));
+        if (const Roughness& r = material.roughness; !textures_.varies(material.thickness)) {
+            // A roughness that varies counts as none.
+            const bool varies = textures_.varies(r.u) || textures_.varies(r.v);
+            const auto alpha = [&](TextureId id) {
+                const float value = varies ? 0.0f : std::max(textures_.mean(id).r, 0.0f);
+                return r.remap ? std::sqrt(value) : value;
+            };
+            const DielectricBsdf coat{
+                .ior = material.ior, .alpha_x = alpha(r.u), .alpha_y = alpha(r.v), .slopes = r.slopes};
+            material.returned = rough_coat_return(coat, std::max(textures_.mean(material.thickness).r, 0.0f));
         }
         return material;
     }
@@ -172,7 +181,33 @@ private:
         material.coat_ior = load_ior(p, "coateta", 1.5f);
         material.below = facets_of(material.ior);
         material.above = facets_of(material.coat_ior);
-        return {material};
+        const auto subsurface = textures_.find_real(p, "subsurface");
+        return subsurface ? load_principled_inside(p, material, *subsurface) : LoadedMaterial{material};
+    }
+
+    /// An albedo that varies goes to where walks enter.
+    LoadedMaterial load_principled_inside(const pbrt::ParameterSet& p, PrincipledMaterial& material,
+                                          TextureId subsurface) {
+        material.subsurface = subsurface;
+        material.entry_ior = load_ior(p, "subsurfaceeta", material.ior);
+        material.entry_roughness = textures_.find_real(p, "subsurfaceroughness").value_or(material.roughness);
+        material.entry_even = p.get_float("subsurfaceeven", 0);
+        if (!(material.entry_even >= 0 && material.entry_even <= 1)) {
+            throw InputError(p.place_of("subsurfaceeven"), "\"subsurfaceeven\" must be from 0 to 1");
+        }
+        const TextureId albedo = textures_.colour(p, "subsurfacealbedo", Rgb(0.9f));
+        Rgb inside = textures_.mean(albedo);
+        if (textures_.varies(albedo)) {
+            material.relative_albedo = albedo;
+            inside = Rgb(1.0f);
+        }
+        const Rgb extinction = Rgb(1.0f) / load_mean_free_path(p, non_negative_float(p, "scale", 1));
+        HomogeneousMedium medium;
+        medium.scattering = inside * extinction;
+        medium.absorption = (Rgb(1.0f) - inside) * extinction;
+        medium.phase = PhaseFunction(HenyeyGreenstein{load_mean_cosine(context_, p)});
+        medium.counts_vertices = false;
+        return {material, medium};
     }
 
     std::shared_ptr<const FacetAlbedo> facets_of(float ior) {

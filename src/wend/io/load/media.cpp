@@ -1,6 +1,7 @@
 #include <wend/io/load/cloud.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/grid_media.h>
+#include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/media_parameters.h>
 #include <wend/io/load/phase_functions.h>
@@ -39,28 +40,41 @@ Medium load_homogeneous(LoadContext& context, const pbrt::MediumEntity& entity) 
     return medium;
 }
 
+/// One of the grids of a volume file; null where the file has none of that name, and may lack it.
+std::shared_ptr<const Volume> load_volume(LoadContext& context, const std::filesystem::path& file,
+                                          const std::string& grid, bool may_lack) {
+    return read_part(context, &LoadedParts::volumes, {file.lexically_normal().string(), grid}, file,
+                     [&]() -> std::shared_ptr<const Volume> {
+                         if (!may_lack) {
+                             return std::make_shared<const Volume>(read_volume(file, grid));
+                         }
+                         std::optional<Volume> volume = try_read_volume(file, grid);
+                         return volume ? std::make_shared<const Volume>(std::move(*volume)) : nullptr;
+                     });
+}
+
 Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) {
     const pbrt::ParameterSet& p = entity.parameters;
     const std::filesystem::path file = required_file(context, entity, "filename");
     const Transform medium_from_world = entity.world_from_medium.inverse();
-    Volume density = read_volume(file, p.get_string("gridname", "density"));
-    std::optional<Volume> temperature = try_read_volume(file, p.get_string("temperaturename", "temperature"));
+    const auto density = load_volume(context, file, p.get_string("gridname", "density"), false);
+    const auto temperature = load_volume(context, file, p.get_string("temperaturename", "temperature"), true);
     std::shared_ptr<GridEmission> emission;
     const float scale = non_negative_float(p, emission_scale_name(p), 1);
-    for (const Volume* volume : {&density, temperature ? &*temperature : nullptr}) {
+    for (const Volume* volume : {density.get(), temperature.get()}) {
         if (volume && !volume->warning.empty()) {
             context.warnings.add(p.place_of("filename"), volume->warning);
         }
     }
     if (temperature) {
-        emission = make_emission_sampler(p, std::make_shared<const Grid>(std::move(temperature->grid)),
+        emission = make_emission_sampler(p, std::make_shared<const Grid>(temperature->grid),
                                          temperature->world_from_index.inverse() * medium_from_world, scale);
     }
-    const Vec3i first = density.grid.first();
-    const Vec3i last = first + density.grid.size();
+    const Vec3i first = density->grid.first();
+    const Vec3i last = first + density->grid.size();
     const Coefficients c = load_coefficients(context, p);
-    return GridMedium(std::make_shared<const Grid>(std::move(density.grid)),
-                      density.world_from_index.inverse() * medium_from_world, Box3(Vec3(first), Vec3(last)),
+    return GridMedium(std::make_shared<const Grid>(density->grid),
+                      density->world_from_index.inverse() * medium_from_world, Box3(Vec3(first), Vec3(last)),
                       c.absorption, c.scattering, load_phase(context, p), std::move(emission));
 }
 

@@ -1,5 +1,6 @@
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
+#include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/textures.h>
 
 #include <fmt/format.h>
@@ -360,7 +361,10 @@ std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path&
                                                     const Place& place, Channels channels) {
     std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding, channels}];
     if (!image) {
-        image = std::make_shared<const Image>(reduce_picture(read_encoded(file, encoding, place), channels));
+        const std::tuple key(file.lexically_normal().string(), encoding, channels);
+        image = read_part(context_, &LoadedParts::pictures, key, file, [&] {
+            return std::make_shared<const Image>(reduce_picture(read_encoded(file, encoding, place), channels));
+        });
     }
     return image;
 }

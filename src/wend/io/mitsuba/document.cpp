@@ -16,6 +16,7 @@ namespace wend::mitsuba {
 namespace {
 
 constexpr int deepest_element = 64;
+constexpr std::size_t most_attributes = 64;  // of an element
 constexpr std::size_t deepest_include = 15, most_includes = 1000;
 constexpr std::size_t most_bytes = std::size_t{256} << 20;
 // What parameters may be called, and may add up to where their values take the places of their names.
@@ -110,6 +111,10 @@ private:
         element->tag = node.name();
         element->place = place_of(node);
         for (const pugi::xml_attribute& attribute : node.attributes()) {
+            // Each is compared with all before.
+            if (element->attributes.size() == most_attributes) {
+                throw InputError(element->place, fmt::format("an element has at most {} attributes", most_attributes));
+            }
             if (element->has(attribute.name())) {
                 throw InputError(element->place, fmt::format("the attribute \"{}\" is given twice", attribute.name()));
             }

@@ -316,7 +316,10 @@ Materials::Leaf Materials::principled(const Object& bsdf) {
     // A coat is a quarter as strong as one of glass.
     if (bsdf.has("clearcoat")) {
         const double gloss = bsdf.number("clearcoat_gloss", 0);
-        p.real("coat", textures_.number(bsdf, "clearcoat", 0))
+        const NumberOrTexture given = textures_.number(bsdf, "clearcoat", 0);
+        const auto* number = std::get_if<float>(&given);
+        p.real("coat", number ? NumberOrTexture(0.25f * *number)
+                              : textures_.scaled(std::get<TextureRef>(given), 0.25, bsdf.place()))
             .real("coatroughness", std::sqrt(0.1 + gloss * (0.001 - 0.1)));
     }
     for (const char* name :

@@ -38,6 +38,8 @@ public:
     /// Takes over `others`, which override those of the same name.
     void override_with(const ParameterSet& others);
 
+    /// Whether these are the very parameters of the other set, and not just alike.
+    bool is_same_as(const ParameterSet& other) const { return own_ == other.own_ && defaults_ == other.defaults_; }
     bool has(std::string_view name) const { return find(name) != nullptr; }
     /// The type under which a parameter was given; does not mark it as looked up.
     std::optional<ParameterType> type_of(std::string_view name) const;

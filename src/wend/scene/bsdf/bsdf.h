@@ -200,6 +200,13 @@ struct PrincipledBsdf {
     float coat = 0;      ///< share of the surface that it covers
     float coat_alpha = 0.01f;
     float coat_ior = 1.5f;
+    /// Whether there is a medium inside, of the same index, in place of a share of the diffuse base. What goes in goes
+    /// by refraction at facets or evenly, undiminished by what facets reflect from inside; what comes out does so
+    /// evenly, whatever it met. The two directions cannot be exchanged.
+    bool has_inside = false;
+    float subsurface = 0;  ///< that share
+    float entry_ior = 1.5f, entry_alpha = 0.25f;
+    float entry_even = 0;                ///< share of what goes in evenly
     const FacetAlbedo* below = nullptr;  ///< of `ior`; referred to
     const FacetAlbedo* above = nullptr;  ///< of `coat_ior`, where there is a coat
 
@@ -217,9 +224,11 @@ private:
     struct Parts;
     /// How a direction is drawn.
     struct Shares {
-        float coat, facets, base;
+        float coat, facets, base, entry;
     };
     Shares shares(const Parts& parts) const;
+    float entry_density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<Vec3> sample_entry(const Vec3& wo, float u, const Vec2& u2) const;
 };
 
 /// The closed set of BSDFs.

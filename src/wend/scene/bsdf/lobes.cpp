@@ -62,6 +62,9 @@ struct LobesOf {
     // The facets of a dielectric are left to the BSDF's own sampling.
     AxialLobes operator()(const PrincipledBsdf& b) const {
         constexpr float half = 0.5f;
+        if (b.has_inside) {
+            return {};
+        }
         return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha, b.alpha, wo);
     }
 };
@@ -81,7 +84,7 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const ThinDielectricBsdf&) const { return false; }
         bool operator()(const CoatedBsdf& b) const { return !b.is_specular(); }
         bool operator()(const HairBsdf&) const { return false; }
-        bool operator()(const PrincipledBsdf&) const { return true; }
+        bool operator()(const PrincipledBsdf& b) const { return !b.has_inside; }
     };
     return std::visit(Pictured{}, bsdf);
 }

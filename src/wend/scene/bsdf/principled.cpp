@@ -59,21 +59,44 @@ PrincipledBsdf::Shares PrincipledBsdf::shares(const Parts& parts) const {
     shares.coat = coat * parts.albedo_of_coat;
     shares.facets =
         parts.left * (metallic * mean_value(parts.albedo_of_metal) + (1 - metallic) * parts.albedo_of_facets);
-    shares.base = parts.left * (1 - metallic) * parts.below * mean_value(base);
-    const float sum = shares.coat + shares.facets + shares.base;
+    shares.base = parts.left * (1 - metallic) * parts.below * (1 - subsurface) * mean_value(base);
+    shares.entry = parts.left * (1 - metallic) * parts.below * subsurface;
+    const float sum = shares.coat + shares.facets + shares.base + shares.entry;
     if (!(sum > 0)) {
-        return {0, 1, 0};
+        return {0, 1, 0, 0};
     }
     // What is dark from here may be bright at grazing angles.
     constexpr float least = 0.05f;
     shares.coat = coat > 0 ? std::max(shares.coat / sum, least) : 0.0f;
     shares.facets = std::max(shares.facets / sum, least);
-    shares.base = metallic < 1 ? std::max(shares.base / sum, least) : 0.0f;
-    const float all = shares.coat + shares.facets + shares.base;
-    return {shares.coat / all, shares.facets / all, shares.base / all};
+    shares.base = metallic < 1 && subsurface < 1 ? std::max(shares.base / sum, least) : 0.0f;
+    shares.entry /= sum;
+    const float all = shares.coat + shares.facets + shares.base + shares.entry;
+    return {shares.coat / all, shares.facets / all, shares.base / all, shares.entry / all};
+}
+
+float PrincipledBsdf::entry_density(const Vec3& wo, const Vec3& wi) const {
+    const float refracted =
+        entry_even < 1 ? DielectricBsdf{entry_ior, entry_alpha, entry_alpha}.refraction_density(wo, wi) : 0.0f;
+    return entry_even * cosine_hemisphere_density(std::abs(wi.z)) + (1 - entry_even) * refracted;
+}
+
+std::optional<Vec3> PrincipledBsdf::sample_entry(const Vec3& wo, float u, const Vec2& u2) const {
+    if (u < entry_even) {
+        return -to_cosine_hemisphere(u2);
+    }
+    const auto s = DielectricBsdf{entry_ior, entry_alpha, entry_alpha}.sample_refraction(wo, u2);
+    return s ? std::optional(s->direction) : std::nullopt;
 }
 
 Rgb PrincipledBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
+    if (has_inside && wo.z < 0) {
+        return Rgb(std::max(wi.z, 0.0f) * inv_pi);
+    }
+    if (has_inside && wi.z < 0) {
+        const Parts parts(*this, wo);
+        return Rgb(parts.left * (1 - metallic) * parts.below * subsurface * entry_density(wo, wi));
+    }
     const Vec3 sum = wo + wi;
     if (!(wo.z * wi.z > 0) || length_squared(sum) == 0) {
         return Rgb(0.0f);
@@ -88,7 +111,7 @@ Rgb PrincipledBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const float single = reflected(alpha);
     const Rgb metal = (base + (Rgb(1.0f) - base) * std::pow(1 - std::min(c, 1.0f), 5.0f)) * parts.metal;
     const Rgb facets = parts.facets * fresnel_dielectric(c, ior);
-    const Rgb diffuse = base * (parts.below * inv_pi * std::abs(wi.z));
+    const Rgb diffuse = base * (parts.below * (1 - subsurface) * inv_pi * std::abs(wi.z));
     Rgb value = (metal * metallic * single + (facets * single + diffuse) * (1 - metallic)) * parts.left;
     if (coat > 0) {
         value += Rgb(coat * parts.coat * fresnel_dielectric(c, coat_ior) * reflected(coat_alpha));
@@ -97,6 +120,12 @@ Rgb PrincipledBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
 }
 
 float PrincipledBsdf::density(const Vec3& wo, const Vec3& wi) const {
+    if (has_inside && wo.z < 0) {
+        return cosine_hemisphere_density(std::max(wi.z, 0.0f));
+    }
+    if (has_inside && wi.z < 0) {
+        return shares(Parts(*this, wo)).entry * entry_density(wo, wi);
+    }
     Vec3 m = wo + wi;
     if (!(wo.z * wi.z > 0) || length_squared(m) == 0) {
         return 0;
@@ -118,15 +147,30 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3& wo, float u, const 
     if (wo.z == 0) {
         return std::nullopt;
     }
+    if (has_inside && wo.z < 0) {
+        const Vec3 wi = to_cosine_hemisphere(u2);
+        const float p = density(wo, wi);
+        return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
+    }
     const Shares share = shares(Parts(*this, wo));
     Vec3 wi;
-    if (u < share.base) {
+    if (u > 1 - share.entry) {
+        const auto entered = sample_entry(wo, (1 - u) / share.entry, u2);
+        if (!entered) {
+            return std::nullopt;
+        }
+        wi = *entered;
+    } else if (u < share.base) {
         wi = to_cosine_hemisphere(u2);
         wi.z = wo.z < 0 ? -wi.z : wi.z;
     } else {
         const float roughness = u < share.base + share.facets ? alpha : coat_alpha;
         const Vec3 m = Microfacets(roughness, roughness).sample_visible(wo, u2);
         wi = m * (2 * dot(wo, m)) - wo;
+        // Below, it is not what goes in.
+        if (!(wo.z * wi.z > 0)) {
+            return std::nullopt;
+        }
     }
     const float p = density(wo, wi);
     if (!(p > 0)) {

@@ -76,7 +76,7 @@ export class GuideView {
     const end = { surface: "a surface", interface: "the boundary of a medium", nothing: "nothing" }[segment.end];
     let text = segment.length === null ? `The pixel's ray meets ${end}` : `The pixel's ray meets ${end} after ${number(segment.length)}`;
     text += segment.in_medium ? ", through a medium. " : ". ";
-    if (at) text += `Below: at distance ${number(at.distance)}, (${at.position.map((x) => number(x)).join(", ")}), in the ${at.part}.`;
+    if (at) text += `Below: at distance ${number(at.distance)}, (${at.position.map((x) => number(x)).join(", ")}), ${at.part === "surface" ? "on the surface" : "in the medium"}.`;
     byId("where").textContent = text;
   }
 
@@ -85,6 +85,10 @@ export class GuideView {
     byId("flight").hidden = !flight;
     if (!flight) return;
     plotFlight(byId("flight-plot"), flight, at?.distance ?? null);
+    const share = (ends) => `${(100 * ends.scatters).toFixed(0)} % scatter`;
+    byId("flight-guided").hidden = !flight.guided;
+    if (flight.guided) byId("guided-share").textContent = `guided: ${share(flight.guided)}`;
+    byId("classical-share").textContent = `classical: ${share(flight.classical)}`;
     this.distance.value = at ? Math.round((1000 * Math.min(at.distance, flight.length)) / flight.length) : 1000;
     byId("distance-value").value = at ? number(at.distance) : "";
   }

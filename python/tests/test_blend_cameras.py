@@ -1,0 +1,126 @@
+"""Blender's cameras, and what moves before them, against Cycles."""
+
+import numpy as np
+import pytest
+
+import wend
+
+bpy = pytest.importorskip("bpy", reason="bpy is not installed")
+from blender_scene import (  # noqa: E402, F401
+    SIZE,
+    add,
+    blocks,
+    by_cycles,
+    camera,
+    check,
+    floor,
+    lamp,
+    material,
+    mesh,
+    scene,
+    sky,
+    straight,
+)
+
+from wend import blend  # noqa: E402
+
+pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"type": "ORTHO", "ortho_scale": 5},
+        {"lens": 35, "shift_x": 0.2, "shift_y": -0.1},
+        {"sensor_fit": "VERTICAL", "sensor_height": 30, "lens": 40},
+    ],
+    ids=["orthographic", "shifted", "vertical"],
+)
+def test_cameras(scene, tmp_path, settings):
+    scene.render.resolution_x = 2 * SIZE
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    mesh(scene, "cube", material("Emission", color=(1, 0, 0)), place=(1, 0.5, 0.5), stretch=(0.5, 0.3, 0.6))
+    camera(scene, (0, -6, 3), (0, 0, 0.5), **settings)
+    theirs = by_cycles(scene, tmp_path, 64)
+    ours = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
+    # Where the cube is, within a pixel's edge.
+    assert np.abs(ours[..., 0] - theirs[..., 0]).mean() < 0.02
+
+
+def test_depth_of_field(scene, tmp_path):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    mesh(scene, "cube", material("Emission", color=(1, 0.5, 0.2)), place=(0.5, 1, 0.5), stretch=(0.4, 0.4, 0.4))
+    camera(scene, (0, -6, 3), (0, 0, 0.5))
+    scene.camera.data.dof.use_dof = True
+    scene.camera.data.dof.focus_distance = 3
+    scene.camera.data.dof.aperture_fstop = 0.1
+    check(scene, tmp_path, 1000)
+
+
+@pytest.mark.parametrize("what", ["object", "camera", "instances"])
+@pytest.mark.parametrize("position", ["START", "CENTER"])
+def test_motion_blur(scene, tmp_path, what, position):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    ball = mesh(scene, "cube", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), place=(0, 0, 1))
+    if what == "instances":
+        add(scene, "twin", ball.data, (0, 2, 2), size=(0.5, 0.5, 0.5))
+    moving = scene.camera if what == "camera" else ball
+    straight(moving)
+    scene.frame_set(2)
+    still = wend.render(blend.of_scene(scene, spp=16).scene(), sampling="classical").image
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter, scene.render.motion_blur_position = 0.8, position
+    ours, _ = check(scene, tmp_path, 1000)
+    # What stood still would be refused.
+    assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
+    assert scene.frame_current == 2 and scene.frame_subframe == 0
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_what_deforms_is_blurred(scene, tmp_path, smooth):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    lamp(scene, "SUN", 2, (0, 0, 5), (0.5, 0.3, 0), angle=0)
+    ball = mesh(scene, "uv_sphere", material("BsdfDiffuse", color=(0.9, 0.2, 0.1)), smooth, place=(0, 0, 1))
+    ball.shape_key_add(name="rest")
+    key = ball.shape_key_add(name="long")
+    for point in key.data:
+        point.co.x, point.co.z = 2.5 * point.co.x, 0.5 * point.co.z
+    for frame, value in ((1, 0.0), (3, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    for curve in ball.data.shape_keys.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+    scene.frame_set(1)
+    still = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    scene.render.motion_blur_position = "START"
+    ours, _ = check(scene, tmp_path, 1000, tolerance=0.015)
+    # What stood still would be refused.
+    assert np.abs(blocks(still) / blocks(ours) - 1).max() > 0.05
+
+
+def test_what_changes_its_number_of_points_is_named(scene):
+    cube = mesh(scene, "cube")
+    array = cube.modifiers.new("array", "ARRAY")
+    array.count = 1
+    array.keyframe_insert("count", frame=1)
+    array.count = 3
+    array.keyframe_insert("count", frame=3)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    with pytest.warns(wend.SceneWarning, match="changes its number of points"):
+        assert "P1" not in blend.of_scene(scene).text()
+
+
+def test_a_panorama(scene, tmp_path):
+    floor(scene)
+    sky(scene, (0.2, 0.3, 0.5))
+    for place, colour in (((2, 0, 0.5), (1, 0, 0)), ((-2, 1, 1), (0, 1, 0)), ((0.5, -2, 0.5), (0, 0, 1))):
+        mesh(scene, "cube", material("Emission", color=colour), place=place, stretch=(0.5, 0.5, 0.5))
+    camera(scene, (0, 0, 1), (1, 2, 1.3), type="PANO", panorama_type="EQUIRECTANGULAR")
+    check(scene, tmp_path, 256)

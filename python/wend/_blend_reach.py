@@ -1,0 +1,80 @@
+"""What Blender's shader nodes depend on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._blend_nodes import Nodes
+
+#: That depend on their inputs and nothing else.
+_PLAIN = {
+    "ShaderNode" + name
+    for name in (
+        "AddShader", "Blackbody", "BrightContrast", "Bump", "Clamp", "CombineColor", "CombineXYZ", "CombineHSV", "CombineRGB",
+        "Emission", "FloatCurve", "Gamma", "HueSaturation", "Invert", "MapRange", "Mapping", "Math", "Mix", "MixRGB",
+        "MixShader", "NormalMap", "OutputMaterial", "RGB", "RGBCurve", "RGBToBW", "SeparateColor", "SeparateXYZ",
+        "SeparateHSV", "SeparateRGB", "SubsurfaceScattering", "ValToRGB", "Value", "VectorCurve", "VectorMath",
+        "VectorRotate", "Wavelength",
+    )
+}  # fmt: skip
+#: That differ between instances of one object.
+_PLACED = {"ShaderNode" + name for name in ("NewGeometry", "ObjectInfo", "ParticleInfo", "HairInfo")}
+#: That depend on from where they are seen.
+_SEEING = {"ShaderNode" + name for name in ("Fresnel", "LayerWeight", "CameraData", "LightPath")}
+
+
+def is_uv(output: Any, uv_name: str) -> bool:
+    """Whether it gives the UV coordinates of that name, which are those that renders take."""
+    node = output.node
+    if node.bl_idname == "ShaderNodeUVMap":
+        return node.uv_map in ("", uv_name) and not node.from_instancer
+    return bool(node.bl_idname == "ShaderNodeTexCoord" and output.name == "UV" and not node.from_instancer)
+
+
+class Reach:
+    """Of inputs that are followed.
+
+    Args:
+        nodes: of the material.
+        uv_name: of the UV map that renders take.
+    """
+
+    def __init__(self, nodes: Nodes, uv_name: str) -> None:
+        self.is_by_uv = True  #: whether they depend on that and nothing else
+        self.has_bumps = False
+        self.is_by_place = False  #: whether instances of one object differ
+        self.sees: Any = None  #: a node that depends on from where it is seen
+        self._nodes, self._uv_name = nodes, uv_name
+        self._seen: set[int] = set()
+
+    def follow(self, socket: Any) -> None:
+        """Through all nodes that it takes something of."""
+        if socket.as_pointer() in self._seen or len(self._seen) > 4096:
+            return
+        self._seen.add(socket.as_pointer())
+        found = self._nodes.source(socket)
+        if found is None or not found.is_output:
+            return
+        node = found.node
+        kind = node.bl_idname
+        self.has_bumps = self.has_bumps or kind == "ShaderNodeBump"
+        by_other = kind == "ShaderNodeTexCoord" and found.name == "Object" and node.object is not None
+        self.is_by_place = self.is_by_place or kind in _PLACED or by_other
+        if kind in _SEEING or (kind == "ShaderNodeTexCoord" and found.name in ("Camera", "Window", "Reflection")):
+            self.sees = self.sees or node
+            self.is_by_uv = False
+        elif kind.startswith("ShaderNodeTex") and kind not in ("ShaderNodeTexCoord", "ShaderNodeTexEnvironment"):
+            by_default = kind == "ShaderNodeTexImage" and node.projection == "FLAT"
+            # Without coordinates a picture is by UV, all else by the object.
+            self.is_by_uv = self.is_by_uv and (by_default or self._is_placed(node))
+        elif not is_uv(found, self._uv_name) and kind not in _PLAIN and not kind.startswith("ShaderNodeBsdf"):
+            self.is_by_uv = False
+        elif kind == "ShaderNodeNormalMap" and (node.space != "TANGENT" or node.uv_map not in ("", self._uv_name)):
+            self.is_by_uv = False
+        for other in node.inputs:
+            self.follow(other)
+
+    def _is_placed(self, node: Any) -> bool:
+        vector = node.inputs.get("Vector")
+        return vector is None or self._nodes.source(vector) is not None

@@ -1,0 +1,114 @@
+"""Blender's volumes: their shader nodes as media of the renderer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._blend_nodes import Colour, Nodes, blackbody
+
+
+def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
+    """Of a shader node of a volume, the parameters of a medium of density 1 everywhere; None for one that is none."""
+    found = _volume(nodes, node)
+    if found is None:
+        return None
+    scattering, absorption, emission, phase = found
+    parameters: dict[str, Any] = {"rgb sigma_s": scattering, "rgb sigma_a": absorption} | phase
+    if emission.max() > 0:
+        # Here what shines is multiplied by what absorbs.
+        if absorption.min() <= 0:
+            nodes.warn(node, "a volume that shines and does not absorb shines by a small absorption")
+            absorption = np.maximum(absorption, 1e-4)
+            parameters["rgb sigma_a"] = absorption
+        parameters["rgb Le"] = emission / absorption
+    return parameters
+
+
+_Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
+
+
+def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Colour]:
+    first, second, third = np.zeros(3), np.zeros(3), np.zeros(3)
+    for weight, part in parts:
+        first, second, third = first + weight * part[0], second + weight * part[1], third + weight * part[2]
+    return first, second, third
+
+
+def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
+    """Scattering, absorption, emission, and the phase function."""
+    zero = np.zeros(3)
+    kind = node.bl_idname if node is not None else ""
+    if depth > 32 or node is None:
+        return None
+    if kind == "ShaderNodeVolumePrincipled":
+        density = nodes.number(node.inputs["Density"])
+        colour = np.maximum(nodes.colour(node.inputs["Color"]), 0)
+        dark = np.sqrt(np.maximum(nodes.colour(node.inputs["Absorption Color"]), 0))
+        absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
+        strength = nodes.number(node.inputs["Emission Strength"])
+        shine = nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else zero
+        glow = nodes.number(node.inputs["Blackbody Intensity"])
+        if glow > 0:
+            kelvin = nodes.number(node.inputs["Temperature"])
+            # Cycles' scale: of a body of one kelvin up to that of a black one, in megawatts.
+            scale = 5.670373e-14 / np.pi * (1 - glow + glow * kelvin**4)
+            shine = shine + scale * nodes.colour(node.inputs["Blackbody Tint"]) * blackbody(kelvin)
+        return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
+    if kind == "ShaderNodeVolumeScatter":
+        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        return density * np.maximum(colour, 0), zero, zero, _phase(nodes, node)
+    if kind == "ShaderNodeVolumeAbsorption":
+        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        return zero, density * np.clip(1 - colour, 0, None), zero, {}
+    if kind == "ShaderNodeVolumeCoefficients":
+        values = [nodes.colour(node.inputs[f"{name} Coefficients"]) for name in ("Scatter", "Absorption", "Emission")]
+        return values[0], values[1], values[2], _phase(nodes, node)
+    if kind == "ShaderNodeEmission":
+        return zero, zero, nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), {}
+    if kind in ("ShaderNodeAddShader", "ShaderNodeMixShader"):
+        sockets = node.inputs[:2] if kind == "ShaderNodeAddShader" else node.inputs[1:3]
+        parts = [_volume(nodes, nodes.shader(socket), depth + 1) for socket in sockets]
+        share = nodes.number(node.inputs[0]) if kind == "ShaderNodeMixShader" else 0.0
+        weights = (1 - share, share) if kind == "ShaderNodeMixShader" else (1.0, 1.0)
+        there = [(weight, part) for weight, part in zip(weights, parts) if part is not None]
+        if not there:
+            return None
+        phases = [part[3] for _, part in there if part[3]]
+        if len(phases) > 1 and phases[0] != phases[1]:
+            return _two_phases(nodes, node, there)
+        return *_sums(there), phases[0] if phases else {}
+    nodes.warn(node, f"{kind.removeprefix('ShaderNode')} as a volume is left out")
+    return None
+
+
+def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[float, _Coefficients]]) -> _Coefficients:
+    weights = [w * float(part[0].mean()) for w, part in parts]
+    if all(set(part[3]) <= {"float g"} for _, part in parts):
+        cosines = [part[3].get("float g", 0.0) for _, part in parts]
+        phase: dict[str, Any] = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}
+        return *_sums(parts), phase
+    nodes.warn(node, "of two phase functions the one that scatters more is taken")
+    return *_sums(parts), parts[int(np.argmax(weights))][1][3]
+
+
+def _phase(nodes: Nodes, node: Any) -> dict[str, Any]:
+    kind = node.phase
+    if kind == "HENYEY_GREENSTEIN":
+        return {"float g": nodes.number(node.inputs["Anisotropy"])}
+    if kind == "RAYLEIGH":
+        return {"string phase": "rayleigh"}
+    if kind == "DRAINE":
+        anisotropy, alpha = nodes.number(node.inputs["Anisotropy"]), nodes.number(node.inputs["Alpha"])
+        return {"string phase": "draine", "float g": anisotropy, "float alpha": alpha}
+    if kind == "MIE":
+        diameter = nodes.number(node.inputs["Diameter"])
+        if not 5 <= diameter <= 50:
+            nodes.warn(node, "droplets are taken as 5 to 50 micrometres wide")
+        return {"string phase": "fog", "float diameter": min(max(diameter, 5.0), 50.0)}
+    if kind == "FOURNIER_FORAND":
+        nodes.warn(node, "of Fournier and Forand's function the index counts; the slope of the sizes is 3.5835")
+        return {"string phase": "fournierforand", "float index": max(nodes.number(node.inputs["IOR"]), 1.001)}
+    nodes.warn(node, f"the phase function {kind} is taken as even")
+    return {}
