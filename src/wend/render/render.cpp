@@ -209,7 +209,7 @@ private:
     static void archive(Archive& bytes, Self& work) {
         bytes.same(work.tiles_.size());
         bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
-              work.mark_, work.last_mark_);
+              work.taught_, work.mark_, work.last_mark_);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
             archive_work(bytes, work, i);
@@ -335,6 +335,9 @@ private:
         statistics_.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
+        if (plan_.learns) {
+            taught_ += plan_.count * choice_.recorded_share(plan_.first);
+        }
         const bool chooses_anew = choose(statistics_.samples);
         if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
@@ -348,8 +351,9 @@ private:
         PassPlan plan;
         plan.first = samples;
         plan.count = count;
-        plan.learns =
-            samples < settings_.training_samples && !(is_last && choice_.kinds().size() > 1 && !settings_.keeps_fields);
+        const bool is_taught = samples >= settings_.training_samples &&
+                               (taught_ >= settings_.training_samples || !choice_.guiding_pays());
+        plan.learns = !is_taught && !(is_last && choice_.kinds().size() > 1 && !settings_.keeps_fields);
         plan.guides = choice_.guides(count);
         plan.steers = preset.direction || learners_.get<InteriorLearner>().can_guide();
         // In a small picture the fields would learn from too few.
@@ -467,6 +471,7 @@ private:
     std::vector<int> owners_;  ///< by tile, in the pass at hand: ranks; none where there is one
     bool is_stopped_ = false, is_time_over_ = false;
     bool is_within_pass_ = false;
+    double taught_ = 0;            ///< samples of each pixel that the fields have learned from
     PassPlan plan_;                ///< of the pass at hand
     std::size_t kind_ = 0;         ///< of the walks at hand
     double noise_ = 0;             ///< after the last pass
