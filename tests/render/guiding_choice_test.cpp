@@ -5,6 +5,7 @@
 
 #include <array>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -206,6 +207,36 @@ TEST(GuidingChoice, SmallSharesHoldInTheMean) {
         }
     }
     EXPECT_NEAR(rare / (pixels * samples), 0.03, 0.002);
+}
+
+TEST(GuidingChoice, TeachesOnWhereGuidingBringsMuch) {
+    const auto pays = [](double variance) {
+        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).guiding_pays();
+    };
+    EXPECT_FALSE(pays(1.5));
+    EXPECT_TRUE(pays(3));
+}
+
+TEST(PixelWalks, KindsAreComparedInTheSamePixels) {
+    // A hard pixel and an easy one. The first pass gives them as many walks, the second four times as many to the hard
+    // one: both kinds are alike, and so are their tallies.
+    const auto shown = [](int hard_walks, int easy_walks) {
+        const double mean = (hard_walks + easy_walks) / 2.0;
+        WalkTally tally;
+        for (const auto& [count, spread] : {std::pair(hard_walks, 8.0f), std::pair(easy_walks, 1.0f)}) {
+            PixelWalks pixel(1, mean / count);
+            for (int i = 0; i < count; ++i) {
+                pixel.add(10 + (i % 2 == 0 ? spread : -spread), spread);
+            }
+            tally += pixel.tally();
+        }
+        return tally;
+    };
+    const WalkTally even = shown(4000, 4000), uneven = shown(6400, 1600);
+    EXPECT_DOUBLE_EQ(uneven.walks, even.walks);
+    EXPECT_NEAR(uneven.square / even.square, 1, 1e-3);
+    EXPECT_NEAR(uneven.value / even.value, 1, 1e-9);
+    EXPECT_NEAR(uneven.work / even.work, 1, 1e-9);
 }
 
 TEST(PixelWalks, ShowTheVarianceByTheirScale) {

@@ -49,7 +49,8 @@ WalkTally PixelWalks::tally() const {
         return {};
     }
     const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
-    return {count_, sum_, count_ * variance, count_ * scale_ * scale_ * variance, work_};
+    const double walks = weight_ * count_;
+    return {walks, weight_ * sum_, walks * variance, walks * scale_ * scale_ * variance, weight_ * work_};
 }
 
 WalkTally& WalkTally::operator+=(const WalkTally& o) {

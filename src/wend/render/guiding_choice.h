@@ -28,8 +28,9 @@ struct WalkTally {
 class PixelWalks {
 public:
     /// Their errors are multiplied by `scale`: the picture's mean over what is expected of the pixel, since errors
-    /// count relative to their pixel.
-    explicit PixelWalks(double scale = 1) : scale_(scale) {}
+    /// count relative to their pixel. A walk counts for `weight` walks, the less the more the pixel has in a pass:
+    /// kinds that have walks in different passes are to be compared in the same pixels.
+    explicit PixelWalks(double scale = 1, double weight = 1) : scale_(scale), weight_(weight) {}
 
     /// A walk that brought so much, by so much counted work.
     void add(float brought, double work) {
@@ -43,7 +44,7 @@ public:
     WalkTally tally() const;
 
 private:
-    double scale_;
+    double scale_, weight_;
     double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0;
 };
 
@@ -103,6 +104,8 @@ public:
     bool has_chosen() const { return state_ == State::chosen; }
     /// Whether every kind is being tried.
     bool is_trial() const { return state_ == State::trial; }
+    /// Whether guiding brings so much that to teach the fields further pays.
+    bool guiding_pays() const { return gain_ > 2; }
     /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.
     double recorded_share(int samples) const;
 

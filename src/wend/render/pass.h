@@ -115,7 +115,7 @@ public:
             const Vec2i pixel = tile.pixel(tile.pixels_done);
             const float expected = estimate(pixel);
             if (tile.samples_done == 0) {
-                tile.of_pixel = PixelWalks(error_scale(expected, mean));
+                tile.of_pixel = PixelWalks(error_scale(expected, mean), weight(pixel));
             }
             for (const int count = count_of(pixel); tile.samples_done < count; ++tile.samples_done) {
                 if (tile.counts.segments - looked > few) {
@@ -126,7 +126,10 @@ public:
                     return;
                 }
             }
-            tile.tallies[kind_] += tile.of_pixel.tally();
+            // What is not relative to its pixel would weigh by how bright that is.
+            if (!plan_.estimates.empty()) {
+                tile.tallies[kind_] += tile.of_pixel.tally();
+            }
             tile.samples_done = 0;
         }
     }
@@ -246,6 +249,11 @@ private:
     }
     int count_of(const Vec2i& pixel) const {
         return plan_.counts.empty() ? plan_.count : static_cast<int>(plan_.counts[place_of(pixel)]);
+    }
+
+    /// Of a sample, such that all pixels weigh the same.
+    double weight(const Vec2i& pixel) const {
+        return plan_.counts.empty() ? 1.0 : static_cast<double>(plan_.count) / std::max(count_of(pixel), 1);
     }
 
     double mean_estimate(const PixelRect& pixels) const {

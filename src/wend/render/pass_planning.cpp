@@ -41,8 +41,9 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     PassPlan plan;
     plan.first = samples;
     plan.count = count;
-    plan.learns =
-        samples < settings.training_samples && !(is_last && choice.kinds().size() > 1 && !settings.keeps_fields);
+    const int enough = settings.training_samples;
+    const bool is_taught = samples >= enough && (rendered.recorded >= enough || !choice.guiding_pays());
+    plan.learns = !is_taught && !(is_last && choice.kinds().size() > 1 && !settings.keeps_fields);
     plan.guides = choice.guides(count);
     plan.steers = preset.direction || learners.get<InteriorLearner>().can_guide();
     // In a small picture the fields would learn from too few.

@@ -19,8 +19,9 @@ struct KnownSoFar {
 
 /// How far a render is.
 struct RenderedSoFar {
-    int samples = 0;   ///< of each pixel, as a mean
-    double noise = 0;  ///< Film::relative_noise()
+    int samples = 0;      ///< of each pixel, as a mean
+    double recorded = 0;  ///< of these, what the fields have learned from
+    double noise = 0;     ///< Film::relative_noise()
 };
 
 /// A pass of `count` samples of each pixel, as a mean. `is_last`: whether none follows it.

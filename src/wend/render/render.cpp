@@ -185,7 +185,7 @@ private:
     static void archive(Archive& bytes, Self& work) {
         bytes.same(work.tiles_.size());
         bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
-              work.mark_, work.last_mark_, work.taught_);
+              work.recorded_samples_, work.mark_, work.last_mark_, work.taught_);
         bytes.require(work.taught_.size() <= 1);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
@@ -282,8 +282,8 @@ private:
     void begin_pass(int count) {
         const bool is_last =
             schedule_.is_last(static_cast<int>(statistics_.passes.size()), statistics_.samples + count);
-        plan_ =
-            plan_pass({context_, film_, learners_, choice_, taught()}, {statistics_.samples, noise_}, count, is_last);
+        plan_ = plan_pass({context_, film_, learners_, choice_, taught()},
+                          {statistics_.samples, recorded_samples_, noise_}, count, is_last);
         learners_.begin(plan_);
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
             tiles_[i].shares = choice_.shares(i, count);
@@ -312,6 +312,9 @@ private:
         statistics_.training_seconds += seconds_since(start);
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
+        if (plan_.learns) {
+            recorded_samples_ += plan_.count * choice_.recorded_share(plan_.first);
+        }
         const bool chooses_anew = choose(statistics_.samples);
         if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
@@ -362,6 +365,7 @@ private:
 
     bool is_stopped_ = false, is_time_over_ = false;
     bool is_within_pass_ = false;
+    double recorded_samples_ = 0;  ///< of each pixel: those that the fields have learned from
     PassPlan plan_;                ///< of the pass at hand
     std::size_t kind_ = 0;         ///< of the walks at hand
     double noise_ = 0;             ///< after the last pass

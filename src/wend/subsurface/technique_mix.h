@@ -33,6 +33,13 @@ struct TechniqueMix {
     /// Of recording for the learned field what a guided interior walk meets on its way: the field takes over where
     /// guides are given up.
     float recording_probability = 1;
+
+    /// See ListsMembers: it has padding.
+    template <class Archive, class Self>
+    static void archive(Archive& bytes, Self& mix) {
+        bytes(mix.defensive_fraction, mix.unguided_probability, mix.is_unguided_classical, mix.guided, mix.unguided,
+              mix.recording_probability);
+    }
 };
 
 /// What comes after what interior walks have taught.
