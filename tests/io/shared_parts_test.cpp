@@ -1,6 +1,6 @@
 #include "load_support.h"
 
-#include <support/scratch_folder.h>
+#include <tests/support/scratch_folder.h>
 #include <wend/io/load/loaded_parts.h>
 #include <wend/io/pbrt/named_parameters.h>
 
