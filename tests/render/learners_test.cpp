@@ -93,6 +93,7 @@ TEST(Learners, OneMoreIsToldOfEveryVertexAndChangesNothing) {
     PassPlan plan;
     plan.count = 1;
     plan.learns = true;
+    TileShares alone(nullptr);
     const ClassicalDecisions decisions;
     const auto& guides = learners.get<InteriorLearner>().guides();
     const auto& lights = learners.get<LightLearner>().selection();
@@ -111,7 +112,7 @@ TEST(Learners, OneMoreIsToldOfEveryVertexAndChangesNothing) {
             EXPECT_EQ(radiance, standard.trace(ray, 0, same).sample.radiance);
             learners.keep(tile, counts);
         }
-        learners.learn(records, plan);
+        learners.learn(records, plan, alone);
         return learners.get<VertexLearner>().vertices();
     };
     EXPECT_EQ(walk(100, false), 0u) << "walks that do not count";
