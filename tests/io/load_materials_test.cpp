@@ -4,6 +4,7 @@
 #include <wend/io/image_file.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
+#include <wend/scene/bsdf/rough_coat.h>
 #include <wend/scene/noise.h>
 
 #include <gtest/gtest.h>
@@ -136,7 +137,8 @@ TEST(LoadMaterials, Coats) {
         "0.1 \"rgb albedo\" [ 0.5 0.5 0.5 ] \"integer nsamples\" 4 \"float g\" 0.2");
     const auto& material = loaded.as<CoatedMaterial>();
     expect_near(loaded.value(std::get<DiffuseMaterial>(material.base).reflectance), {0.1f, 0.2f, 0.3f});
-    EXPECT_FLOAT_EQ(material.returned, coat_return(1.5f, 0.1f));
+    const float alpha = std::sqrt(0.1f);
+    EXPECT_FLOAT_EQ(material.returned, rough_coat_return({1.5f, alpha, alpha}, 0.1f));
     EXPECT_NEAR(coat_return(1.5f, 0), fresnel_diffuse_reflectance(1 / 1.5f), 2e-4f);
     EXPECT_EQ(material.walks, 4);
     EXPECT_EQ(material.max_depth, 10);

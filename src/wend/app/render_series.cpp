@@ -41,9 +41,10 @@ void require_numbers(const std::vector<std::string*>& names, const char* kind) {
     }
 }
 
+/// Where pictures go, unless its name is that of one.
 bool is_folder(const std::string& name) {
     std::error_code error;
-    return name.ends_with('/') || std::filesystem::is_directory(name, error);
+    return name.ends_with('/') || (!name.ends_with(".exr") && std::filesystem::is_directory(name, error));
 }
 
 /// The picture of a scene in a folder.
