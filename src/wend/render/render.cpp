@@ -255,7 +255,8 @@ private:
     }
 
     double fraction() const {
-        // Of other ranks it is not known how far they are in the pass at hand.
+        // Of other ranks it is not known how far they are in the pass at hand. Pixels that get samples by their noise
+        // do so in the mean.
         double paths = 0, pixels = 0;
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
             if (shares_.owns(i)) {
@@ -263,7 +264,8 @@ private:
                 pixels += tiles_[i].pixel_count();
             }
         }
-        const double samples = pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
+        const double samples =
+            is_within_pass_ && pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
         const double by_noise = settings_.noise > 0 && noise_ > 0 ? std::pow(settings_.noise / noise_, 2) : 0.0;
         return std::min(1.0, std::max(schedule_.fraction(samples, seconds()), by_noise));
     }
