@@ -26,7 +26,7 @@ Image image_of(const Layer& layer, const Image& size) {
     return image;
 }
 
-/// What the network is told beside the colours; empty where there is nothing.
+/// What the network gets beside the colours; empty where there is nothing.
 struct Guides {
     Image albedo, normal;
 };

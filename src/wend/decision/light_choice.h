@@ -1,4 +1,4 @@
-// Which light a vertex is connected to: what choices are told, and what they answer.
+// Which light a vertex is connected to: what choices are given, and what they answer.
 #pragma once
 
 #include <wend/core/vector.h>

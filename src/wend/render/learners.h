@@ -82,7 +82,7 @@ private:
         }
         if constexpr (LearnsTogether<L>) {
             for (std::size_t i = 0; i < all.size(); ++i) {
-                // What others have told before is theirs.
+                // What other processes sent before is theirs to bring.
                 all[i] = shares.owns(i) ? std::move(all[i]) : typename L::Records();
             }
             learner.learn(all, plan, shares);

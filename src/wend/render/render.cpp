@@ -207,7 +207,7 @@ private:
         bytes(work.tiles_[tile]);
         work.learners_.archive_records(bytes, work.records_[tile]);
     }
-    /// Tells all ranks what each has added to the film. Records are told of when they are learned from.
+    /// Gives all ranks what each has added to the film. Records are exchanged when they are learned from.
     void share_film() {
         shares_.gather([&](auto& bytes, std::size_t tile) {
             bytes(tiles_[tile]);
@@ -326,7 +326,7 @@ private:
     }
 
     const TaughtPicture* taught() const { return taught_.empty() ? nullptr : &taught_.front(); }
-    /// What others are told of the picture.
+    /// What later renders may know of the picture.
     TaughtPicture seen_picture() const {
         return is_within_pass_ ? TaughtPicture() : picture_seen(context_, film_, statistics_.samples);
     }
