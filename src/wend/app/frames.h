@@ -20,9 +20,9 @@ bool has_frame_number(const std::string& name);
 /// are two groups.
 std::string with_frame_number(const std::string& name, int frame);
 
-/// Renders one after another: frames, or scenes, as `kind` calls them. What goes wrong in one is reported, and the others
-/// are rendered all the same; at the end the first error's kind is thrown, with the names of all that failed. A signal
-/// (EndedBySignal) ends all.
+/// Renders one after another: frames, or scenes, as `kind` calls them. What goes wrong in one is reported, and the
+/// others are rendered all the same; at the end the first error's kind is thrown, with the names of all that failed. A
+/// signal (EndedBySignal) ends all.
 void for_each_in_turn(const std::string& kind, const std::vector<std::string>& names, const Streams& streams,
                       const std::function<void(std::size_t)>& render);
 
