@@ -94,7 +94,7 @@ void FieldLearner::learn(std::vector<Records>& mine, const PassPlan& plan, TileS
     }
     const bool shows = static_cast<bool>(context_.settings.on_records);
     const std::vector<std::uint64_t> totals = shares.team().sum({count, shows ? 1u : 0u});
-    budget_.learn(plan.recorded_share * context_.walks(plan), static_cast<double>(totals[0]));
+    budget_.learn(plan.recorded_walks, static_cast<double>(totals[0]));
     if (totals[1] > 0) {
         show(records, shares);
     }

@@ -211,10 +211,9 @@ void GuidingChoice::remember(std::span<const WalkTallies> pass, bool learns) {
     }
 }
 
-bool GuidingChoice::has_seen_all() const {
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        if (std::all_of(tallies_.begin(), tallies_.end(),
-                        [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
+bool GuidingChoice::shows_all_guided(std::span<const WalkTallies> pass) const {
+    for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
+        if (std::all_of(pass.begin(), pass.end(), [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
             return false;
         }
     }
@@ -233,6 +232,10 @@ void GuidingChoice::probe() {
 
 void GuidingChoice::begin_trial(bool with_classical) {
     state_ = State::trial;
+    if (with_classical) {
+        // Pixels are known better now: what walks have shown by then would not compare.
+        std::fill(tallies_.begin(), tallies_.end(), WalkTallies{});
+    }
     const std::size_t first = with_classical ? 0 : 1;
     WalkShares even{};
     std::fill(even.begin() + first, even.begin() + kinds_.size(), 1 / static_cast<float>(kinds_.size() - first));
@@ -248,8 +251,8 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         probe();
         return true;
     }
-    const bool knows_all = has_seen_all();
-    if (samples < warm_up_samples || (state_ == State::trial && !knows_all)) {
+    const bool shows_all = shows_all_guided(pass);
+    if (samples < warm_up_samples || (state_ == State::trial && !shows_all)) {
         return false;
     }
     const Products squares = squared_errors(), work = products(&WalkTally::work);
@@ -259,7 +262,7 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
     }
     if (state_ == State::probe) {
-        begin_trial(!knows_all || gain_ < plain);
+        begin_trial(!shows_all || gain_ < plain);
         return true;
     }
     const std::vector<WalkShares> before = shares_;
@@ -298,6 +301,17 @@ double GuidingChoice::recorded_share() const {
             return std::clamp(gain_ / enough, least, most);
     }
     return 1;
+}
+
+double GuidingChoice::directed_share(int samples) const {
+    double directed = 0;
+    for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
+        const WalkShares of_tile = shares(tile, samples);
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+            directed += kinds_[kind].preset.direction ? static_cast<double>(of_tile[kind]) : 0.0;
+        }
+    }
+    return directed / static_cast<double>(shares_.size());
 }
 
 WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, const Products& work,

@@ -108,6 +108,8 @@ public:
     /// Of the walks to come that take no directions from the fields, those that are worth recording: the more, the more
     /// guiding has been found to bring.
     double recorded_share() const;
+    /// Of the walks of a pass of so many samples, those that take directions from the fields.
+    double directed_share(int samples) const;
 
     /// Of a walk of each kind in the whole picture, were all walks of that kind: its variance relative to the picture's
     /// mean, and its work; estimates, 0 where none was tried.
@@ -140,8 +142,8 @@ private:
     void probe();
     /// From now on there are as many walks of each kind.
     void begin_trial(bool with_classical);
-    /// Whether each kind has shown something.
-    bool has_seen_all() const;
+    /// Whether each kind but the classical one has walks in a pass.
+    bool shows_all_guided(std::span<const WalkTallies> pass) const;
     Products products(double WalkTally::*what) const;
     /// Of squared errors, with those of light that a kind has not found yet.
     Products squared_errors() const;

@@ -40,6 +40,7 @@ struct PassPlan {
     double recorded_share = 1;  ///< of the walks, those that are recorded
     /// The same, of walks that take directions from the fields. Where light is hard to find they bring most of it.
     double recorded_share_directed = 1;
+    double recorded_walks = 0;  ///< that many, as a mean
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
     double mean_estimate = 0;    ///< of all pixels; 0 where estimates are not known
@@ -49,8 +50,8 @@ struct PassPlan {
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
         bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.guides, plan.steers,
-              plan.recorded_share, plan.recorded_share_directed, plan.estimates, plan.mean_estimate,
-              plan.sample_variance);
+              plan.recorded_share, plan.recorded_share_directed, plan.recorded_walks, plan.estimates,
+              plan.mean_estimate, plan.sample_variance);
     }
 
     /// Samples of each pixel once the pass has ended.

@@ -51,8 +51,10 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     const double walks = context.walks(plan);
     const double most_recorded = learners.get<FieldLearner>().recorded_share(walks);
     const double wanted = std::max(choice.recorded_share(), fewest_recorded / walks);
+    const double directed = choice.directed_share(count);
     plan.recorded_share = std::min(most_recorded, wanted);
-    plan.recorded_share_directed = std::min(most_recorded, 2 * wanted);
+    plan.recorded_share_directed = std::min(most_recorded, 2 * wanted / std::max(directed, wanted));
+    plan.recorded_walks = walks * ((1 - directed) * plan.recorded_share + directed * plan.recorded_share_directed);
     double sample_variance = std::pow(rendered.noise, 2) * samples;
     const bool knows_noise = samples >= known_noise;
     if (!knows_noise && taught) {
