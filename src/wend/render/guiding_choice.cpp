@@ -259,7 +259,8 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         return true;
     }
     const bool shows_directed = this->shows_directed(pass);
-    if (samples < warm_up_samples || (state_ == State::trial && !shows_directed)) {
+    const bool is_open = state_ == State::probe && samples < warm_up_samples;
+    if (state_ == State::classical || ((state_ == State::trial || is_open) && !shows_directed)) {
         return false;
     }
     const Products squares = squared_errors(), work = products(&WalkTally::work);
@@ -269,7 +270,11 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
     }
     if (state_ == State::probe) {
-        begin_trial(!shows_directed || gain_ < plain);
+        const bool is_plain = shows_directed && gain_ > plain;
+        if (is_open && !is_plain) {
+            return false;
+        }
+        begin_trial(!is_plain);
         return true;
     }
     const std::vector<WalkShares> before = shares_;
@@ -296,7 +301,7 @@ double GuidingChoice::recorded_share() const {
     if (kinds_.size() == 1) {
         return 1;
     }
-    constexpr double first = 0.1, before_trial = 0.3, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
+    constexpr double first = 0.1, before_trial = 0.2, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
     switch (state_) {
         case State::classical:
             return first;

@@ -318,7 +318,8 @@ private:
             recorded_samples_ += plan_.count * choice_.recorded_share();
         }
         const bool chooses_anew = choose(statistics_.samples);
-        if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
+        if ((statistics_.samples >= warm_up_samples || choice_.is_trial()) &&
+            (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
         }
         noise_ = film_.relative_noise();
