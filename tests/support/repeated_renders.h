@@ -9,19 +9,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace wend::test {
 
-/// Sixteen renders with seeds from `settings.seed` on, or as many more as it takes for the mean to be known as well as
-/// `enough`, relatively: by default so well that a bias of 1 % is seen.
+/// Sixteen renders with seeds from `settings.seed` on, or as many more as it takes to see a bias of 1 %.
 struct RepeatedRenders {
     Moments mean;      ///< of the luminance of whole pictures
     double noise = 0;  ///< mean of squared differences of pictures in luminance, between renders that follow each other
 
-    RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution, double enough = 0.0015) {
+    RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution) {
         Image last;
         constexpr int least = 16, most = 64;
+        constexpr double enough = 0.0015;
         int i = 0;
         for (; i < least || (i < most && mean.relative_error() > enough); ++i, ++settings.seed) {
             Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
@@ -51,8 +50,7 @@ inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRen
 /// Guided renders have the mean that is expected, seen to 1 %, and a small part of the noise of classical ones.
 inline void expect_right_and_quieter(const Scene& scene, RenderSettings settings, int resolution, double expected,
                                      double largest_noise) {
-    // What they are right by is known: of the classical ones only the noise is asked.
-    const RepeatedRenders classical(scene, settings, resolution, std::numeric_limits<double>::infinity());
+    const RepeatedRenders classical(scene, settings, resolution);
     for (const char* sampling : {"direction", "full"}) {
         SCOPED_TRACE(sampling);
         settings.preset = parse_preset(sampling);
