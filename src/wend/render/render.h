@@ -10,9 +10,10 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/preset.h>
 #include <wend/sampling/sampler.h>
+#include <wend/subsurface/preset.h>
 #include <wend/transport/first_surface.h>
-#include <wend/transport/path_tracer.h>
-#include <wend/transport/subsurface_guides.h>
+#include <wend/transport/light_parts.h>
+#include <wend/transport/walk_result.h>
 
 #include <atomic>
 #include <cstdint>
