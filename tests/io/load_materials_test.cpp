@@ -200,7 +200,6 @@ TEST(LoadMaterials, Mixtures) {
         glass += std::holds_alternative<DielectricMaterial>(scene.materials[static_cast<std::size_t>(at)]) ? 1 : 0;
     }
     EXPECT_NEAR(glass / static_cast<double>(points), 0.3, 0.015);
-    EXPECT_EQ(warnings_with(mixed("[ \"none\" \"red\" ]").scene, "\"interface\" cannot be mixed"), 1);
     // Two of them are one, also deep inside.
     EXPECT_NO_THROW(mixed("[ \"none\" \"none\" ]").as<InterfaceMaterial>());
     const Loaded nested(
@@ -210,6 +209,28 @@ TEST(LoadMaterials, Mixtures) {
     EXPECT_EQ(nested.as<MixMaterial>().first, nested.as<MixMaterial>().second);
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" ]"); }), "two \"materials\"");
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" \"blue\" ]"); }), "\"blue\" is not defined");
+}
+
+TEST(LoadMaterials, MixturesWithAnInterfaceAreThereByChance) {
+    const std::string parts =
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] "
+        "MakeNamedMaterial \"none\" \"string type\" \"interface\" ";
+    const auto presence = [&](const std::string& parameters, const std::string& of_shape = "") {
+        const LoadedScene loaded =
+            load_text(parts + "Material \"mix\" \"string materials\" " + parameters + " Shape \"sphere\" " + of_shape);
+        EXPECT_EQ(warnings_with(loaded, "a mixture lets its share of an \"interface\" pass"), 1);
+        const Surface& surface = loaded.scene.surfaces.at(0);
+        const auto& mix = std::get<MixMaterial>(loaded.scene.materials[static_cast<std::size_t>(surface.material)]);
+        EXPECT_EQ(mix.first, mix.second);
+        return loaded.scene.textures.evaluate(surface.alpha, {{0.25f, 0.25f}, {0, 0, 0}}).r;
+    };
+    EXPECT_FLOAT_EQ(presence("[ \"none\" \"red\" ] \"float amount\" 0.3"), 0.3f);
+    EXPECT_FLOAT_EQ(presence("[ \"red\" \"none\" ] \"float amount\" 0.3"), 0.7f);
+    EXPECT_FLOAT_EQ(presence("[ \"red\" \"none\" ] \"float amount\" 0.3", "\"float alpha\" 0.5"), 0.35f);
+    const std::string outer =
+        "MakeNamedMaterial \"holed\" \"string type\" \"mix\" \"string materials\" [ \"red\" \"none\" ] "
+        "Material \"mix\" \"string materials\" [ \"holed\" \"red\" ] Shape \"sphere\"";
+    EXPECT_EQ(warnings_with(load_text(parts + outer), "within a mixture of mixtures"), 1);
 }
 
 TEST(LoadMaterials, BumpsAndNormalMaps) {

@@ -26,13 +26,14 @@ float load_target(const pbrt::ParameterSet& p, std::string_view name) {
 
 /// A colour parameter times "scale"; white where it is absent.
 Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_view name) {
-    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(Rgb(1.0f)) *
+    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(default_light(p)) *
            non_negative_float(p, "scale", 1);
 }
 
 /// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
 Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
-    Image image = *textures.picture(required_file(context, light, "filename"), "sRGB", light.place);
+    Image image =
+        *textures.picture(required_file(context, light, "filename"), "sRGB", light.place, PictureChannels::of_light);
     for (Rgb& pixel : image.pixels) {
         if (!is_finite(pixel)) {
             throw InputError(light.parameters.place_of("filename"),
@@ -277,7 +278,7 @@ Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::L
         return make_sky(light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
-        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(Rgb(1.0f));
+        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(default_light(p));
         return make_sky(light, Image(1, 1, radiance));
     }
     Rgb radiance = load_scaled(context, p, "L");
