@@ -40,7 +40,9 @@ MeasuredData even_reflectance(const Rgb& reflectance, bool is_isotropic, std::si
                     const Vec3 m = direction(u * u * pi / 2, 2 * pi * v - pi);
                     const float cosine = std::max(0.0f, 2 * dot(wo, m) * m.z - wo.z);
                     data.colours.values[i] = reflectance * (4 * cosine / pi);
-                    data.luminance.values[i] = luminance(data.colours.values[i]);
+                    // As measured ones have it: times the solid angle over the area of the unit square.
+                    data.luminance.values[i] =
+                        luminance(data.colours.values[i]) * dot(wo, m) * u * std::sin(u * u * pi / 2);
                 }
             }
         }

@@ -3,6 +3,7 @@
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/sky_picture.h>
+#include <wend/io/spectrum/blackbody.h>
 
 #include <fmt/format.h>
 
@@ -269,6 +270,21 @@ Image load_sky(LoadContext& context, TextureLoader& textures, const pbrt::LightE
     return image;
 }
 
+/// What shines through a portal. pbrt keeps it as a picture, in which a spectrum has its own luminance, not 1 as in all
+/// other lights; that of a black body is 1 at its peak.
+Rgb load_light_of_portal(LoadContext& context, const pbrt::ParameterSet& p) {
+    const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(default_light(p));
+    const double even = xyz_from_spectrum([](double) { return 1.0; }).y;
+    double luminance_given = even;
+    const auto value = p.get_colour("L");
+    if (const auto* body = value ? std::get_if<pbrt::Blackbody>(&*value) : nullptr) {
+        luminance_given = blackbody_xyz(double{body->temperature}).y;
+    } else if (const auto spectrum = find_spectrum(context, p, "L")) {
+        luminance_given = xyz_from_spectrum(spectrum).y;
+    }
+    return radiance * static_cast<float>(luminance_given / even);
+}
+
 Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     if (p.has("filename")) {
@@ -278,8 +294,7 @@ Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::L
         return make_sky(light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
-        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(default_light(p));
-        return make_sky(light, Image(1, 1, radiance));
+        return make_sky(light, Image(1, 1, load_light_of_portal(context, p)));
     }
     Rgb radiance = load_scaled(context, p, "L");
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
