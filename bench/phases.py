@@ -5,8 +5,8 @@ usage: bench/phases.py [--wend BIN] [--samples N] [--seeds N] [--reference-sampl
 
 Renders scenes/fog-door.pbrt with each phase function in its fog, and with Henyey and Greenstein's of the same mean
 cosine: relMSE times processor time of classical sampling over that of the default, on one thread, with as many samples.
-Each scene's reference is rendered first, as two halves. Rows go to bench/results/phases.json, the table into
-docs/pbrt.md.
+Each scene's reference is rendered first, as two halves. Rows go to bench/results/phases.json, the table to the
+terminal.
 """
 
 import argparse
@@ -82,13 +82,6 @@ def table(rows):
         yield f"| {row['function']} | {row['mean_cosine']:.2f} | {own} | {other} |"
 
 
-def write_page(text, commit):
-    page = ROOT / "docs" / "pbrt.md"
-    begin, end = "<!-- phases -->", "<!-- /phases -->"
-    before, rest = page.read_text().split(begin)
-    page.write_text(f"{before}{begin}\n{text}\n\n*Commit `{commit}`.*\n{end}{rest.split(end)[1]}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--wend", type=Path, default=ROOT / "build/release/bin/wend")
@@ -114,7 +107,7 @@ def main():
                 "reference_samples": options.reference_samples}
     (ROOT / "bench/results/phases.json").write_text(
         json.dumps({"commit": commit, **settings, "rows": rows}, indent=1) + "\n")
-    write_page("\n".join(table(rows)), commit)
+    print("\n".join(table(rows)))
 
 
 if __name__ == "__main__":
