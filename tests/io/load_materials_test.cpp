@@ -311,11 +311,10 @@ TEST(LoadMaterials, SubsurfaceColoursMayVary) {
     EXPECT_EQ(warnings_with(radius.scene, "mean of the texture \"mfp\""), 1);
 }
 
-TEST(LoadMaterials, SubstitutesAreNamedOnce) {
-    const Loaded loaded(
-        "Material \"measured\" \"string filename\" \"a.bsdf\" Material \"measured\" \"string filename\" \"b.bsdf\"");
-    expect_near(loaded.reflectance(), Rgb(0.5f));
-    EXPECT_EQ(loaded.scene.warnings.size(), 1u);
+TEST(LoadMaterials, WhatCannotBeIsRefused) {
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"measured\" \"string filename\" \"none.bsdf\""); }),
+                 "test.pbrt:3:21: error: there is no file");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"measured\""); }), "needs the parameter");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"plaid\""); }), "known are");
     EXPECT_PRED2(contains, message_of([] {
                      Loaded("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"m\" \"m\" ]");
