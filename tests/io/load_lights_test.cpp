@@ -100,6 +100,16 @@ TEST(LoadLights, PortalsAreInTheWorld) {
         "\"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
     expect_near(turned.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}), {2, 4, 6});
     EXPECT_TRUE(is_black(turned.portal->radiance({1.5f, 0.5f, 0}, {0, 0, 1})));
+    // Spectra have their own luminance there: a half of what is even, and a black body's with a peak of 1.
+    const auto through = [](const std::string& radiance) {
+        const auto portal = only_light<PortalInfiniteLight>("LightSource \"infinite\" " + radiance +
+                                                            " \"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
+        return luminance(portal.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}));
+    };
+    EXPECT_NEAR(through("\"spectrum L\" [ 300 0.5 900 0.5 ]"), 0.5, 1e-3);
+    EXPECT_NEAR(through("\"spectrum L\" \"stdillum-D65\""), 1, 1e-3);
+    EXPECT_NEAR(through("\"blackbody L\" 3000"), luminance(blackbody_emission(3000)) / 106.857, 0.01);
+    EXPECT_LT(through("\"blackbody L\" 3000"), 0.5);
     const auto message = [](const std::string& corners) {
         return message_of([&] { load_text("LightSource \"infinite\" \"point3 portal\" [ " + corners + " ]"); });
     };

@@ -158,6 +158,10 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
     return b;
 }
 
+Bsdf bsdf_of(const MeasuredMaterial& m, const Textures&, const TexturePoint&) {
+    return MeasuredBsdf{m.tables.get()};
+}
+
 Bsdf bsdf_of(const MixMaterial&, const Textures&, const TexturePoint&) {
     WEND_EXPECT(false);
     return LambertBsdf{};

@@ -103,6 +103,11 @@ struct PrincipledMaterial {
     std::shared_ptr<const FacetAlbedo> below, above;  ///< of both
 };
 
+/// MeasuredBsdf.
+struct MeasuredMaterial {
+    std::shared_ptr<const MeasuredTables> tables;
+};
+
 /// At each point one of two others, by chance.
 struct MixMaterial {
     int first = 0;
@@ -114,8 +119,8 @@ struct MixMaterial {
 struct InterfaceMaterial {};
 
 using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
-                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial, MixMaterial,
-                              InterfaceMaterial>;
+                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial,
+                              MeasuredMaterial, MixMaterial, InterfaceMaterial>;
 
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);

@@ -3,6 +3,7 @@
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/sky_picture.h>
+#include <wend/io/spectrum/blackbody.h>
 
 #include <fmt/format.h>
 
@@ -26,13 +27,14 @@ float load_target(const pbrt::ParameterSet& p, std::string_view name) {
 
 /// A colour parameter times "scale"; white where it is absent.
 Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_view name) {
-    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(Rgb(1.0f)) *
+    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(default_light(p)) *
            non_negative_float(p, "scale", 1);
 }
 
 /// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
 Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
-    Image image = *textures.picture(required_file(context, light, "filename"), "sRGB", light.place);
+    Image image =
+        *textures.picture(required_file(context, light, "filename"), "sRGB", light.place, PictureChannels::of_light);
     for (Rgb& pixel : image.pixels) {
         if (!is_finite(pixel)) {
             throw InputError(light.parameters.place_of("filename"),
@@ -268,6 +270,21 @@ Image load_sky(LoadContext& context, TextureLoader& textures, const pbrt::LightE
     return image;
 }
 
+/// What shines through a portal. pbrt keeps it as a picture, in which a spectrum has its own luminance, not 1 as in all
+/// other lights; that of a black body is 1 at its peak.
+Rgb load_light_of_portal(LoadContext& context, const pbrt::ParameterSet& p) {
+    const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(default_light(p));
+    const double even = xyz_from_spectrum([](double) { return 1.0; }).y;
+    double luminance_given = even;
+    const auto value = p.get_colour("L");
+    if (const auto* body = value ? std::get_if<pbrt::Blackbody>(&*value) : nullptr) {
+        luminance_given = blackbody_xyz(double{body->temperature}).y;
+    } else if (const auto spectrum = find_spectrum(context, p, "L")) {
+        luminance_given = xyz_from_spectrum(spectrum).y;
+    }
+    return radiance * static_cast<float>(luminance_given / even);
+}
+
 Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     if (p.has("filename")) {
@@ -277,8 +294,7 @@ Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::L
         return make_sky(light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
-        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(Rgb(1.0f));
-        return make_sky(light, Image(1, 1, radiance));
+        return make_sky(light, Image(1, 1, load_light_of_portal(context, p)));
     }
     Rgb radiance = load_scaled(context, p, "L");
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {

@@ -140,6 +140,7 @@ private:
             scene_.materials.push_back(std::move(material.material));
             scene_.details.push_back(std::move(material.detail));
             inside_.push_back(inside);
+            presences_.push_back(material.presence);
         }
     }
 
@@ -319,7 +320,10 @@ private:
     }
 
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {
-        const std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        if (const TextureId presence = presences_[entity.material]; presence >= 0) {
+            alpha = alpha ? textures_.product(*alpha, presence) : presence;
+        }
         const Rgb* constant = alpha ? scene_.textures.constant(*alpha) : nullptr;
         const bool opaque = !alpha || (constant && constant->r >= 1);
         return opaque ? -1 : *alpha;
@@ -331,6 +335,7 @@ private:
     SceneDescription& scene_;
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
+    std::vector<TextureId> presences_;             ///< LoadedMaterial::presence
     std::vector<AreaLight> area_lights_;
     std::vector<int> area_light_groups_;
     std::vector<Place> places_;  ///< of the scene's surfaces
@@ -370,6 +375,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.film_file = film.file;
     loaded.exposure = film.sensitivity * shutter_time(description.camera);
     loaded.balance = film.balance;
+    loaded.colour_space = film.colour_space;
     loaded.filter = load_filter(context, description.filter);
     loaded.sampler = sampler.kind;
     loaded.samples = sampler.samples;

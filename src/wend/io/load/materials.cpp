@@ -1,5 +1,6 @@
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
+#include <wend/io/load/measured.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/mixtures.h>
 #include <wend/io/spectrum/metal.h>
@@ -42,7 +43,7 @@ public:
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
             {"principled", &MaterialLoader::load_principled},
-            {"measured", &MaterialLoader::replace_measured},
+            {"measured", &MaterialLoader::load_measured},
         };
         for (const auto& [type, loader] : known) {
             if (type != entity.type) {
@@ -65,10 +66,10 @@ private:
         return {DiffuseMaterial{textures_.colour(entity.parameters, "reflectance", Rgb(0.5f))}};
     }
 
-    LoadedMaterial replace_measured(const pbrt::MaterialEntity& entity) {
-        context_.warnings.add(entity.place, "Material \"measured\" is not implemented: \"diffuse\" takes its place");
-        static_cast<void>(entity.parameters.get_string("filename", ""));
-        return load_diffuse(entity);
+    LoadedMaterial load_measured(const pbrt::MaterialEntity& entity) {
+        const std::filesystem::path file = required_file(context_, entity, "filename");
+        std::shared_ptr<const MeasuredTables>& tables = measured_[file];
+        return {MeasuredMaterial{tables ? tables : tables = read_measured(file)}};
     }
 
     LoadedMaterial load_diffuse_transmission(const pbrt::MaterialEntity& entity) {
@@ -399,6 +400,7 @@ private:
     TextureLoader& textures_;
     const std::vector<pbrt::MaterialEntity>& all_;
     std::map<float, std::shared_ptr<const FacetAlbedo>> facets_;  // by index
+    std::map<std::filesystem::path, std::shared_ptr<const MeasuredTables>> measured_;
 };
 
 /// The share of light, even from above, that is scattered.
@@ -427,7 +429,7 @@ std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& 
     for (const pbrt::MaterialEntity& material : materials) {
         loaded.push_back(loader.load(material));
     }
-    check_mixtures(context, loaded, materials);
+    check_mixtures(context, textures, loaded, materials);
     return loaded;
 }
 

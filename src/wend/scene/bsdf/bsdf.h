@@ -231,9 +231,21 @@ private:
     std::optional<Vec3> sample_entry(const Vec3& wo, float u, const Vec2& u2) const;
 };
 
+class MeasuredTables;
+
+/// A measured reflection, alike from either side; x is where azimuths begin.
+struct MeasuredBsdf {
+    const MeasuredTables* tables = nullptr;  ///< referred to
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+};
+
 /// The closed set of BSDFs.
 using Bsdf = std::variant<LambertBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                          CoatedBsdf, HairBsdf, PrincipledBsdf>;
+                          CoatedBsdf, HairBsdf, PrincipledBsdf, MeasuredBsdf>;
 
 /// Refractive index beyond over before for light going from wo to wi; 1 unless refracted.
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);

@@ -59,6 +59,7 @@ struct LobesOf {
     AxialLobes operator()(const DielectricBsdf&) const { return {}; }
     AxialLobes operator()(const ThinDielectricBsdf&) const { return {}; }
     AxialLobes operator()(const HairBsdf&) const { return {}; }
+    AxialLobes operator()(const MeasuredBsdf&) const { return {}; }
     // The facets of a dielectric are left to the BSDF's own sampling.
     AxialLobes operator()(const PrincipledBsdf& b) const {
         constexpr float half = 0.5f;
@@ -84,6 +85,7 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const ThinDielectricBsdf&) const { return false; }
         bool operator()(const CoatedBsdf& b) const { return !b.is_specular(); }
         bool operator()(const HairBsdf&) const { return false; }
+        bool operator()(const MeasuredBsdf&) const { return false; }
         bool operator()(const PrincipledBsdf& b) const { return !b.has_inside; }
     };
     return std::visit(Pictured{}, bsdf);
