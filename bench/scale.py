@@ -165,6 +165,8 @@ SAYS = {
 WHY = {
     "samples": "An error of 32 pixels is known to a quarter, so a slope over two decades to .08. From the first row to "
                "the last there is no floor.",
+    "pixels": "From 3,840 to 7,680 pixels of width time grows more than the pixels do, with some 290 bytes of memory a "
+              "pixel. Why has not been looked into.",
     "lights": "A walk costs a little more with more lamps, as trees that choose among them are deeper and leave the "
               "caches. Loading is linear.",
     "cells": "A segment looks up a cell by a tree, so it costs what the tree's depth does.",
