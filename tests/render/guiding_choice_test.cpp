@@ -101,7 +101,7 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     EXPECT_TRUE(choice.is_trial());
 }
 
-TEST(GuidingChoice, ClassicalWalksThatAreFarBehindAtFirstAreNotTriedAgain) {
+TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlone) {
     const auto trial_after = [](double classical_variance) {
         GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
         choice.learn(std::vector<WalkTallies>(1), few_samples, true);
@@ -110,7 +110,7 @@ TEST(GuidingChoice, ClassicalWalksThatAreFarBehindAtFirstAreNotTriedAgain) {
         EXPECT_TRUE(choice.is_trial());
         return choice.shares(0, 8);
     };
-    EXPECT_EQ(trial_after(10), (WalkShares{0, 0.5f, 0.5f}));
+    EXPECT_EQ(trial_after(10), (WalkShares{0, 0, 1}));
     EXPECT_FLOAT_EQ(trial_after(2)[classical], 1.0f / 3);
 }
 

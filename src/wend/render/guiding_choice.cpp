@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -12,8 +13,8 @@ namespace {
 
 /// Of the first guided walks, the share of each kind: they cost little where they do not pay.
 constexpr float probe_share = 1.0f / 12;
-/// Where the first guided walks seem so many times better, classical ones are not tried again.
-constexpr double plain = 3;
+/// Where they seem so many times better, only those are tried that take directions from the fields, which get better.
+constexpr double plain = 2.5;
 /// What a tile's own walks are weighed against: so many walks of the picture's.
 constexpr double walks_of_picture = 4000;
 /// Kinds that are close to the best go on being tried.
@@ -211,9 +212,10 @@ void GuidingChoice::remember(std::span<const WalkTallies> pass, bool learns) {
     }
 }
 
-bool GuidingChoice::shows_all_guided(std::span<const WalkTallies> pass) const {
-    for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
-        if (std::all_of(pass.begin(), pass.end(), [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
+bool GuidingChoice::shows_directed(std::span<const WalkTallies> pass) const {
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        if (kinds_[kind].preset.direction &&
+            std::all_of(pass.begin(), pass.end(), [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
             return false;
         }
     }
@@ -230,16 +232,21 @@ void GuidingChoice::probe() {
     }
 }
 
-void GuidingChoice::begin_trial(bool with_classical) {
+void GuidingChoice::begin_trial(bool of_all) {
     state_ = State::trial;
-    if (with_classical) {
+    if (of_all) {
         // Pixels are known better now: what walks have shown by then would not compare.
         std::fill(tallies_.begin(), tallies_.end(), WalkTallies{});
     }
-    const std::size_t first = with_classical ? 0 : 1;
-    WalkShares even{};
-    std::fill(even.begin() + first, even.begin() + kinds_.size(), 1 / static_cast<float>(kinds_.size() - first));
-    std::fill(shares_.begin(), shares_.end(), even);
+    WalkShares tried{};
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        tried[kind] = of_all || kinds_[kind].preset.direction ? 1.0f : 0.0f;
+    }
+    const float all = std::accumulate(tried.begin(), tried.end(), 0.0f);
+    for (float& share : tried) {
+        share /= all;
+    }
+    std::fill(shares_.begin(), shares_.end(), tried);
 }
 
 bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool learns) {
@@ -251,8 +258,8 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         probe();
         return true;
     }
-    const bool shows_all = shows_all_guided(pass);
-    if (samples < warm_up_samples || (state_ == State::trial && !shows_all)) {
+    const bool shows_directed = this->shows_directed(pass);
+    if (samples < warm_up_samples || (state_ == State::trial && !shows_directed)) {
         return false;
     }
     const Products squares = squared_errors(), work = products(&WalkTally::work);
@@ -262,7 +269,7 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
     }
     if (state_ == State::probe) {
-        begin_trial(!shows_all || gain_ < plain);
+        begin_trial(!shows_directed || gain_ < plain);
         return true;
     }
     const std::vector<WalkShares> before = shares_;
@@ -322,7 +329,9 @@ WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, 
         const WalkTally& here = tallies_[tile][kind];
         const double n = here.walks + walks_of_picture;
         variance[kind] = (here.square + walks_of_picture * squares.at(tile, kind)) / n;
-        price[kind] = variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n;
+        // What was not tried is in no measure.
+        price[kind] = work.kind[kind] > 0 ? variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n
+                                          : std::numeric_limits<double>::infinity();
         if (learns && kinds_[kind].preset.direction) {
             price[kind] /= promise;
         }

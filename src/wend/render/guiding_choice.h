@@ -70,8 +70,9 @@ struct Guidable {
 };
 
 /// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
-/// no walk has a say in its own weight. All begin with classical walks. Then a few of every kind are tried, and as many
-/// of each as of the others where that has left it open which is best. The best of a tile goes on, and others as long
+/// no walk has a say in its own weight. All begin with classical walks. Then a few of every kind are tried. Where that
+/// leaves it open whether guiding pays, as many of each kind follow; else those that take directions from the fields.
+/// The best of a tile goes on, and others as long
 /// as they are close. A picture that is too small for a trial has one kind, guided in all ways.
 class GuidingChoice {
 public:
@@ -101,7 +102,7 @@ public:
     bool guides(int samples) const;
     /// Whether it is known where guiding pays.
     bool has_chosen() const { return state_ == State::chosen; }
-    /// Whether every kind is being tried.
+    /// Whether kinds are being tried.
     bool is_trial() const { return state_ == State::trial; }
     /// Whether guiding brings so much that to teach the fields further pays.
     bool guiding_pays() const { return gain_ > 2; }
@@ -140,10 +141,10 @@ private:
     void remember(std::span<const WalkTallies> pass, bool learns);
     /// From now on a few walks are of other kinds.
     void probe();
-    /// From now on there are as many walks of each kind.
-    void begin_trial(bool with_classical);
-    /// Whether each kind but the classical one has walks in a pass.
-    bool shows_all_guided(std::span<const WalkTallies> pass) const;
+    /// From now on there are as many walks of each kind, or of each that takes directions from the fields.
+    void begin_trial(bool of_all);
+    /// Whether each kind that takes directions from the fields has walks in a pass.
+    bool shows_directed(std::span<const WalkTallies> pass) const;
     Products products(double WalkTally::*what) const;
     /// Of squared errors, with those of light that a kind has not found yet.
     Products squared_errors() const;
