@@ -53,6 +53,16 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     return tiles;
 }
 
+/// Samples of a pixel, of all passes, as a mean.
+inline int mean_samples(const std::vector<Tile>& tiles) {
+    double paths = 0, pixels = 0;
+    for (const Tile& tile : tiles) {
+        paths += static_cast<double>(tile.counts.paths);
+        pixels += tile.pixel_count();
+    }
+    return static_cast<int>(paths / pixels);
+}
+
 /// When walks are to rest: at a time, or once they are told to stop, which drops those on their way.
 class Rest {
 public:
