@@ -32,6 +32,9 @@ Rgb albedo(const HairBsdf& b, const Vec3& wo) {
 Rgb albedo(const PrincipledBsdf& b, const Vec3& wo) {
     return b.albedo(wo);
 }
+Rgb albedo(const DisneyBsdf& b, const Vec3& wo) {
+    return b.albedo(wo);
+}
 
 }  // namespace
 
