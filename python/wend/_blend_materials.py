@@ -231,7 +231,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Subsurface Weight"], "subsurface", "float")
         names = {key: inputs[f"Subsurface {key.capitalize()}"] for key in ("radius", "scale", "anisotropy")}
         is_skin = node.subsurface_method == "RANDOM_WALK_SKIN"
-        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else ior}
+        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else material["float eta"]}
         add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
         glass = _dielectric(nodes, inputs["Roughness"], ior)

@@ -9,7 +9,7 @@ namespace wend {
 /// "principled", but for indices and what is inside.
 PrincipledMaterial principled_surface(TextureLoader& textures, const pbrt::ParameterSet& p);
 
-/// "disney", but for the index.
+/// "burley", but for the index.
 DisneyMaterial disney_surface(TextureLoader& textures, const pbrt::ParameterSet& p);
 
 }  // namespace wend

@@ -42,7 +42,7 @@ public:
             {"subsurface", &MaterialLoader::load_subsurface},
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
-            {"disney", &MaterialLoader::load_disney},
+            {"burley", &MaterialLoader::load_disney},
             {"principled", &MaterialLoader::load_principled},
             {"measured", &MaterialLoader::replace_measured},
         };
@@ -55,9 +55,10 @@ public:
             context_.warnings.add_unused("Material", entity);
             return material;
         }
-        refuse_type("Material", entity,
-                    {"coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
-                     "disney", "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
+        refuse_type(
+            "Material", entity,
+            {"burley", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
+             "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
     }
 
 private:

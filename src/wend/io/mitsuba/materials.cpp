@@ -335,7 +335,7 @@ Materials::Leaf Materials::principled(const Object& bsdf) {
          {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"}) {
         bsdf.ignore(name);
     }
-    return {"disney", std::move(p), !transmits};
+    return {"burley", std::move(p), !transmits};
 }
 
 Materials::Leaf Materials::replaced(const Object& bsdf) {
