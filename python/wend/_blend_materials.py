@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._blend_chalk import add_roughness
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_subsurface import add_inside
 from ._blend_volumes import volume_parameters
@@ -208,8 +209,8 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     root = min(normal, 0.99) ** 0.5
     material["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
     _add_tint(nodes, material, inputs["Specular Tint"], "speculartint")
-    if "Diffuse Roughness" in inputs and (inputs["Diffuse Roughness"].is_linked or inputs["Diffuse Roughness"].default_value > 0):
-        nodes.add_to(material, inputs["Diffuse Roughness"], "diffuseroughness", "float")
+    if "Diffuse Roughness" in inputs and material.get("float metallic") == 0:
+        add_roughness(nodes, material, inputs["Diffuse Roughness"], inputs["Base Color"])
     coat = nodes.number(inputs["Coat Weight"])
     if coat > 0:
         nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
@@ -283,8 +284,10 @@ def _diffuse(nodes: Nodes, node: Any) -> _Surface:
     material: dict[str, Any] = {"string type": "diffuse"}
     if node.inputs["Roughness"].is_linked or node.inputs["Roughness"].default_value > 0:
         material = {"string type": "principled", "float specular": 0}
-        nodes.add_to(material, node.inputs["Roughness"], "diffuseroughness", "float")
-    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+        add_roughness(nodes, material, node.inputs["Roughness"], node.inputs["Color"])
+    else:
+        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     _detail(nodes, node, material)
     return _Surface(material)
 
@@ -299,14 +302,15 @@ def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
 
 
 def _glossy(nodes: Nodes, node: Any) -> _Surface:
-    # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten there.
+    # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten, on average.
     surface = _metal(nodes, node, "Color")
     colour = nodes.known(node.inputs["Color"])
     if colour is None:
         nodes.warn(node, "a glossy surface whose colour varies is taken as a metal of that colour")
     elif surface.material is not None:
         colour = np.clip(np.broadcast_to(colour, 3), 0, 1)
-        surface.material["rgb speculartint"] = colour / (colour + (1 - colour) * (6 / 7) ** 5)
+        edge = (6 / 7) ** 5
+        surface.material["rgb speculartint"] = 1 - 6 * (1 - colour) * edge * 6 / 49 / (colour + (1 - colour) * edge)
     return surface
 
 

@@ -273,7 +273,7 @@ class _Reader(SceneReader):
             ]
         finally:
             object_.to_mesh_clear()
-        brush(self, name, parts)
+        brush(self, name, parts, np.eye(4) if is_copied else place[0])
         # What shines or holds a medium is no part of an object that is placed several times.
         if not is_copied or any(look.emission is not None or look.medium is not None for look, _ in parts):
             for look, parameters in parts:
