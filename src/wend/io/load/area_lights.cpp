@@ -25,7 +25,8 @@ std::shared_ptr<const EmissionProfile> placed_profile(const AreaLight& light, co
         return nullptr;
     }
     EmissionProfile profile = *light.profile;
-    const Vec3 axis = at.world_from_object.vector(profile.axis);
+    const Vec3 placed = at.world_from_object.vector(profile.axis);
+    const Vec3 axis = at.motion ? at.motion->start().vector(placed) : placed;
     profile.axis = length_squared(axis) > 0 ? normalize(axis) : profile.axis;
     return std::make_shared<const EmissionProfile>(profile);
 }
