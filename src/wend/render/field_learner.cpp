@@ -51,7 +51,8 @@ FieldLearner::FieldLearner(const LearningContext& context)
 
 void FieldLearner::begin(const PassPlan& plan) {
     records_ = plan.learns && !context_.settings.preset.is_classical();
-    if (!records_ || !plan.guides || !context_.settings.preset.direction) {
+    // Photons cost as much as the first samples do, which may be all.
+    if (!records_ || !plan.guides || !context_.settings.preset.direction || plan.first < warm_up_samples) {
         return;
     }
     if (fields_.surface.is_trained() || fields_.volume.is_trained()) {

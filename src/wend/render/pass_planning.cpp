@@ -49,8 +49,10 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     // In a small picture the fields would learn from too few.
     constexpr double fewest_recorded = 1024;
     const double walks = context.walks(plan);
-    plan.recorded_share = std::min(learners.get<FieldLearner>().recorded_share(walks),
-                                   std::max(choice.recorded_share(samples), fewest_recorded / walks));
+    const double most_recorded = learners.get<FieldLearner>().recorded_share(walks);
+    const double wanted = std::max(choice.recorded_share(), fewest_recorded / walks);
+    plan.recorded_share = std::min(most_recorded, wanted);
+    plan.recorded_share_directed = std::min(most_recorded, 2 * wanted);
     double sample_variance = std::pow(rendered.noise, 2) * samples;
     const bool knows_noise = samples >= known_noise;
     if (!knows_noise && taught) {
@@ -68,7 +70,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
             plan.counts = sample_counts(noise, film.crop().width(), count, settings.seed);
         }
     }
-    if (preset.guides_survival() && (samples >= warm_up_samples || taught) && settings.exposure > 0) {
+    if (preset.guides_survival() && (samples >= few_samples || taught) && settings.exposure > 0) {
         const Image shown = as_in_scene(film, settings.balance);
         plan.estimates =
             taught ? pixel_estimates(taught->with(shown, samples, settings.exposure), taught->samples + samples)

@@ -315,7 +315,7 @@ private:
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
         if (plan_.learns) {
-            recorded_samples_ += plan_.count * choice_.recorded_share(plan_.first);
+            recorded_samples_ += plan_.count * choice_.recorded_share();
         }
         const bool chooses_anew = choose(statistics_.samples);
         if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
@@ -338,7 +338,7 @@ private:
         for (const Tile& tile : tiles_) {
             tallies.push_back(tile.tallies);
         }
-        return choice_.learn(tallies, samples >= warm_up_samples, learners_.get<FieldLearner>().records());
+        return choice_.learn(tallies, samples, learners_.get<FieldLearner>().records());
     }
 
     /// Walks of the kind at hand; whether all have been walked.
