@@ -30,13 +30,17 @@ def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
 _STEP, _STEPS = 20.0, 601
 
 
-def glow_parameters(nodes: Nodes, node: Any, grids: list[str], factor: float) -> dict[str, Any]:
+def glow_parameters(
+    nodes: Nodes, node: Any, grids: list[str], density: str, clipping: float, factor: float
+) -> dict[str, Any]:
     """What a volume of a file shines with, whatever its density, as parameters of a medium "nanovdb".
 
     Args:
         nodes: of the material.
         node: its shader.
         grids: names of those in the file.
+        density: the one of them that says how dense it is.
+        clipping: the density below which there is no volume.
         factor: multiplies all of it.
     """
     if node.bl_idname == "ShaderNodeVolumePrincipled" and nodes.number(node.inputs["Blackbody Intensity"]) > 0:
@@ -54,7 +58,13 @@ def glow_parameters(nodes: Nodes, node: Any, grids: list[str], factor: float) ->
     if found is None or found[2].max() <= 0:
         # pbrt would take a grid of temperatures for what shines.
         return {"string temperaturename": ""}
-    return {"rgb glow": factor * found[2]}
+    # Where the grid is denser than the clipping: read as temperatures, of which 100 is the first that shines.
+    return {
+        "rgb glow": factor * np.array([np.zeros(3), found[2], found[2]]),
+        "float glowstep": 100.0,
+        "string temperaturename": density,
+        "float temperaturescale": 100 / max(clipping, 1e-6),
+    }
 
 
 def _shine(nodes: Nodes, node: Any) -> Colour:

@@ -337,7 +337,7 @@ class _Reader(SceneReader):
             density = 1 / max(float(sizes.mean()), 1e-30)
         # What it shines with is given apart: in Cycles it is not in proportion to the grid.
         parameters.pop("rgb Le", None)
-        parameters |= {"float scale": density} | glow_parameters(nodes, node, grids, density)
+        parameters |= {"float scale": density} | glow_parameters(nodes, node, grids, grid, volume.render.clipping, density)
         medium = f" volume {name}"
         with self.builder.block():
             self.builder.add("Transform", place)
