@@ -340,6 +340,27 @@ TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
     EXPECT_EQ(partly.presence(0, {{0, 0}, {0, 0, 1}}), 0.25f);
 }
 
+TEST(LoadLights, AreaLightsShineByDirection) {
+    const std::string sphere = "Rotate 90 1 0 0 Shape \"sphere\"";
+    const auto cone = only_light<QuadricLight>(
+        "AreaLightSource \"diffuse\" \"float coneangle\" 40 \"float conedeltaangle\" 10 " + sphere);
+    ASSERT_TRUE(cone.profile);
+    EXPECT_NEAR(cone.profile->axis.y, -1, 1e-6f) << "the axis is the shape's";
+    EXPECT_NEAR(cone.profile->cos_inner, std::cos(30 * pi / 180), 1e-6f);
+    const auto slats = only_light<QuadricLight>("AreaLightSource \"diffuse\" \"float spread\" 90 " + sphere);
+    ASSERT_TRUE(slats.profile);
+    EXPECT_NEAR(slats.profile->half_angle, pi / 4, 1e-6f);
+    for (const auto& [given, said] :
+         {std::pair("\"float spread\" 180", "\"spread\" must be from 0.5 to less than 180 degrees, not 180"),
+          std::pair("\"float spread\" 20 \"float coneangle\" 20", "either \"coneangle\" or \"spread\""),
+          std::pair("\"float coneangle\" -1", "\"coneangle\" must lie between 0 and 180")}) {
+        EXPECT_PRED2(contains, message_of([&, given = given] {
+                         load_text("AreaLightSource \"diffuse\" " + std::string(given) + " " + sphere);
+                     }),
+                     said);
+    }
+}
+
 TEST(LoadLights, InterfacesDoNotShine) {
     const LoadedScene loaded =
         load_text("Material \"interface\" AreaLightSource \"diffuse\" Shape \"sphere\" Shape \"disk\"");

@@ -62,6 +62,30 @@ MeasuredBsdf measured(bool is_isotropic) {
     return {is_isotropic ? &isotropic : &anisotropic};
 }
 
+/// With all that artists add to it.
+PrincipledBsdf tinted(float metallic) {
+    PrincipledBsdf b = principled(metallic, 0.4f, 0.8f);
+    b.aspect = 0.6f;
+    b.specular_tint = Rgb(0.9f, 0.5f, 0.2f);
+    b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
+    b.diffuse_roughness = 0.8f;
+    return b;
+}
+
+DisneyBsdf disney(float metallic, float spec_trans) {
+    DisneyBsdf b;
+    b.base = Rgb(0.5f, 0.4f, 0.2f);
+    b.metallic = metallic;
+    b.spec_trans = spec_trans;
+    b.alpha_x = 0.5f;
+    b.alpha_y = 0.3f;
+    b.coat = 0.7f;
+    b.sheen = 0.2f;
+    b.flatness = 0.3f;
+    b.spec_tint = 0.5f;
+    return b;
+}
+
 DielectricBsdf coloured_glass(float alpha) {
     DielectricBsdf b{1.5f, alpha, alpha};
     b.reflectance = Rgb(0.9f, 0.5f, 0.1f);
@@ -107,7 +131,12 @@ const std::vector<Model>& models() {
         {"principled_waxen", waxen(0.6f, 0)},
         {"principled_skin", waxen(1, 0.5f)},
         {"measured", measured(true)},
-        {"measured_anisotropic", measured(false)}};
+        {"measured_anisotropic", measured(false)},
+        {"principled_tinted", tinted(0.2f)},
+        {"principled_brushed", tinted(1)},
+        {"disney", disney(0.2f, 0)},
+        {"disney_half_glass", disney(0.1f, 0.6f)},
+        {"disney_glass", disney(0, 1)}};
     return all;
 }
 
@@ -336,6 +365,14 @@ TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
             }
         }
     }
+    for (const float roughness : {0.5f, 1.0f}) {
+        PrincipledBsdf chalk = principled(0, 0.3f);
+        chalk.base = Rgb(1.0f);
+        chalk.diffuse_roughness = roughness;
+        for (const Vec3& wo : incidences()) {
+            EXPECT_TRUE(test::is_within_one_percent(energy(chalk, wo, 400000)[0], 1, 2e-3)) << roughness << ' ' << wo;
+        }
+    }
     // Facets in single reflection alone lose a quarter and more.
     const Moments lost = energy(ConductorBsdf{Rgb(1.0f), Rgb(300), 1, 1}, incidences()[1], 20000)[0];
     EXPECT_LT(lost.mean(), 0.75);
@@ -344,7 +381,10 @@ TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
 TEST(SlowPrincipled, ReflectsItsAlbedo) {
     for (const float metallic : {0.0f, 0.5f, 1.0f}) {
         for (const float coat : {0.0f, 0.7f}) {
-            const PrincipledBsdf b = principled(metallic, 0.4f, coat);
+            PrincipledBsdf b = principled(metallic, 0.4f, coat);
+            b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
+            b.diffuse_roughness = coat;
+            b.specular_tint = metallic > 0 ? Rgb(1.0f) : Rgb(0.9f, 0.5f, 0.2f);
             for (const Vec3& wo : incidences()) {
                 const auto shares = energy(b, wo, 400000);
                 for (std::size_t c = 0; c < 3; ++c) {

@@ -129,6 +129,10 @@ private:
         }
         const Hit& hit = ahead.hit();
         path_.now.travelled += hit.distance;
+        if (hit.surface->view != CameraView::shown && path_.now.counts.vertices == 0) {
+            path_.now.ray.pass(hit);
+            return hit.surface->view == CameraView::hidden && ++path_.now.counts.interfaces < most_interfaces;
+        }
         if (hit.light >= 0) {
             const EmitterHit found = emitters_.at(hit, path_.now.last, path_.now.ray.direction);
             path_.meet(found);

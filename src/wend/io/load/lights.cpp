@@ -93,12 +93,8 @@ bool load_linear_falloff(const pbrt::ParameterSet& p) {
     return falloff == "linear";
 }
 
-SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
-    const pbrt::ParameterSet& p = light.parameters;
-    const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
-    if (!is_finite(to - from) || !(length_squared(to - from) > 0)) {
-        throw InputError(p.place_of("to"), "a spot light shines from \"from\" to \"to\", which must differ");
-    }
+/// "coneangle", "conedeltaangle", "falloff".
+EmissionProfile load_cone(const pbrt::ParameterSet& p) {
     const float outer = p.get_float("coneangle", 30), rim = p.get_float("conedeltaangle", 5);
     if (!(outer > 0 && outer <= 180)) {
         throw InputError(p.place_of("coneangle"),
@@ -108,12 +104,50 @@ SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
         throw InputError(p.place_of("conedeltaangle"), "\"conedeltaangle\" must be finite and not negative");
     }
     const auto cos_degrees = [](float degrees) { return std::cos(degrees * pi / 180); };
+    EmissionProfile cone;
+    cone.cos_outer = cos_degrees(outer);
+    cone.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
+    cone.is_linear = load_linear_falloff(p);
+    return cone;
+}
+
+/// "spread": of all that leaves, how wide it fans out, in degrees.
+EmissionProfile load_slats(const pbrt::ParameterSet& p) {
+    // Narrower, a beam is all but parallel, and connections to it are all but dark.
+    constexpr float narrowest = 0.5f;
+    const float spread = p.get_float("spread", 180);
+    if (!(spread >= narrowest && spread < 180)) {
+        throw InputError(p.place_of("spread"),
+                         fmt::format("\"spread\" must be from {} to less than 180 degrees, not {}", narrowest, spread));
+    }
+    EmissionProfile slats;
+    slats.kind = EmissionProfile::Kind::slats;
+    slats.half_angle = spread / 2 * pi / 180;
+    return slats;
+}
+
+std::optional<EmissionProfile> load_profile(const pbrt::ParameterSet& p) {
+    if (p.has("coneangle") && p.has("spread")) {
+        throw InputError(p.place_of("spread"), "an area light takes either \"coneangle\" or \"spread\"");
+    }
+    return p.has("coneangle") ? std::optional(load_cone(p))
+           : p.has("spread")  ? std::optional(load_slats(p))
+                              : std::nullopt;
+}
+
+SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
+    const pbrt::ParameterSet& p = light.parameters;
+    const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
+    if (!is_finite(to - from) || !(length_squared(to - from) > 0)) {
+        throw InputError(p.place_of("to"), "a spot light shines from \"from\" to \"to\", which must differ");
+    }
+    const EmissionProfile cone = load_cone(p);
     SpotLight spot;
     spot.position = load_position(light, from);
     spot.light_from_world = AffineMap((light.world_from_light * turned_to(normalize(to - from))).inverse());
-    spot.cos_outer = cos_degrees(outer);
-    spot.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
-    spot.is_linear = load_linear_falloff(p);
+    spot.cos_outer = cone.cos_outer;
+    spot.cos_inner = cone.cos_inner;
+    spot.is_linear = cone.is_linear;
     spot.intensity = load_scaled(context, p, "I") * power_factor(p, spread(spot));
     return spot;
 }
@@ -367,6 +401,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
     }
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
+    result.profile = load_profile(p);
     context.warnings.add_unused("AreaLightSource", light);
     return result;
 }

@@ -181,6 +181,7 @@ private:
         surface.exterior = exterior;
         surface.flip_normal = flips_normal(entity);
         surface.alpha = load_alpha(entity);
+        surface.view = load_view(entity, surface);
         if (is_curve && (entity.area_light || interior != exterior)) {
             context_.warnings.add(entity.place, "curves neither shine nor bound a medium");
         } else if (entity.area_light) {
@@ -220,7 +221,8 @@ private:
         const auto curves = curves_.find(last_index);
         if (curves == curves_.end() || last.material != surface.material || last.interior != surface.interior ||
             last.exterior != surface.exterior || last.flip_normal != surface.flip_normal ||
-            last.alpha != surface.alpha || !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
+            last.alpha != surface.alpha || last.view != surface.view ||
+            !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
             return false;
         }
         curves->second.directives.push_back(directive);
@@ -317,6 +319,21 @@ private:
         std::transform(description_.media.begin(), description_.media.end(), names.begin(),
                        [](const pbrt::MediumEntity& medium) { return medium.name; });
         return names;
+    }
+
+    /// "cameraview", once it is known whether the surface bounds a medium.
+    CameraView load_view(const pbrt::ShapeEntity& entity, const Surface& surface) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        const std::string view = p.get_string("cameraview", "shown");
+        if (view != "shown" && view != "hidden" && view != "holdout") {
+            throw InputError(p.place_of("cameraview"),
+                             fmt::format("\"{}\" is no view of a camera; known are shown, hidden, holdout", view));
+        }
+        if (view == "hidden" && surface.bounds_medium()) {
+            context_.warnings.add(p.place_of("cameraview"), "what bounds a medium is not hidden from the camera");
+            return CameraView::shown;
+        }
+        return view == "hidden" ? CameraView::hidden : view == "holdout" ? CameraView::held_out : CameraView::shown;
     }
 
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {

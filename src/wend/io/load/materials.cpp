@@ -1,3 +1,4 @@
+#include <wend/io/load/artists_materials.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/measured.h>
@@ -42,6 +43,7 @@ public:
             {"subsurface", &MaterialLoader::load_subsurface},
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
+            {"burley", &MaterialLoader::load_disney},
             {"principled", &MaterialLoader::load_principled},
             {"measured", &MaterialLoader::load_measured},
         };
@@ -54,9 +56,10 @@ public:
             context_.warnings.add_unused("Material", entity);
             return material;
         }
-        refuse_type("Material", entity,
-                    {"coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
-                     "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
+        refuse_type(
+            "Material", entity,
+            {"burley", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
+             "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
     }
 
 private:
@@ -171,19 +174,20 @@ private:
     /// Not one of pbrt's: what Blender, USD and MaterialX have.
     LoadedMaterial load_principled(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
-        PrincipledMaterial material;
-        material.base = textures_.colour(p, "reflectance", Rgb(0.5f));
-        material.metallic = textures_.real(p, "metallic", 0);
-        material.roughness = textures_.real(p, "roughness", 0.5f);
-        material.specular = textures_.real(p, "specular", 1);
-        material.coat = textures_.real(p, "coat", 0);
-        material.coat_roughness = textures_.real(p, "coatroughness", 0.03f);
+        PrincipledMaterial material = principled_surface(textures_, p);
         material.ior = load_ior(p, "eta", 1.5f);
         material.coat_ior = load_ior(p, "coateta", 1.5f);
         material.below = facets_of(material.ior);
         material.above = facets_of(material.coat_ior);
         const auto subsurface = textures_.find_real(p, "subsurface");
         return subsurface ? load_principled_inside(p, material, *subsurface) : LoadedMaterial{material};
+    }
+
+    /// What Mitsuba's scenes have.
+    LoadedMaterial load_disney(const pbrt::MaterialEntity& entity) {
+        DisneyMaterial material = disney_surface(textures_, entity.parameters);
+        material.ior = load_ior(entity.parameters, "eta", 1.5f);
+        return {material};
     }
 
     /// An albedo that varies goes to where walks enter.

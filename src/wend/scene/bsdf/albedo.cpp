@@ -36,6 +36,9 @@ Rgb albedo(const PrincipledBsdf& b, const Vec3& wo) {
 Rgb albedo(const MeasuredBsdf& b, const Vec3& wo) {
     return b.tables->albedo(wo);
 }
+Rgb albedo(const DisneyBsdf& b, const Vec3& wo) {
+    return b.albedo(wo);
+}
 
 }  // namespace
 

@@ -68,6 +68,14 @@ struct LobesOf {
         }
         return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha, b.alpha, wo);
     }
+    // The same; what passes has no lobes.
+    AxialLobes operator()(const DisneyBsdf& b) const {
+        constexpr float half = 0.5f;
+        if (b.spec_trans > 0) {
+            return {};
+        }
+        return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha_x, b.alpha_y, wo);
+    }
 };
 
 }  // namespace
@@ -87,6 +95,7 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const HairBsdf&) const { return false; }
         bool operator()(const MeasuredBsdf&) const { return false; }
         bool operator()(const PrincipledBsdf& b) const { return !b.has_inside; }
+        bool operator()(const DisneyBsdf& b) const { return !(b.spec_trans > 0); }
     };
     return std::visit(Pictured{}, bsdf);
 }
