@@ -75,11 +75,12 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     GuidingChoice choice(parse_preset("full"), {}, false, 2, many);
     const std::vector<WalkTallies> nothing(2);
     EXPECT_FALSE(choice.guides(8));
-    EXPECT_FALSE(choice.learn(nothing, few_samples - 1, true));
+    EXPECT_FALSE(choice.learn(nothing, 0, true));
     EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
     // A few at first.
     EXPECT_TRUE(choice.learn(nothing, few_samples, true));
-    EXPECT_TRUE(choice.guides(1));
+    EXPECT_TRUE(choice.guides(2));
+    EXPECT_FALSE(choice.guides(3)) << "a pass that asks nothing";
     const WalkShares first = choice.shares(1, 4);
     EXPECT_GT(first[classical], 0.8f);
     EXPECT_GT(first[survival], 0);

@@ -289,7 +289,8 @@ bool GuidingChoice::guides(int samples) const {
     if (kinds_.size() == 1) {
         return !kinds_[0].is_classical();
     }
-    const bool is_too_short = is_trial() && samples < static_cast<int>(kinds_.size());
+    const bool is_too_short =
+        (is_trial() && samples < static_cast<int>(kinds_.size())) || (state_ == State::probe && !asks(samples));
     return !is_too_short && !(state_ == State::classical && shares_.front()[0] == 1);
 }
 

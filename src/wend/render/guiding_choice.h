@@ -98,6 +98,9 @@ public:
     /// that changes anything. `learns`: whether the pass has taught the fields, so that guided walks will be others.
     bool learn(std::span<const WalkTallies> pass, int samples, bool learns);
 
+    /// Whether the first walks of other kinds than classical ones may be in a pass of so many samples of each pixel.
+    /// Which passes there are is all that a render depends on, so it is they that tell.
+    static bool asks(int samples) { return samples != 1 && samples != 3; }
     /// Whether any walk may be guided in a pass of so many samples of each pixel.
     bool guides(int samples) const;
     /// Whether it is known where guiding pays.
