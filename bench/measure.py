@@ -6,7 +6,7 @@ usage: measure.py SUITE [options]; SUITE is
   short    the same for six seconds and eight seeds: what a first look shows, and fireflies
   demo     the scene of `wend demo`
   public   rooms by others, from a folder that is not part of the project; skipped with a word where it is absent
-  peers    Wend, Mitsuba and Cycles (bench/peers/compare.py)
+  peers    Wend, pbrt, its fork, Mitsuba and Cycles (bench/peers/compare.py), also of files (--files)
   planar   the samplers of `wend halfspace` at three albedos
   example  the program of examples/subsurface
 
@@ -34,7 +34,7 @@ SCENES = ["shield-wall", "shield-duct", "fog-door", "cloud", "haze", "smoke-room
           "skin-rig", "wax-backlit", "milk-key", "marble-sky", "leaf"]
 PUBLIC = ["living-room-2", "living-room-2-fog", "veach-ajar", "veach-ajar-fog", "coffee", "volumetric-caustic"]
 PEER_SCENES = ["door", "room", "lump"]
-PEERS = ["mitsuba volpath", "cycles", "cycles guided", "wend classical", "wend full"]
+PEERS = ["pbrt", "pbrt guided", "mitsuba volpath", "cycles", "cycles guided", "wend classical", "wend full"]
 PEER_THREADS = 2  # as in peers/renderers.py
 ALBEDOS = [0.4, 0.8, 0.95]
 SAMPLERS = ["classical", "dwivedi", "boundary", "modes"]
@@ -217,14 +217,17 @@ def measure_peers(arguments):
     """One call of compare.py for each picture."""
     results = open_results(arguments, threads=PEER_THREADS)
     for seed in range(1, arguments.seeds + 1):
-        for scene in chosen(arguments, PEER_SCENES):
+        for scene in [*chosen(arguments, PEER_SCENES), *arguments.files]:
             for peer in PEERS:
-                if results.has(scene=scene, renderer=peer, seed=seed):
+                if results.has(scene=Path(scene).stem, renderer=peer, seed=seed):
                     continue
                 with tempfile.TemporaryDirectory() as folder:
                     rows = Path(folder) / "rows.json"
                     command = [sys.executable, ROOT / "bench/peers/compare.py", scene, "--time", str(arguments.time)]
                     command += ["--wend", arguments.wend, "--out", arguments.out, "--only", peer, "--seed", str(seed)]
+                    for option in ("pbrt", "pbrt_guided", "blender_python"):
+                        if getattr(arguments, option):
+                            command += ["--" + option.replace("_", "-"), getattr(arguments, option)]
                     subprocess.run([*command, "--json", rows], check=True)
                     for row in json.loads(rows.read_text()):
                         results.append(row)
@@ -283,6 +286,11 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="replace the file instead of going on with it")
     parser.add_argument("--public", type=Path, default=ROOT.parent / "shared/public",
                         help="folder of the rooms by others")
+    parser.add_argument("--files", nargs="+", default=[],
+                        help="scenes for the peers that read them: .pbrt, .xml, .blend")
+    parser.add_argument("--pbrt", help="the program of pbrt-v4")
+    parser.add_argument("--pbrt-guided", help="that of its fork with Open PGL")
+    parser.add_argument("--blender-python", help="a Python that has bpy (default: this one)")
     parser.add_argument("--out", default=str(ROOT / "out/peers"), help="folder for the pictures of other renderers")
     arguments = parser.parse_args()
     seconds, seeds = DEFAULTS[arguments.suite]

@@ -26,8 +26,9 @@ VOLUMES = ["shield-duct", "fog-door", "cloud", "haze", "smoke-room", "candles", 
 DENSE = ["skin-rig", "wax-backlit", "milk-key", "marble-sky", "leaf"]
 SCENES = ["shield-wall", *VOLUMES, *DENSE]
 PUBLIC = ["living-room-2", "living-room-2-fog", "veach-ajar", "veach-ajar-fog", "coffee", "volumetric-caustic"]
-PEERS = {"mitsuba volpath": "Mitsuba `volpath`", "cycles": "Cycles", "cycles guided": "Cycles, guided",
-         "wend classical": "Wend, `classical`", "wend full": "Wend, `full`"}
+PEERS = {"pbrt": "pbrt-v4", "pbrt guided": "its guiding fork", "mitsuba volpath": "Mitsuba `volpath`",
+         "cycles": "Cycles", "cycles guided": "Cycles, guided", "wend classical": "Wend, `classical`",
+         "wend full": "Wend, `full`"}
 PEER_SCENES = {"door": "fog, the lamp in the next room", "room": "the same fog, the lamp in the same room",
                "lump": "a dense ball under a sky and a lamp"}
 
@@ -70,7 +71,9 @@ class Runs:
     """The renders of one scene by one preset."""
 
     def __init__(self, results, **key):
-        self.rows = [row for row in results["rows"] if all(row.get(k) == v for k, v in key.items())]
+        rows = [row for row in results["rows"] if all(row.get(k) == v for k, v in key.items())]
+        self.rows = [row for row in rows if not row.get("not_run")]
+        self.not_run = ": ".join(["not run", *[row["not_run"] for row in rows if row.get("not_run")][:1]])
 
     def median(self, what):
         """Of a column, or of what a function says of a row."""
@@ -106,7 +109,7 @@ def counted(n, noun):
 def seeds_of(results):
     """How many renders there are of what was rendered."""
     counts = {}
-    for row in results["rows"]:
+    for row in (row for row in results["rows"] if not row.get("not_run")):
         key = tuple(row.get(k) for k in ("scene", "sampling", "subsurface", "renderer", "albedo", "sampler"))
         counts[key] = counts.get(key, 0) + 1
     least, most = min(counts.values()), max(counts.values())
@@ -201,14 +204,20 @@ def fireflies(results, short):
         short, budget(short), *warnings(SCENES, found_short))
 
 
+def peer_scenes(results):
+    """Those of scenes.py, then those in files."""
+    return list(dict.fromkeys([*PEER_SCENES, *(row["scene"] for row in results["rows"])]))
+
+
 def peers(results):
     """One row for each scene: the error, the least in bold."""
     rows = []
-    for scene, what in PEER_SCENES.items():
+    for scene in peer_scenes(results):
         runs = [Runs(results, scene=scene, renderer=name) for name in PEERS]
         least = min((r.median("relmse") for r in runs if r.rows), default=None)
-        cells = [("**{}**" if r.median("relmse") == least else "{}").format(r.relmse()) if r.rows else "" for r in runs]
-        rows.append([f"`{scene}`: {what}", *cells])
+        bold = lambda r: "**{}**" if r.median("relmse") == least else "{}"
+        cells = [bold(r).format(r.relmse()) if r.rows else r.not_run for r in runs]
+        rows.append([": ".join([f"`{scene}`", *([PEER_SCENES[scene]] if scene in PEER_SCENES else [])]), *cells])
     return table(["relMSE", *PEERS.values()], rows) + note(results, budget(results))
 
 
@@ -216,12 +225,28 @@ def peers_all(results):
     """One row for each renderer: error, brightest errors, and the mean over the reference's."""
     rows = []
     for name, told in PEERS.items():
-        runs = [Runs(results, scene=scene, renderer=name) for scene in PEER_SCENES]
+        runs = [Runs(results, scene=scene, renderer=name) for scene in peer_scenes(results)]
         rows.append([told, *(f"{r.relmse()}, {digits(r.median('error_p9999'))}, {r.median('mean_over_reference'):.3f}"
-                             if r.rows else "" for r in runs)])
+                             if r.rows else r.not_run for r in runs)])
     versions = sorted({row["version"] for row in results["rows"] if row.get("version")})
-    return table(["", *(f"`{scene}`" for scene in PEER_SCENES)], rows) + note(
+    return table(["", *(f"`{scene}`" for scene in peer_scenes(results))], rows) + note(
         results, budget(results), *([", ".join(versions)] if versions else []))
+
+
+def shields(results):
+    """What comes through slabs, by figure of merit with what it took to prepare."""
+    rows = []
+    for row in results["rows"]:
+        slab = f"albedo {row['albedo']:g}, {row['thickness']:g} mean free paths"
+        if row.get("not_run"):
+            rows.append([slab, row["sampler"], f"not run: {row['not_run']}", "", "", ""])
+            continue
+        error = f"{100 * row['std_error'] / row['mean']:.2g} %" if row["mean"] else "–"
+        rows.append([slab, row["sampler"], f"{row['mean']:.4g}, {row['exact']:.4g}", error,
+                     f"{row['cpu_seconds']:.2g}, {row['setup_seconds']:.2g}",
+                     f"{row['fom']:.2g}" if row.get("fom") else "–"])
+    head = ["slab", "way", "mean, exact", "standard error", "seconds of walks, of preparing", "figure of merit"]
+    return table(head, rows) + note(results, "OpenMC 0.16, one group", "One seed, others used the machine")
 
 
 def planar(results):
@@ -255,6 +280,7 @@ TABLES = {
     "demo": (demo, "demo"),
     "peers": (peers, "peers"),
     "peers-all": (peers_all, "peers"),
+    "shields": (shields, "shields"),
     "planar": (planar, "planar"),
     "example-subsurface": (example, "example"),
 }

@@ -48,11 +48,18 @@ def pbrt_text(scene):
     return '\n'.join(lines) + '\n'
 
 
+def pbrt_file(scene, path):
+    """A scene that is a file already, or what it is in pbrt's words, written beside the picture."""
+    if not hasattr(scene, 'meshes'):
+        return scene.wend_file
+    with open(path + '.pbrt', 'w') as out:
+        out.write(pbrt_text(scene))
+    return path + '.pbrt'
+
+
 def wend(program, *options):
     def render(scene, seconds, path, seed):
-        file = path + '.pbrt'
-        with open(file, 'w') as out:
-            out.write(pbrt_text(scene))
+        file = pbrt_file(scene, path)
         report = path + '.json'
         subprocess.run([program, 'render', file, '-o', path, '--time', str(seconds), '--seed', str(seed), '--threads',
                         str(THREADS), '--json', report, '--quiet', *options], check=True)
@@ -105,16 +112,25 @@ def mitsuba_dict(mi, scene):
     return result
 
 
-def mitsuba(scene, seconds, path, seed):
+def quiet_mitsuba():
     import mitsuba as mi
     mi.set_variant('scalar_rgb')
     mi.Thread.thread().logger().set_log_level(mi.LogLevel.Warn)
+    return mi
+
+
+def mitsuba(scene, seconds, path, seed):
+    mi = quiet_mitsuba()
     built = mi.load_dict(mitsuba_dict(mi, scene))
     integrator = mi.load_dict({'type': 'volpath', 'max_depth': scene.depth + 1, 'rr_depth': 5})
+    return render_by_mitsuba(mi, built, integrator, seconds, path, seed)
 
+
+def render_by_mitsuba(mi, built, integrator, seconds, path, seed):
+    """`integrator`: None for the scene's."""
     def run(spp, number):
         start = time.time()
-        picture = mi.render(built, integrator=integrator, spp=spp, seed=number)
+        picture = mi.render(built, spp=spp, seed=number, **({'integrator': integrator} if integrator else {}))
         return picture, time.time() - start
 
     # Samples are added in passes until the time is spent.
@@ -210,29 +226,36 @@ def build_blender(bpy, scene):
     return there
 
 
+def render_by_cycles(bpy, guided, depth, seconds, path, seed):
+    """The scene at hand, at its own size; no samples are told."""
+    there = bpy.context.scene
+    there.render.engine = 'CYCLES'
+    there.render.resolution_percentage = 100
+    there.render.threads_mode, there.render.threads = 'FIXED', THREADS
+    there.render.image_settings.file_format = 'OPEN_EXR'
+    there.render.image_settings.color_depth = '32'
+    there.render.filepath = os.path.abspath(path)
+    c = there.cycles
+    c.device = 'CPU'
+    c.seed = seed
+    c.samples, c.time_limit = 1_000_000, seconds
+    c.use_adaptive_sampling = c.use_denoising = False
+    c.pixel_filter_type = 'BOX'
+    if depth:
+        bounces = min(depth, 1024)
+        c.max_bounces = c.diffuse_bounces = c.glossy_bounces = c.transmission_bounces = c.volume_bounces = bounces
+        c.transparent_max_bounces = bounces
+    c.sample_clamp_direct = c.sample_clamp_indirect = 0
+    c.use_guiding = guided
+    start = time.time()
+    bpy.ops.render.render(write_still=True)
+    return None, time.time() - start
+
+
 def cycles(guided):
     def render(scene, seconds, path, seed):
         import bpy
         there = build_blender(bpy, scene)
-        there.render.engine = 'CYCLES'
         there.render.resolution_x, there.render.resolution_y = scene.size
-        there.render.resolution_percentage = 100
-        there.render.threads_mode, there.render.threads = 'FIXED', THREADS
-        there.render.image_settings.file_format = 'OPEN_EXR'
-        there.render.image_settings.color_depth = '32'
-        there.render.filepath = os.path.abspath(path)
-        c = there.cycles
-        c.device = 'CPU'
-        c.seed = seed
-        c.samples, c.time_limit = 1_000_000, seconds
-        c.use_adaptive_sampling = c.use_denoising = False
-        c.pixel_filter_type = 'BOX'
-        bounces = min(scene.depth, 1024)
-        c.max_bounces = c.diffuse_bounces = c.glossy_bounces = c.transmission_bounces = c.volume_bounces = bounces
-        c.transparent_max_bounces = bounces
-        c.sample_clamp_direct = c.sample_clamp_indirect = 0
-        c.use_guiding = guided
-        start = time.time()
-        bpy.ops.render.render(write_still=True)
-        return None, time.time() - start
+        return render_by_cycles(bpy, guided, scene.depth, seconds, path, seed)
     return render

@@ -324,9 +324,7 @@ def test_what_is_missing_is_named_once(scene):
 @pytest.mark.parametrize(
     ("role", "value", "text"),
     [
-        ("is_holdout", True, "holdout"),
         ("is_shadow_catcher", True, "shadow catcher"),
-        ("visible_camera", False, "rays of camera"),
         ("visible_volume_scatter", False, "rays of volume scatter"),
     ],
 )
@@ -336,6 +334,16 @@ def test_roles_that_are_not_there_are_named(scene, role, value, text):
     setattr(mesh(scene, "cube"), role, value)
     with pytest.warns(wend.SceneWarning, match=f"object 'Cube': warning: .*{text}"):
         blend.of_scene(scene)
+
+
+def test_the_command_tells_what_a_scene_costs_and_writes_holes(scene, tmp_path, capsys):
+    floor(scene).is_holdout = True
+    lamp(scene, "POINT", 100, (0, 0, 3))
+    file, picture = tmp_path / "scene.blend", tmp_path / "out.exr"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    assert blend.main([str(file), "--render", str(picture), "--spp", "4", "--alpha"]) == 0
+    assert f"{file}: " in (told := capsys.readouterr().err) and "made into a scene in" in told
+    assert wend.read(picture)["alpha"].max() == 0
 
 
 def test_hair_objects(scene):

@@ -64,6 +64,7 @@ LAMPS = {
     "warm": ("POINT", 200, (1, -1, 3), {"shadow_soft_size": 0.2, "use_temperature": True, "temperature": 3000}),
     "coloured": ("POINT", 90, (1, -1, 3), {"shadow_soft_size": 0.2, "exposure": 1.5, "color": (1, 0.5, 0.2)}),
     "spot": ("SPOT", 300, (1, -1, 4), {"shadow_soft_size": 0, "spot_size": 0.9, "spot_blend": 0.4}),
+    "soft spot": ("SPOT", 300, (1, -1, 4), {"shadow_soft_size": 0.3, "spot_size": 0.9, "spot_blend": 0.4}),
     "sun": ("SUN", 3, (0, 0, 5), {"angle": 0}),
     "wide sun": ("SUN", 3, (0, 0, 5), {"angle": 0.6}),
     "rectangle": ("AREA", 100, (1, -1, 4), {"shape": "RECTANGLE", "size": 1.0, "size_y": 0.4}),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._scene_reader import SceneReader
+from ._scene_reader import Places, SceneReader
 
 Matrix = npt.NDArray[np.float64]
 
@@ -16,8 +16,8 @@ Matrix = npt.NDArray[np.float64]
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
-def add(reader: SceneReader, name: str, lamp: Any, world: Matrix, is_seen: bool) -> None:
-    """A lamp, whose space has its points as rows. `is_seen`: by the camera, as far as it has a size."""
+def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool) -> None:
+    """A lamp where the shutter opens and where it closes. `is_seen`: by the camera, as far as it has a size."""
     place = f"light '{name}'"
     kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
     if lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
@@ -32,7 +32,7 @@ def add(reader: SceneReader, name: str, lamp: Any, world: Matrix, is_seen: bool)
     if power.max() <= 0:
         return
     with reader.builder.block():
-        kinds[lamp.type](reader, place, lamp, world, power, is_seen)
+        kinds[lamp.type](reader, place, lamp, places, power, is_seen)
 
 
 def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArray[np.float64]:
@@ -44,71 +44,74 @@ def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArra
     return np.ones(3)
 
 
-def _shine(reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any]) -> None:
+def _shine(
+    reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any], profile: dict[str, Any]
+) -> None:
     # Lamps reflect nothing.
-    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance})
+    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance} | profile)
     reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
     reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"float alpha": 0.0})
 
 
-def _point(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
+def _point(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
     radius = float(lamp.shadow_soft_size)
-    reader.builder.add("Transform", _unscaled(world))
     if radius > 0:
-        _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius})
+        reader.put(_unscaled(places))
+        _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius}, {})
     else:
+        reader.builder.add("Transform", _unscaled(reader.held(places, place)))
         reader.builder.add("LightSource", "point", {"rgb I": power / (4 * math.pi)})
 
 
-def _spot(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
-    if lamp.shadow_soft_size > 0:
-        reader.tell(place, "a spot light is taken as a point: its shadows are hard")
+def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
     half = min(float(lamp.spot_size) / 2, math.radians(89.9))
     edge = math.cos(half)
     # Cycles blends by the cosine, over this part of it.
     inner = math.acos(min(edge + float(lamp.spot_blend) * (1 - edge), 1.0))
-    reader.builder.add("Transform", _TURNED @ _unscaled(world))
-    reader.builder.add(
-        "LightSource",
-        "spot",
-        {
-            "rgb I": power / (4 * math.pi),
-            "point3 from": (0, 0, 0),
-            "point3 to": (0, 0, 1),
-            "float coneangle": math.degrees(half),
-            "float conedeltaangle": math.degrees(half - inner),
-        },
-    )
+    cone = {"float coneangle": math.degrees(half), "float conedeltaangle": math.degrees(half - inner)}
+    radius = float(lamp.shadow_soft_size)
+    if radius > 0:
+        # The cone of what moves does not turn.
+        turns = np.abs(places[0, :3, :3] - places[1, :3, :3]).max() > 1e-6
+        held = np.array([reader.held(places, place)] * 2) if turns else places
+        reader.put(_TURNED @ _unscaled(held))
+        radiance = power / (4 * math.pi**2 * radius**2)
+        _shine(reader, radiance, is_seen, "sphere", {"float radius": radius}, cone)
+        return
+    reader.builder.add("Transform", _TURNED @ _unscaled(reader.held(places, place)))
+    towards = {"point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
+    reader.builder.add("LightSource", "spot", {"rgb I": power / (4 * math.pi)} | towards | cone)
 
 
-def _sun(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
-    reader.builder.add("Transform", _TURNED @ _unscaled(world))
+def _sun(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
+    reader.builder.add("Transform", _TURNED @ _unscaled(reader.held(places, place)))
     parameters: dict[str, Any] = {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
     reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(lamp.angle), 180.0)})
 
 
-def _area(reader: SceneReader, place: str, lamp: Any, world: Matrix, power: Any, is_seen: bool) -> None:
-    if getattr(lamp, "spread", math.pi) < math.radians(179):
-        reader.tell(place, "the spread of an area light is left out")
+def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
+    spread = math.degrees(getattr(lamp, "spread", math.pi))
+    profile = {"float spread": max(spread, 0.5)} if spread < 179.9 else {}
     x = float(lamp.size) / 2
     y = x if lamp.shape in ("SQUARE", "DISK") else float(lamp.size_y) / 2
-    across, up = world[0, :3], world[1, :3]
+    across, up = places[0, 0, :3], places[0, 1, :3]
     stretched = float(np.linalg.norm(np.cross(across, up)))
     is_round = lamp.shape in ("DISK", "ELLIPSE")
     area = (math.pi if is_round else 4.0) * x * y * stretched
     radiance = power / (math.pi * max(area, 1e-30))
     if is_round:
-        reader.builder.add("Transform", np.diag([x, y, 1, 1]) @ _TURNED @ world)
-        _shine(reader, radiance, is_seen, "disk", {"float radius": 1})
+        reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ places)
+        _shine(reader, radiance, is_seen, "disk", {"float radius": 1}, profile)
         return
     # Seen from -z, where it shines, the corners go around against the clock.
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
-    reader.builder.add("Transform", world)
-    _shine(reader, radiance, is_seen, "trianglemesh", {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]})
+    reader.put(places)
+    flat = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
+    _shine(reader, radiance, is_seen, "trianglemesh", flat, profile)
 
 
 def _unscaled(world: Matrix) -> Matrix:
-    """Point lights, spots and suns have no size that an object's scale could change."""
+    """Point lights, spots and suns have no size that an object's scale could change. Of one matrix or of several."""
     result = world.copy()
-    result[:3, :3] /= np.maximum(np.linalg.norm(result[:3, :3], axis=1, keepdims=True), 1e-30)
+    result[..., :3, :3] /= np.maximum(np.linalg.norm(result[..., :3, :3], axis=-1, keepdims=True), 1e-30)
     return result

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._blend_chalk import add_roughness
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_subsurface import add_inside
 from ._blend_volumes import volume_parameters
 from ._blend_wanted import Probe
-from ._scene_reader import Look, SceneReader
+from ._scene_reader import Brush, Look, SceneReader
 
 if TYPE_CHECKING:
     from ._blend_bake import Bakery
@@ -27,6 +28,8 @@ class _Surface:
     alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
     shines_by_a_picture: bool = False  #: because what it shines with varies
     is_clear: bool = False  #: light goes straight through
+    brushed: Brush | None = None  #: along which way
+    is_held_out: bool = False  #: there is a hole in the picture
 
 
 def look_of(reader: SceneReader, material: Any, bakery: Bakery | None = None) -> Look:
@@ -99,7 +102,13 @@ def _look(
         reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
         named = key
     shown = picture["string filename"] if picture is not None else None
-    return Look(named, emission, key if medium is not None else None, surface.alpha, shown)
+    shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
+    return Look(named, emission, key if medium is not None else None, shape, _brush_of(surface), shown)
+
+
+def _brush_of(surface: _Surface) -> Brush | None:
+    parts = surface.mixed[:2] if surface.mixed is not None else ()
+    return surface.brushed or next((brush for brush in map(_brush_of, parts) if brush), None)
 
 
 def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
@@ -131,6 +140,7 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
         "ShaderNodeSubsurfaceScattering": _subsurface,
         "ShaderNodeEmission": _emission,
         "ShaderNodeBackground": _emission,
+        "ShaderNodeHoldout": _held_out,
     }
     if node is None:
         return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
@@ -185,32 +195,31 @@ def _normal_map(nodes: Nodes, node: Any) -> str | None:
 
 def _principled(nodes: Nodes, node: Any) -> _Surface:
     inputs = node.inputs
-    for name, plain in (("Sheen Weight", 0), ("Thin Film Thickness", 0), ("Anisotropic", 0), ("Diffuse Roughness", 0)):
-        if name in inputs and (inputs[name].is_linked or inputs[name].default_value != plain):
+    for name in ("Sheen Weight", "Thin Film Thickness"):
+        if name in inputs and (inputs[name].is_linked or inputs[name].default_value != 0):
             nodes.warn(node, f"{name} is left out")
-    if np.abs(nodes.colour(inputs["Specular Tint"]) - 1).max() > 1e-6:
-        nodes.warn(node, "Specular Tint is left out")
     ior = max(nodes.number(inputs["IOR"]), 1e-3)
     emission, varies = _emitted(nodes, inputs["Emission Color"], inputs["Emission Strength"])
     material: dict[str, Any] = {"string type": "principled", "float eta": ior}
     nodes.add_to(material, inputs["Base Color"], "reflectance", "rgb")
     nodes.add_to(material, inputs["Metallic"], "metallic", "float")
     nodes.add_to(material, inputs["Roughness"], "roughness", "float")
-    material["float specular"] = 2 * nodes.number(inputs["Specular IOR Level"])
+    # Another level is another index.
+    normal = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(nodes.number(inputs["Specular IOR Level"]), 0)
+    root = min(normal, 0.99) ** 0.5
+    material["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
+    _add_tint(nodes, material, inputs["Specular Tint"], "speculartint")
+    if "Diffuse Roughness" in inputs and material.get("float metallic") == 0:
+        add_roughness(nodes, material, inputs["Diffuse Roughness"], inputs["Base Color"])
     coat = nodes.number(inputs["Coat Weight"])
     if coat > 0:
         nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
         nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
         material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
-        tint = nodes.colour(inputs["Coat Tint"])
-        if np.abs(tint - 1).max() > 1e-6 and "rgb reflectance" in material:
-            nodes.warn(node, "Coat Tint colours the base alike from everywhere")
-            # The way through the coat is longer aslant: over a ball, by as much.
-            material["rgb reflectance"] = material["rgb reflectance"] * (1 - coat + coat * np.clip(tint, 0, 1) ** 1.15)
-        elif np.abs(tint - 1).max() > 1e-6:
-            nodes.warn(node, "Coat Tint is left out")
+        _add_tint(nodes, material, inputs["Coat Tint"], "coattint")
+    brushed = _brush(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
     _detail(nodes, node, material)
-    result = _Surface(material, emission=emission)
+    result = _Surface(material, emission=emission, brushed=brushed)
     # Metal comes first, glass gets of the rest.
     transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
     metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
@@ -223,7 +232,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Subsurface Weight"], "subsurface", "float")
         names = {key: inputs[f"Subsurface {key.capitalize()}"] for key in ("radius", "scale", "anisotropy")}
         is_skin = node.subsurface_method == "RANDOM_WALK_SKIN"
-        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else ior}
+        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else material["float eta"]}
         add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
         glass = _dielectric(nodes, inputs["Roughness"], ior)
@@ -236,6 +245,34 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     return result
 
 
+def _add_tint(nodes: Nodes, material: dict[str, Any], socket: Any, name: str) -> None:
+    value = nodes.known(socket)
+    if value is None or np.abs(value - 1).max() > 1e-6:
+        nodes.add_to(material, socket, name, "rgb")
+
+
+def _brush(nodes: Nodes, node: Any, amount: Any, turn: Any, material: dict[str, Any]) -> Brush | None:
+    """How a surface is brushed; None: it is not, or along its texture coordinates."""
+    value = nodes.known(amount)
+    if value is not None and value[0] == 0:
+        return None
+    if value is not None and value[0] < 0:
+        nodes.warn(node, f"{amount.name} below 0 is taken as 0")
+        return None
+    nodes.add_to(material, amount, "anisotropy", "float")
+    found = nodes.source(node.inputs["Tangent"])
+    turns = nodes.number(turn)
+    if found is None or not found.is_output:
+        return Brush(2, turns)
+    if found.node.bl_idname == "ShaderNodeTangent" and found.node.direction_type == "RADIAL":
+        return Brush("XYZ".index(found.node.axis), turns)
+    if found.node.bl_idname != "ShaderNodeTangent":
+        nodes.warn(node, f"{found.node.bl_idname.removeprefix('ShaderNode')} as Tangent is taken as that of the texture coordinates")
+    if turns != 0:
+        nodes.warn(node, f"{turn.name} of a tangent by texture coordinates is left out")
+    return None
+
+
 def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour) -> _Surface:
     if amount >= 1 - 1e-6:
         second.emission = emission
@@ -245,9 +282,12 @@ def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour)
 
 def _diffuse(nodes: Nodes, node: Any) -> _Surface:
     material: dict[str, Any] = {"string type": "diffuse"}
-    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     if node.inputs["Roughness"].is_linked or node.inputs["Roughness"].default_value > 0:
-        nodes.warn(node, "the roughness of a diffuse surface is left out")
+        material = {"string type": "principled", "float specular": 0}
+        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+        add_roughness(nodes, material, node.inputs["Roughness"], node.inputs["Color"])
+    else:
+        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     _detail(nodes, node, material)
     return _Surface(material)
 
@@ -256,22 +296,36 @@ def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
     material: dict[str, Any] = {"string type": "principled", "float metallic": 1.0}
     nodes.add_to(material, node.inputs[colour], "reflectance", "rgb")
     nodes.add_to(material, node.inputs["Roughness"], "roughness", "float")
-    if nodes.number(node.inputs["Anisotropy"]) != 0:
-        nodes.warn(node, "Anisotropy is left out")
+    brushed = _brush(nodes, node, node.inputs["Anisotropy"], node.inputs["Rotation"], material)
     _detail(nodes, node, material)
-    return _Surface(material)
+    return _Surface(material, brushed=brushed)
 
 
 def _glossy(nodes: Nodes, node: Any) -> _Surface:
-    # It reflects its colour from everywhere, a metal more at grazing angles.
-    nodes.warn(node, "a glossy surface is taken as a metal of its colour")
-    return _metal(nodes, node, "Color")
+    # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten, on average.
+    surface = _metal(nodes, node, "Color")
+    colour = nodes.known(node.inputs["Color"])
+    if colour is None:
+        nodes.warn(node, "a glossy surface whose colour varies is taken as a metal of that colour")
+    elif surface.material is not None:
+        colour = np.clip(np.broadcast_to(colour, 3), 0, 1)
+        edge = (6 / 7) ** 5
+        surface.material["rgb speculartint"] = 1 - 6 * (1 - colour) * edge * 6 / 49 / (colour + (1 - colour) * edge)
+    return surface
 
 
 def _metallic(nodes: Nodes, node: Any) -> _Surface:
     if node.fresnel_type != "F82":
         nodes.warn(node, "a metal by index and extinction is taken by its base colour")
-    return _metal(nodes, node, "Base Color")
+        return _metal(nodes, node, "Base Color")
+    surface = _metal(nodes, node, "Base Color")
+    if surface.material is not None:
+        _add_tint(nodes, surface.material, node.inputs["Edge Tint"], "speculartint")
+    return surface
+
+
+def _held_out(nodes: Nodes, node: Any) -> _Surface:
+    return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)}, is_held_out=True)
 
 
 def _glass(nodes: Nodes, node: Any) -> _Surface:
@@ -337,6 +391,8 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
     emission = (1 - share) * first.emission + share * second.emission
     varies = first.shines_by_a_picture or second.shines_by_a_picture
     varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
+    if first.is_held_out or second.is_held_out:
+        nodes.warn(node, "a holdout in a mixture is black")
     amount: dict[str, Any] = {}
     nodes.add_to(amount, node.inputs["Fac" if "Fac" in node.inputs else "Factor"], "amount", "float")
     if first.is_clear or second.is_clear:
@@ -353,7 +409,7 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
             nodes.warn(node, "of transparencies within each other the outermost counts")
         if varies:
             nodes.warn(node, "what shines by a picture and is transparent is darker where it is that")
-        return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies)
+        return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies, brushed=seen.brushed)
     return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
 
 

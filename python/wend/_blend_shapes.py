@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._scene_reader import Brush, Look, SceneReader
+
 Parameters = dict[str, Any]
 
 
@@ -93,6 +95,38 @@ def mesh_parts(
         if coordinates is not None:
             parameters["point2 uv"] = coordinates[loops]
         yield int(number), parameters
+
+
+def brush(reader: SceneReader, name: str, parts: list[tuple[Look, Parameters]], place: npt.NDArray[np.float64]) -> None:
+    """Adds to those parts of a mesh that are brushed along which way: around an axis of the box of all points. As Cycles
+    has it, that goes to the world as normals do, by `place`, which has points as rows."""
+    if all(look.brushed is None for look, _ in parts):
+        return
+    points = np.concatenate([parameters["point3 P"] for _, parameters in parts]).astype(np.float64)
+    low, high = points.min(axis=0), points.max(axis=0)
+    for look, parameters in parts:
+        if look.brushed is not None:
+            offset = (parameters["point3 P"] - (low + high) / 2) / np.maximum(high - low, 1e-30)
+            along = _brushed(reader, name, parameters, look.brushed, offset)
+            inverse = np.linalg.pinv(place[:3, :3])
+            parameters["vector3 S"] = (along @ inverse.T @ inverse).astype(np.float32)
+
+
+def _brushed(
+    reader: SceneReader, name: str, parameters: Parameters, brush: Brush, offset: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    first, second = [(1, 2), (2, 0), (0, 1)][brush.axis]
+    along = np.zeros_like(offset)
+    along[:, first], along[:, second] = -offset[:, second], offset[:, first]
+    if brush.turns != 0:
+        if "normal3 N" not in parameters:
+            reader.tell(f"object '{name}'", "how flat faces are brushed is not turned")
+        else:
+            normals = np.asarray(parameters["normal3 N"], dtype=np.float64)
+            flat = along - normals * (normals * along).sum(axis=1, keepdims=True)
+            angle = 2 * np.pi * brush.turns
+            along = np.cos(angle) * flat + np.sin(angle) * np.cross(normals, flat)
+    return along
 
 
 def hair_segments(curves: Any) -> Iterator[Parameters]:

@@ -26,6 +26,59 @@ def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
     return parameters
 
 
+#: Kelvin between the temperatures that colours are given for, and how many there are.
+_STEP, _STEPS = 20.0, 601
+
+
+def glow_parameters(
+    nodes: Nodes, node: Any, grids: list[str], density: str, clipping: float, factor: float
+) -> dict[str, Any]:
+    """What a volume of a file shines with, whatever its density, as parameters of a medium "nanovdb".
+
+    Args:
+        nodes: of the material.
+        node: its shader.
+        grids: names of those in the file.
+        density: the one of them that says how dense it is.
+        clipping: the density below which there is no volume.
+        factor: multiplies all of it.
+    """
+    if node.bl_idname == "ShaderNodeVolumePrincipled" and nodes.number(node.inputs["Blackbody Intensity"]) > 0:
+        heat = node.inputs["Temperature Attribute"].default_value
+        if heat in grids:
+            kelvins = _STEP * np.arange(_STEPS)
+            shine = _shine(nodes, node)[np.newaxis] + np.array([_black_body(nodes, node, kelvin) for kelvin in kelvins])
+            return {
+                "rgb glow": factor * np.maximum(shine, 0),
+                "float glowstep": _STEP,
+                "string temperaturename": heat,
+                "float temperaturescale": nodes.number(node.inputs["Temperature"]),
+            }
+    found = _volume(nodes, node)
+    if found is None or found[2].max() <= 0:
+        # pbrt would take a grid of temperatures for what shines.
+        return {"string temperaturename": ""}
+    # Where the grid is denser than the clipping: read as temperatures, of which 100 is the first that shines.
+    return {
+        "rgb glow": factor * np.array([np.zeros(3), found[2], found[2]]),
+        "float glowstep": 100.0,
+        "string temperaturename": density,
+        "float temperaturescale": 100 / max(clipping, 1e-6),
+    }
+
+
+def _shine(nodes: Nodes, node: Any) -> Colour:
+    strength = nodes.number(node.inputs["Emission Strength"])
+    return nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else np.zeros(3)
+
+
+def _black_body(nodes: Nodes, node: Any, kelvin: float) -> Colour:
+    glow = nodes.number(node.inputs["Blackbody Intensity"])
+    # Cycles' scale: of a body of one kelvin up to that of a black one, in megawatts.
+    scale = 5.670373e-14 / np.pi * (1 - glow + glow * kelvin**4)
+    return np.asarray(scale * nodes.colour(node.inputs["Blackbody Tint"]) * blackbody(kelvin))
+
+
 _Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
 
 
@@ -47,14 +100,9 @@ def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
         colour = np.maximum(nodes.colour(node.inputs["Color"]), 0)
         dark = np.sqrt(np.maximum(nodes.colour(node.inputs["Absorption Color"]), 0))
         absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
-        strength = nodes.number(node.inputs["Emission Strength"])
-        shine = nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else zero
-        glow = nodes.number(node.inputs["Blackbody Intensity"])
-        if glow > 0:
-            kelvin = nodes.number(node.inputs["Temperature"])
-            # Cycles' scale: of a body of one kelvin up to that of a black one, in megawatts.
-            scale = 5.670373e-14 / np.pi * (1 - glow + glow * kelvin**4)
-            shine = shine + scale * nodes.colour(node.inputs["Blackbody Tint"]) * blackbody(kelvin)
+        shine = _shine(nodes, node)
+        if nodes.number(node.inputs["Blackbody Intensity"]) > 0:
+            shine = shine + _black_body(nodes, node, nodes.number(node.inputs["Temperature"]))
         return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
     if kind == "ShaderNodeVolumeScatter":
         density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])

@@ -97,6 +97,16 @@ class SceneBuilder:
         """The scene so far as a pbrt-v4 file says it."""
         return "".join(_lines(*directive) for directive in self._directives)
 
+    @property
+    def name(self) -> str:
+        """What stands for the file in messages."""
+        return self._name
+
+    @property
+    def size(self) -> int:
+        """Bytes of the numbers that parameters hold."""
+        return sum(values.nbytes for *_, given in self._directives for _, values in given if isinstance(values, np.ndarray))
+
     def __len__(self) -> int:
         """How many directives there are."""
         return len(self._directives)

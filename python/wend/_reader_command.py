@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--time", type=float, help="seconds to spend, in place of samples")
     parser.add_argument("--noise", type=float, help="relative noise to end at, in place of samples")
     parser.add_argument("--sampling", default="full")
+    parser.add_argument("--alpha", action="store_true", help="write opacity into an .exr: holdouts and the sky are holes")
 
 
 def parsed(parser: argparse.ArgumentParser, arguments: list[str] | None) -> argparse.Namespace:
@@ -48,7 +50,8 @@ def maps_of(output: str) -> Path | None:
 
 
 def deliver(builder: SceneBuilder, options: argparse.Namespace, output: str, picture: str) -> None:
-    """Writes and renders, as far as there are names for that."""
+    """Writes and renders, as far as there are names for that. What it costs until there is a scene goes to standard
+    error."""
     import wend
 
     if output:
@@ -56,7 +59,15 @@ def deliver(builder: SceneBuilder, options: argparse.Namespace, output: str, pic
     if picture:
         until = {"time": options.time, "noise": options.noise}
         amount = {name: value for name, value in until.items() if value is not None} or {"spp": options.spp}
-        wend.render(builder.scene(), sampling=options.sampling, **amount).save(picture)
+        start = time.process_time()
+        scene = builder.scene()
+        made = time.process_time() - start
+        print(
+            f"{builder.name}: {len(builder)} directives with {builder.size / 1e6:.1f} MB of numbers, read in {start:.1f} s "
+            f"of processor time, made into a scene in {made:.1f} s",
+            file=sys.stderr,
+        )
+        wend.render(scene, sampling=options.sampling, **amount).save(picture, alpha=options.alpha)
 
 
 def as_command(action: Callable[[], None]) -> int:

@@ -27,7 +27,8 @@ class Render:
         scene: what to render.
         spp: samples per pixel; None: the scene's.
         time: seconds to spend, training included, in place of `spp`.
-        noise: end where the estimated relative noise of the picture is this, such as 0.02.
+        noise: end where the relative noise is estimated to be no more than this, such as 0.02, in every square of
+            16x16 pixels.
         passes: repeat these passes of an earlier render (its `statistics["passes"]`).
         sampling: "classical"; "full", whatever pays, where it pays; or decisions to guide everywhere, joined by "+":
             scatter, distance, direction, roulette, splitting.
@@ -130,7 +131,8 @@ class Render:
 
     @property
     def progress(self) -> dict[str, float]:
-        """`fraction` of the whole, `seconds` so far, `seconds_left`, `spp` and `relative_noise`."""
+        """`fraction` of the whole, `seconds` so far, `seconds_left`, `spp` and `relative_noise`: of the
+        picture, or, where noise is to end the render, of the noisiest square of 16x16 pixels."""
         return self._native.progress()
 
     @property

@@ -21,6 +21,14 @@ from ._errors import SceneWarning
 Places = npt.NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class Brush:
+    """Along which way a surface is brushed."""
+
+    axis: int  #: x, y or z of the object: around it
+    turns: float  #: further, around the normal
+
+
 @dataclass
 class Look:
     """What a shape is given."""
@@ -29,6 +37,7 @@ class Look:
     emission: tuple[float, ...] | None = None
     medium: str | None = None  #: inside
     shape_parameters: dict[str, Any] = field(default_factory=dict)
+    brushed: Brush | None = None  #: None: along its texture coordinates, if at all
     shown: str | None = None  #: file of a picture that it shines with, in place of the emission
 
 
@@ -61,6 +70,13 @@ class SceneReader:
         self._maps.mkdir(parents=True, exist_ok=True)
         return str(self._maps / name)
 
+    def held(self, places: Places, where: str) -> npt.NDArray[np.float64]:
+        """Where something that cannot move is when the shutter is half open; says so where it would move."""
+        if np.allclose(places[0], places[1], rtol=1e-12, atol=0):
+            return np.asarray(places[0])
+        self.tell(where, "what moves while the shutter is open is as when it is half open")
+        return halfway(places)
+
     def put(self, places: Places) -> None:
         """What follows is there, and moves between them."""
         add = self.builder.add
@@ -71,3 +87,17 @@ class SceneReader:
             add("ActiveTransform", when)
             add("Transform", place)
         add("ActiveTransform", "All")
+
+
+def halfway(places: Places) -> npt.NDArray[np.float64]:
+    """Half way between two places: of turns, half the turn."""
+    turns, stretches = [], []
+    for block in (places[0, :3, :3], places[1, :3, :3], (places[0, :3, :3] + places[1, :3, :3]) / 2):
+        left, sizes, right = np.linalg.svd(block)
+        turns.append(left @ right)
+        stretches.append(right.T @ np.diag(sizes) @ right)
+    result: npt.NDArray[np.float64] = (places[0] + places[1]) / 2
+    # Points are rows: they are stretched, and then turned.
+    before = [turn @ stretch @ turn.T for turn, stretch in zip(turns[:2], stretches[:2])]
+    result[:3, :3] = (before[0] + before[1]) / 2 @ turns[2]
+    return result

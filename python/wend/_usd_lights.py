@@ -221,11 +221,13 @@ def _sphere(reader: Any, prim: Any, world: Places) -> None:
     if shaping.needs_picture():
         _throw(reader, prim, world, shaping, intensity, is_flat=False)
     elif shaping.cone is not None:
-        if not is_point and radius > 0:
-            reader.warn(prim, _IS_POINT)
         rim = shaping.cone * shaping.softness if shaping.inner is None else shaping.cone - shaping.inner
-        _stand(reader, prim, world, turned=True)
         cone = {"float coneangle": shaping.cone, "float conedeltaangle": rim}
+        if not is_point and radius > 0:
+            light = {"rgb L": _radiance(reader, prim, area)} | cone
+            _shine(reader, prim, _TURNED @ world, light, "sphere", {"float radius": radius})
+            return
+        _stand(reader, prim, world, turned=True)
         towards: dict[str, Any] = {"point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
         reader.builder.add("LightSource", "spot", {"rgb I": intensity} | towards | cone)
     elif is_point:

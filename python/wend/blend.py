@@ -17,6 +17,7 @@ import numpy as np
 
 from ._builder import SceneBuilder
 from ._errors import InputError
+from ._progress import Bar
 from ._scene_reader import Look, SceneReader
 
 try:
@@ -32,8 +33,9 @@ from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
 from ._blend_render_mode import as_rendered
-from ._blend_shapes import Geometry, box_of, hair_segments, mesh_parts, strands
-from ._blend_volumes import volume_parameters
+from ._blend_roles import view_of
+from ._blend_shapes import Geometry, box_of, brush, hair_segments, mesh_parts, strands
+from ._blend_volumes import glow_parameters, volume_parameters
 from ._blend_world import add_world, add_world_volume
 
 #: Kinds of objects that have a surface once they are evaluated.
@@ -50,6 +52,7 @@ def read(
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
     bake_resolution: int = 1024,
+    progress: bool = False,
 ) -> SceneBuilder:
     """A .blend file, which is opened in place of what is open now, in the terms of the renderer.
 
@@ -62,6 +65,7 @@ def read(
         spp: samples per pixel.
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
         bake_resolution: width and height of pictures that are baked where textures have no counterpart.
+        progress: show a bar (tqdm).
 
     Raises:
         InputError: for a file that cannot be opened, or a scene or camera that is not in it.
@@ -85,6 +89,7 @@ def read(
         spp=spp,
         maps=maps,
         bake_resolution=bake_resolution,
+        progress=progress,
     )
 
 
@@ -101,6 +106,7 @@ def of_scene(
     set_frame: Callable[[int, float], Any] | None = None,
     can_render: bool = True,
     bake_resolution: int = 1024,
+    progress: bool = False,
 ) -> SceneBuilder:
     """The same of a scene that is open in Blender.
 
@@ -110,7 +116,7 @@ def of_scene(
         depsgraph: the evaluated scene, where a render is going on; None: it is evaluated here.
         set_frame: evaluates that at a frame and a part of one, for motion blur; None: as the scene does.
         can_render: whether Cycles may be called for what has no counterpart, such as a sky or a texture.
-        frame, camera, resolution, spp, maps, bake_resolution: as for `read`.
+        frame, camera, resolution, spp, maps, bake_resolution, progress: as for `read`.
     """
     reader = _Reader(scene, name, maps, can_render, bake_resolution)
     eye = _named(scene.objects, camera, "camera") or scene.camera
@@ -120,14 +126,14 @@ def of_scene(
             scene.frame_set(whole, subframe=part)
 
     if depsgraph is not None:
-        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame), progress)
     with as_rendered(scene):
         if frame is not None:
             scene.frame_set(frame)
         bpy.context.window.scene = scene
         depsgraph = bpy.context.evaluated_depsgraph_get()
         depsgraph.update()
-        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame))
+        return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame), progress)
 
 
 def _named(things: Any, name: str | None, kind: str) -> Any:
@@ -158,14 +164,16 @@ class _Reader(SceneReader):
         self._objects: dict[str, str] = {}
         #: of the object at hand, where it changes its shape
         self.shapes: tuple[Geometry, Geometry] | None = None
+        self.view = "shown"  #: of the object at hand: what it is to the camera
 
-    def read(self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> SceneBuilder:
+    def read(
+        self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion, progress: bool
+    ) -> SceneBuilder:
         add = self.builder.add
         self.around = add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
         add_view(self, self.scene, eye, resolution, spp, motion)
-        self.tell_collections(self.scene)
         add("WorldBegin")
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
@@ -173,12 +181,16 @@ class _Reader(SceneReader):
         times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
         if self.can_render:
             self.bake(depsgraph, seen, times)
-        for instance, shown in zip(depsgraph.object_instances, seen):
+        bar = Bar(os.path.basename(self.builder.name), progress)
+        for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
             if shown:
                 object_ = instance.object
+                bar.update(i / len(seen), object_.name)
                 place = motion.places(instance)
+                self.view = view_of(self, instance)
                 self.shapes = motion.shapes(object_)
                 self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
+        bar.close()
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
         return self.builder
@@ -216,10 +228,8 @@ class _Reader(SceneReader):
 
     def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
         kind = object_.type
-        self.tell_roles(object_, name)
         if kind == "LIGHT":
-            self.hold(place, f"light '{name}'")
-            lights.add(self, name, object_.data, place[0], object_.visible_camera)
+            lights.add(self, name, object_.data, place, object_.visible_camera)
             self.has_light = True
         elif kind in _SOLID:
             self.add_solid(object_, place, name, is_copied)
@@ -242,10 +252,11 @@ class _Reader(SceneReader):
                     self.add_shape(_place(np.eye(4)), look, ("curve", segment), name)
         materials = [slot.material for slot in object_.material_slots]
         key = self.key_of(object_)
-        if is_copied and key in self._objects:
+        seen_key = f"{self.view} {key}"
+        if is_copied and seen_key in self._objects:
             with self.builder.block():
                 self.put(place)
-                self.builder.add("ObjectInstance", self._objects[key])
+                self.builder.add("ObjectInstance", self._objects[seen_key])
             return
         mesh = object_.to_mesh()
         if mesh is None:
@@ -262,12 +273,13 @@ class _Reader(SceneReader):
             ]
         finally:
             object_.to_mesh_clear()
+        brush(self, name, parts, np.eye(4) if is_copied else place[0])
         # What shines or holds a medium is no part of an object that is placed several times.
         if not is_copied or any(look.emission is not None or look.medium is not None for look, _ in parts):
             for look, parameters in parts:
                 self.add_shape(place, look, ("trianglemesh", parameters), name)
             return
-        shared = self._objects[key] = f"{name} {len(self._objects)}"
+        shared = self._objects[seen_key] = f"{name} {len(self._objects)}"
         with self.builder.block("Object", shared):
             for look, parameters in parts:
                 self.add_shape(_place(np.eye(4)), look, ("trianglemesh", parameters), name)
@@ -293,37 +305,8 @@ class _Reader(SceneReader):
                     light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
                     add("AreaLightSource", "diffuse", light | {"bool twosided": True})
                     self.has_light = True
-            add("Shape", kind, parameters | look.shape_parameters)
-
-    def tell_roles(self, object_: Any, name: str) -> None:
-        """Says what an object is to be seen by, or to hide, where it is more than the renderer can."""
-        where = f"object '{name}'"
-        if object_.is_holdout:
-            self.tell(where, "a holdout is an object like others")
-        # The lamp of a default file is one, without an effect.
-        if object_.is_shadow_catcher and object_.type != "LIGHT":
-            self.tell(where, "a shadow catcher is an object like others")
-        rays = ["diffuse", "glossy", "transmission", "volume_scatter", "shadow"]
-        if object_.type != "LIGHT":
-            rays.append("camera")
-        unseen = [ray.replace("_", " ") for ray in rays if not getattr(object_, f"visible_{ray}")]
-        if unseen:
-            self.tell(where, f"an object that rays of {', '.join(unseen)} do not see is seen by all")
-
-    def tell_collections(self, scene: Any) -> None:
-        """Says which collections are to be seen in part, which is not there."""
-        todo = [scene.view_layers[0].layer_collection]
-        while todo:
-            collection = todo.pop()
-            todo += collection.children
-            for role in ("holdout", "indirect_only"):
-                if getattr(collection, role):
-                    self.tell(f"collection '{collection.name}'", f"a collection that is {role.replace('_', ' ')} is as others")
-
-    def hold(self, place: Any, where: str) -> None:
-        """What cannot move is said to stay where the shutter opens."""
-        if not np.array_equal(place[0], place[1]):
-            self.tell(where, "what moves while the shutter is open is left where it begins")
+            seen = {"string cameraview": self.view} if self.view != "shown" else {}
+            add("Shape", kind, parameters | look.shape_parameters | seen)
 
     def add_volume(self, object_: Any, place: Any, name: str) -> None:
         volume = object_.data
@@ -339,24 +322,25 @@ class _Reader(SceneReader):
         if node is None or parameters is None or not file or not len(volume.grids):
             self.tell(where, "a volume without a file, or a material with a volume, is left out")
             return
-        grid = "density"
+        grid, grids = "density", [g.name for g in volume.grids]
         if node.bl_idname == "ShaderNodeVolumePrincipled":
             grid = node.inputs["Density Attribute"].default_value or "density"
-            heat = node.inputs["Temperature Attribute"].default_value
-            if nodes.number(node.inputs["Blackbody Intensity"]) > 0 and any(g.name == heat for g in volume.grids):
-                self.tell(where, f"the temperatures of the grid '{heat}' are taken as the material's own")
-        elif not any(g.name == "density" for g in volume.grids):
-            grid = volume.grids[0].name
+        elif "density" not in grids:
+            grid = grids[0]
+        place = self.held(place, where)
+        density = 1.0
         if volume.render.space == "OBJECT":
             # As opaque whatever its size: coefficients are of the object's own lengths.
-            sizes = np.linalg.norm(place[0][:3, :3], axis=1)
+            sizes = np.linalg.norm(place[:3, :3], axis=1)
             if np.ptp(sizes) > 1e-4 * sizes.max():
                 self.tell(where, "a volume of uneven scale is as opaque as its mean scale makes it")
-            parameters["float scale"] = 1 / max(float(sizes.mean()), 1e-30)
+            density = 1 / max(float(sizes.mean()), 1e-30)
+        # What it shines with is given apart: in Cycles it is not in proportion to the grid.
+        parameters.pop("rgb Le", None)
+        parameters |= {"float scale": density} | glow_parameters(nodes, node, grids, grid, volume.render.clipping, density)
         medium = f" volume {name}"
         with self.builder.block():
-            self.hold(place, where)
-            self.put(place[[0, 0]])
+            self.builder.add("Transform", place)
             self.builder.add(
                 "MakeNamedMedium",
                 medium,
@@ -416,6 +400,7 @@ def main(arguments: list[str] | None = None) -> int:
                 spp=options.spp,
                 maps=command.maps_of(output),
                 bake_resolution=options.bake_resolution,
+                progress=True,
             )
             command.deliver(builder, options, output, picture)
 

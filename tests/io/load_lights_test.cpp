@@ -100,6 +100,16 @@ TEST(LoadLights, PortalsAreInTheWorld) {
         "\"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
     expect_near(turned.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}), {2, 4, 6});
     EXPECT_TRUE(is_black(turned.portal->radiance({1.5f, 0.5f, 0}, {0, 0, 1})));
+    // Spectra have their own luminance there: a half of what is even, and a black body's with a peak of 1.
+    const auto through = [](const std::string& radiance) {
+        const auto portal = only_light<PortalInfiniteLight>("LightSource \"infinite\" " + radiance +
+                                                            " \"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
+        return luminance(portal.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}));
+    };
+    EXPECT_NEAR(through("\"spectrum L\" [ 300 0.5 900 0.5 ]"), 0.5, 1e-3);
+    EXPECT_NEAR(through("\"spectrum L\" \"stdillum-D65\""), 1, 1e-3);
+    EXPECT_NEAR(through("\"blackbody L\" 3000"), luminance(blackbody_emission(3000)) / 106.857, 0.01);
+    EXPECT_LT(through("\"blackbody L\" 3000"), 0.5);
     const auto message = [](const std::string& corners) {
         return message_of([&] { load_text("LightSource \"infinite\" \"point3 portal\" [ " + corners + " ]"); });
     };
@@ -328,6 +338,27 @@ TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
     const Scene partly(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0.25").scene);
     EXPECT_FALSE(partly.has_point_like_lights());
     EXPECT_EQ(partly.presence(0, {{0, 0}, {0, 0, 1}}), 0.25f);
+}
+
+TEST(LoadLights, AreaLightsShineByDirection) {
+    const std::string sphere = "Rotate 90 1 0 0 Shape \"sphere\"";
+    const auto cone = only_light<QuadricLight>(
+        "AreaLightSource \"diffuse\" \"float coneangle\" 40 \"float conedeltaangle\" 10 " + sphere);
+    ASSERT_TRUE(cone.profile);
+    EXPECT_NEAR(cone.profile->axis.y, -1, 1e-6f) << "the axis is the shape's";
+    EXPECT_NEAR(cone.profile->cos_inner, std::cos(30 * pi / 180), 1e-6f);
+    const auto slats = only_light<QuadricLight>("AreaLightSource \"diffuse\" \"float spread\" 90 " + sphere);
+    ASSERT_TRUE(slats.profile);
+    EXPECT_NEAR(slats.profile->half_angle, pi / 4, 1e-6f);
+    for (const auto& [given, said] :
+         {std::pair("\"float spread\" 180", "\"spread\" must be from 0.5 to less than 180 degrees, not 180"),
+          std::pair("\"float spread\" 20 \"float coneangle\" 20", "either \"coneangle\" or \"spread\""),
+          std::pair("\"float coneangle\" -1", "\"coneangle\" must lie between 0 and 180")}) {
+        EXPECT_PRED2(contains, message_of([&, given = given] {
+                         load_text("AreaLightSource \"diffuse\" " + std::string(given) + " " + sphere);
+                     }),
+                     said);
+    }
 }
 
 TEST(LoadLights, InterfacesDoNotShine) {

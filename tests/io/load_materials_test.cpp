@@ -200,7 +200,6 @@ TEST(LoadMaterials, Mixtures) {
         glass += std::holds_alternative<DielectricMaterial>(scene.materials[static_cast<std::size_t>(at)]) ? 1 : 0;
     }
     EXPECT_NEAR(glass / static_cast<double>(points), 0.3, 0.015);
-    EXPECT_EQ(warnings_with(mixed("[ \"none\" \"red\" ]").scene, "\"interface\" cannot be mixed"), 1);
     // Two of them are one, also deep inside.
     EXPECT_NO_THROW(mixed("[ \"none\" \"none\" ]").as<InterfaceMaterial>());
     const Loaded nested(
@@ -210,6 +209,28 @@ TEST(LoadMaterials, Mixtures) {
     EXPECT_EQ(nested.as<MixMaterial>().first, nested.as<MixMaterial>().second);
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" ]"); }), "two \"materials\"");
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" \"blue\" ]"); }), "\"blue\" is not defined");
+}
+
+TEST(LoadMaterials, MixturesWithAnInterfaceAreThereByChance) {
+    const std::string parts =
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] "
+        "MakeNamedMaterial \"none\" \"string type\" \"interface\" ";
+    const auto presence = [&](const std::string& parameters, const std::string& of_shape = "") {
+        const LoadedScene loaded =
+            load_text(parts + "Material \"mix\" \"string materials\" " + parameters + " Shape \"sphere\" " + of_shape);
+        EXPECT_EQ(warnings_with(loaded, "a mixture lets its share of an \"interface\" pass"), 1);
+        const Surface& surface = loaded.scene.surfaces.at(0);
+        const auto& mix = std::get<MixMaterial>(loaded.scene.materials[static_cast<std::size_t>(surface.material)]);
+        EXPECT_EQ(mix.first, mix.second);
+        return loaded.scene.textures.evaluate(surface.alpha, {{0.25f, 0.25f}, {0, 0, 0}}).r;
+    };
+    EXPECT_FLOAT_EQ(presence("[ \"none\" \"red\" ] \"float amount\" 0.3"), 0.3f);
+    EXPECT_FLOAT_EQ(presence("[ \"red\" \"none\" ] \"float amount\" 0.3"), 0.7f);
+    EXPECT_FLOAT_EQ(presence("[ \"red\" \"none\" ] \"float amount\" 0.3", "\"float alpha\" 0.5"), 0.35f);
+    const std::string outer =
+        "MakeNamedMaterial \"holed\" \"string type\" \"mix\" \"string materials\" [ \"red\" \"none\" ] "
+        "Material \"mix\" \"string materials\" [ \"holed\" \"red\" ] Shape \"sphere\"";
+    EXPECT_EQ(warnings_with(load_text(parts + outer), "within a mixture of mixtures"), 1);
 }
 
 TEST(LoadMaterials, BumpsAndNormalMaps) {
@@ -290,11 +311,10 @@ TEST(LoadMaterials, SubsurfaceColoursMayVary) {
     EXPECT_EQ(warnings_with(radius.scene, "mean of the texture \"mfp\""), 1);
 }
 
-TEST(LoadMaterials, SubstitutesAreNamedOnce) {
-    const Loaded loaded(
-        "Material \"measured\" \"string filename\" \"a.bsdf\" Material \"measured\" \"string filename\" \"b.bsdf\"");
-    expect_near(loaded.reflectance(), Rgb(0.5f));
-    EXPECT_EQ(loaded.scene.warnings.size(), 1u);
+TEST(LoadMaterials, WhatCannotBeIsRefused) {
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"measured\" \"string filename\" \"none.bsdf\""); }),
+                 "test.pbrt:3:21: error: there is no file");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"measured\""); }), "needs the parameter");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"plaid\""); }), "known are");
     EXPECT_PRED2(contains, message_of([] {
                      Loaded("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"m\" \"m\" ]");

@@ -54,6 +54,33 @@ TEST(LoadShapes, NormalsMapByTheInverseTranspose) {
     EXPECT_NEAR(length(mesh.normals[0] - normalize(Vec3(0.5f, 0, 1))), 0, 1e-6f);
 }
 
+TEST(LoadShapes, GivenTangentsDecideHowASurfaceIsBrushed) {
+    const std::string along_y = triangle + "\"vector S\" [ 0 1 0  0 1 0  0 1 0 ] ";
+    const auto tangent = [](const std::string& world) {
+        const Scene scene(load_text(world).scene);
+        return scene.intersect({Vec3(0.2f, 0.2f, 5), Vec3(0, 0, -1)})->shading.s;
+    };
+    EXPECT_NEAR(tangent(triangle + "\"point2 uv\" [ 0 0  1 0  0 1 ]").x, 1, 1e-6f);
+    EXPECT_NEAR(tangent(along_y + "\"point2 uv\" [ 0 0  1 0  0 1 ]").y, 1, 1e-6f);
+    EXPECT_NEAR(tangent("Rotate 90 0 0 1 Translate 0 -0.4 0 " + along_y).x, -1, 1e-6f);
+    EXPECT_EQ(warnings_with(load_text(triangle + "\"vector S\" [ 0 1 0 ]"), "\"S\" has not one value a vertex"), 1);
+}
+
+TEST(LoadShapes, TheCameraSeesThemAsTheySay) {
+    const auto view = [](const std::string& parameters) {
+        return load_text(triangle + parameters).scene.surfaces[0].view;
+    };
+    EXPECT_EQ(view(""), CameraView::shown);
+    EXPECT_EQ(view("\"string cameraview\" \"hidden\""), CameraView::hidden);
+    EXPECT_EQ(view("\"string cameraview\" \"holdout\""), CameraView::held_out);
+    EXPECT_PRED2(contains, message_of([&] { view("\"string cameraview\" \"seen\""); }),
+                 "known are shown, hidden, holdout");
+    const std::string fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MediumInterface \"fog\" \"\" ";
+    EXPECT_EQ(warnings_with(load_text(fog + triangle + "\"string cameraview\" \"hidden\""),
+                            "what bounds a medium is not hidden"),
+              1);
+}
+
 TEST(LoadShapes, QuadricNormals) {
     const auto z = [](const std::string& world) { return normal_seen(world, {0.1f, 0.1f, 5}, {0, 0, -1}).z; };
     EXPECT_GT(z("Shape \"sphere\""), 0);

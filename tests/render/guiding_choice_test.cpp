@@ -1,5 +1,6 @@
 // Which walks are guided: by what walks of each kind have shown.
 #include <wend/render/guiding_choice.h>
+#include <wend/render/learner.h>
 
 #include <gtest/gtest.h>
 
@@ -19,12 +20,19 @@ WalkTally walks(double count, double variance, double work) {
     return {count, count, count * variance, count * variance, count * work};
 }
 
-/// Of a scene without fog, taught by classical walks, with every kind tried.
-GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
+/// Of a scene without fog, taught by classical walks, with every kind about to be tried.
+GuidingChoice untried(std::size_t tiles) {
     GuidingChoice choice(parse_preset("full"), {}, false, tiles, many);
     const std::vector<WalkTallies> nothing(tiles);
-    choice.learn(nothing, true, true);
-    choice.learn(shown, true, false);
+    choice.learn(nothing, few_samples, true);
+    choice.learn(nothing, warm_up_samples, true);
+    return choice;
+}
+
+/// The same, with every kind tried.
+GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
+    GuidingChoice choice = untried(tiles);
+    choice.learn(shown, 15, false);
     return choice;
 }
 
@@ -34,9 +42,10 @@ TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
         ASSERT_EQ(choice.kinds().size(), 1u) << name;
         EXPECT_EQ(choice.kinds()[0], (WalkKind{parse_preset(name), true}));
         const std::vector<WalkTallies> shown(3, {walks(1000, 1, 1)});
-        EXPECT_FALSE(choice.learn(shown, true, true)) << name;
+        EXPECT_FALSE(choice.learn(shown, 15, true)) << name;
         EXPECT_EQ(choice.shares(2, 1), WalkShares{1});
-        EXPECT_EQ(choice.recorded_share(0), 1);
+        EXPECT_EQ(choice.recorded_share(), 1);
+        EXPECT_EQ(choice.directed_share(1), choice.kinds()[0].preset.direction ? 1 : 0) << name;
     }
 }
 
@@ -66,9 +75,19 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     GuidingChoice choice(parse_preset("full"), {}, false, 2, many);
     const std::vector<WalkTallies> nothing(2);
     EXPECT_FALSE(choice.guides(8));
-    EXPECT_FALSE(choice.learn(nothing, false, true));
+    EXPECT_FALSE(choice.learn(nothing, few_samples - 1, true));
     EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
-    EXPECT_TRUE(choice.learn(nothing, true, true));
+    // A few at first.
+    EXPECT_TRUE(choice.learn(nothing, few_samples, true));
+    EXPECT_TRUE(choice.guides(1));
+    const WalkShares first = choice.shares(1, 4);
+    EXPECT_GT(first[classical], 0.8f);
+    EXPECT_GT(first[survival], 0);
+    EXPECT_EQ(first[directions], first[survival]);
+    EXPECT_FLOAT_EQ(std::accumulate(first.begin(), first.end(), 0.0f), 1);
+    EXPECT_NEAR(choice.directed_share(4), first[directions], 1e-6);
+    EXPECT_FALSE(choice.learn(nothing, warm_up_samples - 1, true));
+    EXPECT_TRUE(choice.learn(nothing, warm_up_samples, true));
     EXPECT_TRUE(choice.is_trial());
     for (const std::size_t kind : {classical, survival, directions}) {
         EXPECT_FLOAT_EQ(choice.shares(1, 8)[kind], 1.0f / 3);
@@ -78,8 +97,21 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     EXPECT_FALSE(choice.guides(2));
     EXPECT_TRUE(choice.guides(3));
     const std::vector<WalkTallies> short_pass(2, {walks(100, 1, 1)});
-    EXPECT_FALSE(choice.learn(short_pass, true, true));
+    EXPECT_FALSE(choice.learn(short_pass, 9, true));
     EXPECT_TRUE(choice.is_trial());
+}
+
+TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlone) {
+    const auto trial_after = [](double classical_variance) {
+        GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
+        choice.learn(std::vector<WalkTallies>(1), few_samples, true);
+        choice.learn(std::vector<WalkTallies>{{walks(1000, classical_variance, 1), walks(100, 1, 1), walks(100, 2, 1)}},
+                     warm_up_samples, true);
+        EXPECT_TRUE(choice.is_trial());
+        return choice.shares(0, 8);
+    };
+    EXPECT_EQ(trial_after(10), (WalkShares{0, 0, 1}));
+    EXPECT_FLOAT_EQ(trial_after(2)[classical], 1.0f / 3);
 }
 
 TEST(GuidingChoice, StartsGuidedWhereThereIsAFieldFromTheStart) {
@@ -108,21 +140,28 @@ TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {
 }
 
 TEST(GuidingChoice, TriesWhatFollowsTheFieldsWhileTheyLearn) {
-    GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
-    const std::vector<WalkTallies> nothing(1);
-    choice.learn(nothing, true, true);
+    GuidingChoice choice = untried(1);
     // One bright walk by a field that knows little.
     const std::vector<WalkTallies> shown = {{walks(1000, 1, 2), walks(1000, 1, 20), walks(1000, 1e6, 4)}};
-    choice.learn(shown, true, true);
-    EXPECT_FLOAT_EQ(choice.shares(0, 8)[directions], 1.0f / 16);
-    EXPECT_FLOAT_EQ(choice.shares(0, 8)[survival], 1.0f / 16);
+    choice.learn(shown, 15, true);
+    EXPECT_FLOAT_EQ(choice.shares(0, 8)[directions], 1.0f / 8);
+    EXPECT_LE(choice.shares(0, 8)[survival], 1.0f / 64) << "takes no directions";
+    EXPECT_NEAR(choice.directed_share(8), 1.0 / 8, 1e-6);
     // A better field is soon believed.
     for (int pass = 0; pass < 8; ++pass) {
-        choice.learn(std::vector<WalkTallies>{{walks(5000, 1, 2), walks(500, 1, 20), walks(500, 0.1, 4)}}, true, true);
+        choice.learn(std::vector<WalkTallies>{{walks(5000, 1, 2), walks(500, 1, 20), walks(500, 0.1, 4)}}, 31, true);
     }
-    EXPECT_GT(choice.shares(0, 8)[directions], 0.9f - 1.0f / 16);
-    choice.learn(nothing, true, false);
-    EXPECT_EQ(choice.shares(0, 8)[survival], 0);
+    EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
+}
+
+TEST(GuidingChoice, DirectionsThatAreBeingLearnedAreTakenToGetBetter) {
+    // Twice as dear as classical walks so far.
+    const std::vector<WalkTallies> shown = {{walks(1000, 1, 1), walks(1000, 9, 1), walks(1000, 1, 2)}};
+    GuidingChoice learning = untried(1), taught = untried(1);
+    learning.learn(shown, 15, true);
+    taught.learn(shown, 15, false);
+    EXPECT_GT(learning.shares(0, 8)[directions], 0.9f);
+    EXPECT_GT(taught.shares(0, 8)[classical], 0.9f);
 }
 
 TEST(GuidingChoice, TheBestGuidedKindIsWatched) {
@@ -131,7 +170,7 @@ TEST(GuidingChoice, TheBestGuidedKindIsWatched) {
     EXPECT_EQ(choice.shares(0, 8), (WalkShares{1 - 1.0f / 64, 0, 1.0f / 64}));
     // By and by it shows what it is worth.
     for (int pass = 0; pass < 5; ++pass) {
-        choice.learn(std::vector<WalkTallies>{{walks(10000, 1, 1), {}, walks(10000, 0.1, 2)}}, true, false);
+        choice.learn(std::vector<WalkTallies>{{walks(10000, 1, 1), {}, walks(10000, 0.1, 2)}}, 31, false);
     }
     EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
 }
@@ -173,7 +212,7 @@ TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
 
 TEST(GuidingChoice, RecordsTheMoreTheMoreGuidingBrings) {
     const auto share = [](double variance) {
-        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).recorded_share(15);
+        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).recorded_share();
     };
     EXPECT_GT(share(0.1), 0);
     EXPECT_EQ(share(0.1), share(0.5));

@@ -284,22 +284,63 @@ TEST(Render, KeepsToItsTime) {
     EXPECT_NEAR(render.progress().fraction, 1, 0.2);
 }
 
-TEST(Render, EndsOnceTheNoiseIsLowEnough) {
-    const Scene scene(table_top());
-    RenderSettings settings = settings_of("full", 2);
+RenderSettings settings_by_noise(const char* preset) {
+    RenderSettings settings = settings_of(preset, 2);
     settings.samples = 1000;
-    settings.noise = 0.3;
-    Film film = new_film();
-    Render render(scene, film, settings);
-    double before = 1;
-    while (render.step()) {
-        before = render.progress().relative_noise;
-    }
-    EXPECT_LE(film.relative_noise(), settings.noise);
-    EXPECT_GE(render.result().samples, 15);
-    EXPECT_LT(render.statistics().samples, 1000);
-    if (render.statistics().samples > 15) {
+    settings.noise = 0.5;
+    return settings;
+}
+
+TEST(EndedByNoiseSlow, OnceEverySquareIsQuietEnough) {
+    const Scene scene(table_top());
+    int samples[2] = {0, 0};
+    for (const bool is_adaptive : {false, true}) {
+        Film film = new_film();
+        const RenderSettings settings = settings_by_noise(is_adaptive ? "full" : "full+uniform");
+        Render render(scene, film, settings);
+        double before = 1, fraction = 0;
+        while (render.step()) {
+            before = render.progress().relative_noise;
+            fraction = render.progress().fraction;
+        }
+        EXPECT_LE(render.progress().relative_noise, settings.noise);
+        EXPECT_LE(film.relative_noise(), settings.noise);
+        samples[is_adaptive ? 1 : 0] = render.result().samples;
+        EXPECT_GT(render.statistics().samples, 15);
+        EXPECT_LT(render.statistics().samples, 1000);
+        EXPECT_FALSE(render.statistics().interrupted);
         EXPECT_GT(before, settings.noise) << "no pass earlier";
+        EXPECT_LT(fraction, 1);
+        EXPECT_GT(fraction, 0.3) << "the end is seen to come";
+        EXPECT_EQ(render.progress().fraction, 1);
+    }
+    EXPECT_LT(samples[1], samples[0]) << "squares that are done leave the rest to others";
+}
+
+TEST(EndedByNoiseSlow, IsTheSameInOneGoResumedAndByRanks) {
+    const Scene scene(table_top());
+    const RenderSettings settings = settings_by_noise("full");
+    const std::string expected = uninterrupted(scene, settings);
+    auto film = std::make_unique<Film>(new_film());
+    auto render = std::make_unique<Render>(scene, *film, settings);
+    int steps = 0, resumed = 0;
+    while (render->step(0.01)) {
+        if (++steps % 8 == 0) {
+            const std::string state = saved(*render);
+            film = std::make_unique<Film>(new_film());
+            render = std::make_unique<Render>(scene, *film, settings);
+            ArchiveReader bytes(state);
+            render->restore(bytes);
+            ++resumed;
+        }
+    }
+    EXPECT_GT(resumed, 1) << "the test is of no use";
+    EXPECT_TRUE(bytes_of(*film) == expected);
+    for (const std::string& of_rank : by_ranks(3, scene, settings, [](Render&one, const Ranks&) {
+             while (one.step(0.02)) {
+             }
+         })) {
+        EXPECT_TRUE(of_rank == expected);
     }
 }
 

@@ -1,5 +1,6 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
+#include <tests/support/measured_tables.h>
 #include <wend/medium/fresnel.h>
 #include <wend/medium/microfacet.h>
 #include <wend/medium/phase.h>
@@ -56,6 +57,35 @@ PrincipledBsdf waxen(float share, float even) {
     return b;
 }
 
+MeasuredBsdf measured(bool is_isotropic) {
+    static const MeasuredTables isotropic(test::uneven_reflectance(true)), anisotropic(test::uneven_reflectance(false));
+    return {is_isotropic ? &isotropic : &anisotropic};
+}
+
+/// With all that artists add to it.
+PrincipledBsdf tinted(float metallic) {
+    PrincipledBsdf b = principled(metallic, 0.4f, 0.8f);
+    b.aspect = 0.6f;
+    b.specular_tint = Rgb(0.9f, 0.5f, 0.2f);
+    b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
+    b.diffuse_roughness = 0.8f;
+    return b;
+}
+
+DisneyBsdf disney(float metallic, float spec_trans) {
+    DisneyBsdf b;
+    b.base = Rgb(0.5f, 0.4f, 0.2f);
+    b.metallic = metallic;
+    b.spec_trans = spec_trans;
+    b.alpha_x = 0.5f;
+    b.alpha_y = 0.3f;
+    b.coat = 0.7f;
+    b.sheen = 0.2f;
+    b.flatness = 0.3f;
+    b.spec_tint = 0.5f;
+    return b;
+}
+
 DielectricBsdf coloured_glass(float alpha) {
     DielectricBsdf b{1.5f, alpha, alpha};
     b.reflectance = Rgb(0.9f, 0.5f, 0.1f);
@@ -99,7 +129,14 @@ const std::vector<Model>& models() {
         {"dielectric_smooth_coloured", coloured_glass(0)},
         {"thin_coloured", ThinDielectricBsdf{1.5f, Rgb(0.9f, 0.5f, 0.1f), Rgb(0.2f, 0.4f, 0.8f)}},
         {"principled_waxen", waxen(0.6f, 0)},
-        {"principled_skin", waxen(1, 0.5f)}};
+        {"principled_skin", waxen(1, 0.5f)},
+        {"measured", measured(true)},
+        {"measured_anisotropic", measured(false)},
+        {"principled_tinted", tinted(0.2f)},
+        {"principled_brushed", tinted(1)},
+        {"disney", disney(0.2f, 0)},
+        {"disney_half_glass", disney(0.1f, 0.6f)},
+        {"disney_glass", disney(0, 1)}};
     return all;
 }
 
@@ -328,6 +365,14 @@ TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
             }
         }
     }
+    for (const float roughness : {0.5f, 1.0f}) {
+        PrincipledBsdf chalk = principled(0, 0.3f);
+        chalk.base = Rgb(1.0f);
+        chalk.diffuse_roughness = roughness;
+        for (const Vec3& wo : incidences()) {
+            EXPECT_TRUE(test::is_within_one_percent(energy(chalk, wo, 400000)[0], 1, 2e-3)) << roughness << ' ' << wo;
+        }
+    }
     // Facets in single reflection alone lose a quarter and more.
     const Moments lost = energy(ConductorBsdf{Rgb(1.0f), Rgb(300), 1, 1}, incidences()[1], 20000)[0];
     EXPECT_LT(lost.mean(), 0.75);
@@ -336,7 +381,10 @@ TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
 TEST(SlowPrincipled, ReflectsItsAlbedo) {
     for (const float metallic : {0.0f, 0.5f, 1.0f}) {
         for (const float coat : {0.0f, 0.7f}) {
-            const PrincipledBsdf b = principled(metallic, 0.4f, coat);
+            PrincipledBsdf b = principled(metallic, 0.4f, coat);
+            b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
+            b.diffuse_roughness = coat;
+            b.specular_tint = metallic > 0 ? Rgb(1.0f) : Rgb(0.9f, 0.5f, 0.2f);
             for (const Vec3& wo : incidences()) {
                 const auto shares = energy(b, wo, 400000);
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -570,9 +618,10 @@ TEST(Bsdf, IsReciprocal) {
     Pcg32 random(5);
     for (const Model& model : models()) {
         // The outcomes of walks are reciprocal on average alone. Fibres with tilted scales are not (chiang2016), nor
-        // are layers that are weighed by albedo.
+        // are layers that are weighed by albedo, and numbers that were made up.
         if (model.name.starts_with("coated_m") || model.name.starts_with("coated_black") || model.name == "coated" ||
-            model.name.starts_with("hair") || model.name.starts_with("principled")) {
+            model.name.starts_with("hair") || model.name.starts_with("principled") ||
+            model.name.starts_with("measured")) {
             continue;
         }
         for (int i = 0; i < 2000; ++i) {

@@ -83,6 +83,20 @@ TEST(FirstSurface, ObjectsCoverWhatAlphaSays) {
     EXPECT_NEAR(seen(s).face_normal.z, -1, 1e-6f);
 }
 
+TEST(FirstSurface, WhatIsHeldOutIsAHoleAndWhatIsHiddenIsNotThere) {
+    SceneDescription s = slab();
+    add_wall(s, 3, test::add_diffuse(s, Rgb(0.25f)));
+    add_wall(s, 2, test::add_diffuse(s, Rgb(0.5f)));
+    s.surfaces.back().view = CameraView::hidden;
+    EXPECT_NEAR(seen(s).depth, 8, 1e-4f);
+    EXPECT_EQ(seen(s).albedo, Rgb(0.25f));
+    s.surfaces.back().view = CameraView::held_out;
+    EXPECT_EQ(seen(s).depth, 0);
+    EXPECT_EQ(seen(s).albedo, Rgb(0.0f));
+    EXPECT_EQ(seen(s).alpha, seen(s).opacity) << "the fog before it is there";
+    EXPECT_GT(seen(s).opacity, 0);
+}
+
 TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
     SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
     add_wall(s, -100, test::add_diffuse(s, Rgb(0.5f)));

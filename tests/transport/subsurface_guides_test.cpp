@@ -4,6 +4,7 @@
 #include <tests/support/slab_references.h>
 
 #include <wend/stats/significance.h>
+#include <wend/transport/path_tracer.h>
 
 #include <gtest/gtest.h>
 

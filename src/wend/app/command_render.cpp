@@ -295,8 +295,9 @@ Action add_render_command(CLI::App& program) {
     CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
     command
         .add_option("--noise", options->noise,
-                    "render until the estimated relative noise of the picture is this, such as 0.02 for 2 %; --spp and "
-                    "--time end it earlier")
+                    "render until the relative noise is estimated to be no more than this in every square of 16x16 "
+                    "pixels, such as 0.02 for 2 %: the standard error over the brightness, of dark pixels over a tenth "
+                    "of the picture's, as a root mean square; --spp and --time end it earlier")
         ->check(CLI::PositiveNumber);
     CLI::Option* passes = command.add_option("--passes", options->passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");

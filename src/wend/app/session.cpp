@@ -5,6 +5,7 @@
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/parse_scene.h>
+#include <wend/io/spectrum/colour_space.h>
 #include <wend/version.h>
 
 #include <fmt/format.h>
@@ -114,6 +115,7 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, pbrt:
 Session::Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded, const Session* earlier)
     : scene_file_(options.file),
       film_file_(loaded.film_file),
+      colour_space_(loaded.colour_space),
       resolution_(loaded.resolution),
       crop_(options.crop.empty() ? loaded.crop : parse_crop(options.crop, loaded.resolution)),
       files_(stamps_of(loaded, std::filesystem::path(options.file).parent_path(), earlier)),
@@ -163,6 +165,9 @@ Picture Session::picture(const Film& film, const RenderSettings& settings, const
                         {"wend:seed", std::to_string(settings.seed)},
                         {"wend:version", WEND_VERSION},
                         {"wend:spp", std::to_string(statistics.samples)}};
+    if (colour_space_ != pbrt::ColourSpace::srgb) {
+        picture.metadata.emplace(colour_space_text, pbrt::to_string(colour_space_));
+    }
     add_manifest(scene_, settings.objects, picture);
     return picture;
 }

@@ -65,6 +65,7 @@ private:
 
     std::string scene_file_;
     std::string film_file_;
+    pbrt::ColourSpace colour_space_;  // of pictures
     Vec2i resolution_;
     PixelRect crop_;
     std::vector<FileStamp> files_;

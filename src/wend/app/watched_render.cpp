@@ -47,6 +47,59 @@ void attempt(const Streams& streams, const Action& action) {
     }
 }
 
+/// What a render writes on its way: its picture and its checkpoint, when they are due. All ranks agree on when.
+class FilesOnTheWay {
+public:
+    explicit FilesOnTheWay(const WatchOptions& options)
+        : pictures_(options.write_every),
+          checkpoints_(options.checkpoint.empty() ? 0 : options.checkpoint_every),
+          has_picture_(options.write_every == 0) {}
+
+    /// Seconds until the next is due.
+    double left() const { return std::min(pictures_.left(), checkpoints_.left()); }
+
+    /// Where one is due, all ranks share what they have, and the first writes it.
+    template <class WritePicture, class WriteCheckpoint>
+    void write(Render& render, const RenderProgress& progress, Team& team, const WritePicture& write_picture,
+               const WriteCheckpoint& write_checkpoint) {
+        // For the first picture: of a pass that takes longer there is a part.
+        constexpr double longest_wait = 5;
+        const bool is_first = team.rank() == 0;
+        const bool writes_picture = team.agreed(
+            pictures_.is_due() || (!has_picture_ && (progress.samples > 0 || progress.seconds > longest_wait)));
+        const bool writes_checkpoint = team.agreed(checkpoints_.is_due());
+        if (writes_picture || writes_checkpoint) {
+            render.share();
+        }
+        if (writes_picture) {
+            if (is_first) {
+                write_picture();
+            }
+            has_picture_ = true;
+            pictures_.restart();
+        }
+        if (writes_checkpoint) {
+            if (is_first) {
+                write_checkpoint();
+            }
+            checkpoints_.restart();
+        }
+    }
+
+private:
+    Regularly pictures_, checkpoints_;
+    bool has_picture_;
+};
+
+/// Tells other programs of progress, where that is asked for.
+void begin_lines(const WatchOptions& options, const Streams& streams, std::optional<ProgressLines>& lines) {
+    if (!options.progress_file.empty()) {
+        lines.emplace(options.progress_file);
+    } else if (options.progress == "json") {
+        lines.emplace(streams.err);
+    }
+}
+
 }  // namespace
 
 void WatchOptions::add_to(CLI::App& command) {
@@ -82,8 +135,6 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
                                 const std::function<void(const RenderStatistics&)>& write_picture) {
     // How soon it is noticed that something is due.
     constexpr double step = 0.25;
-    // For the first picture: of a pass that takes longer there is a part.
-    constexpr double longest_wait = 5;
     // The first rank alone looks at the clock, writes files and is watched.
     Team team(settings.ranks);
     const bool is_first = team.rank() == 0;
@@ -96,49 +147,30 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         resume_from(options.resume, render, session, settings);
     }
     std::optional<ProgressLines> lines;
-    if (!is_first) {
-        // One rank shows progress for all.
-    } else if (!options.progress_file.empty()) {
-        lines.emplace(options.progress_file);
-    } else if (options.progress == "json") {
-        lines.emplace(streams.err);
+    if (is_first) {
+        begin_lines(options, streams, lines);
     }
     ProgressBar bar(streams.err, is_first && !common.quiet && options.progress == "bar",
                     std::filesystem::path(session.scene_file()).filename().string());
-    Regularly pictures(options.write_every), checkpoints(options.checkpoint.empty() ? 0 : options.checkpoint_every);
-    bool has_picture = options.write_every == 0;
+    FilesOnTheWay files(options);
+    const auto write_now = [&] { attempt(streams, [&] { write_picture(render.statistics()); }); };
+    const auto save_now = [&] {
+        attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+    };
     for (bool goes_on = true; goes_on;) {
-        goes_on = render.step(std::clamp(std::min(pictures.left(), checkpoints.left()), 0.0, step));
+        goes_on = render.step(std::clamp(files.left(), 0.0, step));
         const RenderProgress progress = render.progress();
         bar.update(progress);
         if (lines) {
             lines->update(progress);
         }
         if (view) {
-            view->update(render, film, [&] { attempt(streams, [&] { write_picture(render.statistics()); }); });
+            view->update(render, film, write_now);
         }
         if (!goes_on || render.is_stopped()) {
             break;
         }
-        const bool writes_picture = team.agreed(
-            pictures.is_due() || (!has_picture && (progress.samples > 0 || progress.seconds > longest_wait)));
-        const bool writes_checkpoint = team.agreed(checkpoints.is_due());
-        if (writes_picture || writes_checkpoint) {
-            render.share();
-        }
-        if (writes_picture) {
-            if (is_first) {
-                attempt(streams, [&] { write_picture(render.statistics()); });
-            }
-            has_picture = true;
-            pictures.restart();
-        }
-        if (writes_checkpoint) {
-            if (is_first) {
-                attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
-            }
-            checkpoints.restart();
-        }
+        files.write(render, progress, team, write_now, save_now);
     }
     const RenderStatistics statistics = render.result();
     if (lines) {
@@ -150,7 +182,7 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     write_picture(statistics);
     // After the picture: it takes longer, and who stops a render may not wait for ever.
     if (!options.checkpoint.empty()) {
-        attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
+        save_now();
     }
     if (view) {
         view->finish(render, film);

@@ -53,6 +53,7 @@ void track(const GridMedium& medium, const FlightStart& start, Flight& flight, P
     const float largest = max_value(extinction);
     const GridEmission* emission = medium.emission();
     const auto index_ray = medium.to_index(ray);
+    const bool shines_apart = emission && emission->is_apart;
     const Rgb relative = extinction / largest;
     const bool grey = relative.r == relative.g && relative.g == relative.b;
     Rgb probability = channel_probabilities(start.throughput);
@@ -63,10 +64,11 @@ void track(const GridMedium& medium, const FlightStart& start, Flight& flight, P
     const float looks = medium.looks(index_ray, start.length);
     TentativeCollisions collisions(random);
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-        if (!(cell.maximum > 0)) {
+        if (!(cell.maximum > 0) && !shines_apart) {
             return true;
         }
-        if (is_too_dense(cell, extinction, t_out - t_in)) {
+        // What shines by itself does so between the voxels that a dense flight asks for.
+        if (!shines_apart && is_too_dense(cell, extinction, t_out - t_in)) {
             return !fly_densely(medium, start, t_in, t_out, probability, flight, random);
         }
         const float rate = std::max(largest * cell.maximum, looks);
@@ -83,10 +85,8 @@ void track(const GridMedium& medium, const FlightStart& start, Flight& flight, P
                 const float density = medium.density().sample_nearest(p, corner);
                 if (emission) {
                     const Vec3 here = ray.at(t);
-                    pick_up(
-                        flight,
-                        flight.weight * medium.absorption() * emission->at(here) * (start.keeps(here) * density / rate),
-                        t);
+                    const Rgb absorbed = shines_apart ? Rgb(1.0f) : medium.absorption() * density;
+                    pick_up(flight, flight.weight * absorbed * emission->at(here) * (start.keeps(here) / rate), t);
                 }
                 if (!(u < acceptance * density)) {
                     if (!grey) {

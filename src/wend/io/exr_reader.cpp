@@ -3,6 +3,7 @@
 #include <wend/io/exr_file.h>
 #include <wend/io/exr_slices.h>
 #include <wend/io/layer_names.h>
+#include <wend/io/spectrum/colour_space.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -198,6 +200,22 @@ std::array<float, 16> from_matrix(const Imath::M44f& m) {
     return numbers;
 }
 
+pbrt::ColourSpace colour_space_of(const Imf::Chromaticities& given) {
+    using pbrt::ColourSpace;
+    for (const auto space : {ColourSpace::dci_p3, ColourSpace::rec2020, ColourSpace::aces2065_1}) {
+        const Primaries& p = primaries_of(space);
+        const auto is_near = [](const Imath::V2f& a, const Primaries::Point& b) {
+            constexpr double tolerance = 1e-3;
+            return std::abs(double{a.x} - b.x) < tolerance && std::abs(double{a.y} - b.y) < tolerance;
+        };
+        if (is_near(given.red, p.red) && is_near(given.green, p.green) && is_near(given.blue, p.blue) &&
+            is_near(given.white, p.white)) {
+            return space;
+        }
+    }
+    return ColourSpace::srgb;
+}
+
 /// All but what the file itself is made of.
 std::map<std::string, std::string> texts_of(const Imf::Header& header) {
     std::map<std::string, std::string> texts;
@@ -231,6 +249,17 @@ ImageWithOpacity read_exr_image(const std::filesystem::path& file) {
         }
     });
     return picture;
+}
+
+pbrt::ColourSpace exr_colour_space(const std::filesystem::path& file) {
+    pbrt::ColourSpace space = pbrt::ColourSpace::srgb;
+    with_file(file, [&](Imf::MultiPartInputFile& input) {
+        const Imf::Header& header = input.header(find_beauty(input).part);
+        if (Imf::hasChromaticities(header)) {
+            space = colour_space_of(Imf::chromaticities(header));
+        }
+    });
+    return space;
 }
 
 Picture read_exr(const std::filesystem::path& file) {

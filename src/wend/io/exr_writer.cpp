@@ -3,6 +3,7 @@
 #include <wend/io/exr_file.h>
 #include <wend/io/exr_slices.h>
 #include <wend/io/layer_names.h>
+#include <wend/io/spectrum/colour_space.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
@@ -84,6 +85,18 @@ void insert_numbers(Imf::Header& header, const std::map<std::string, std::string
     insert_integer("seed", "wend:seed");
 }
 
+/// Of what its metadata say that its colours are in, and else of Rec. 709, which others take for granted, but like to
+/// be told.
+Imf::Chromaticities chromaticities_of(const Picture& picture) {
+    const auto said = picture.metadata.find(std::string(colour_space_text));
+    const auto space = said == picture.metadata.end() ? std::nullopt : pbrt::colour_space_named(said->second);
+    const Primaries& p = primaries_of(space.value_or(pbrt::ColourSpace::srgb));
+    const auto point = [](const Primaries::Point& q) {
+        return Imath::V2f(static_cast<float>(q.x), static_cast<float>(q.y));
+    };
+    return {point(p.red), point(p.green), point(p.blue), point(p.white)};
+}
+
 /// Writes the slices of a frame, each in its own type, with the picture's place and metadata.
 void write_frame(const std::filesystem::path& file, const Picture& picture, const PictureFormat& format,
                  const Imf::FrameBuffer& frame) {
@@ -99,8 +112,7 @@ void write_frame(const std::filesystem::path& file, const Picture& picture, cons
             header.insert(name, Imf::StringAttribute(value));
         }
         insert_numbers(header, picture.metadata);
-        // Colours are those of Rec. 709, which is what the library takes for granted; others like to be told.
-        Imf::addChromaticities(header, Imf::Chromaticities());
+        Imf::addChromaticities(header, chromaticities_of(picture));
         if (picture.view) {
             Imf::addWorldToCamera(header, to_matrix(picture.view->camera_from_world));
             Imf::addWorldToNDC(header, to_matrix(picture.view->ndc_from_world));

@@ -16,6 +16,7 @@ struct TriangleMeshData {
     std::vector<std::uint32_t> indices;  ///< three a triangle
     std::vector<Vec3> end_positions;     ///< one a vertex, or none: as TriangleMesh has them
     std::vector<Vec3> end_normals;       ///< the same
+    std::vector<Vec3> tangents;          ///< the same
 };
 
 /// Reads a PLY file: ascii or binary of either byte order, compressed by gzip or not. Polygons become fans of

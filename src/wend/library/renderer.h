@@ -63,7 +63,7 @@ private:
 struct Settings {
     int samples = 0;          ///< per pixel; 0: the scene's or, with a noise, as many as it takes
     double seconds = 0;       ///< to spend, training included, in place of samples; 0: any
-    double noise = 0;         ///< ends where the picture's relative noise is estimated to be this; 0: does not
+    double noise = 0;         ///< ends where no square of 16x16 pixels has more relative noise; 0: does not
     std::vector<int> passes;  ///< of an earlier render, which is repeated exactly; in place of samples and seconds
     /// "classical"; "full", whatever pays, where it pays; or decisions to guide everywhere, joined by '+': scatter,
     /// distance, direction, roulette, splitting.
@@ -81,7 +81,7 @@ struct Progress {
     double seconds = 0;         ///< so far
     double seconds_left = 0;    ///< at the pace of the last pass
     int samples = 0;            ///< per pixel, so far
-    double relative_noise = 0;  ///< of the picture, estimated after the last pass
+    double relative_noise = 0;  ///< after the last pass; of the noisiest square where noise ends it
 };
 
 /// What a render leaves: linear colour and other layers of a crop window, rows from the top.

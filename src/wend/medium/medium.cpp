@@ -28,7 +28,7 @@ Rgb GridEmission::at(const Vec3& p) const {
     const float kelvin = (value - temperature_offset) * temperature_scale;
     // Cooler than 100 K nothing is visible.
     if (!(kelvin > 100)) {
-        return Rgb(0.0f);
+        return is_apart ? full * black_body.front() : Rgb(0.0f);
     }
     const float position = std::min(kelvin / black_body_step, static_cast<float>(black_body.size()) - 1.001f);
     const auto i = static_cast<std::size_t>(position);

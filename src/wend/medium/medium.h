@@ -18,8 +18,11 @@
 
 namespace wend {
 
-/// Light that a heterogeneous medium emits: radiance per unit length is the absorption coefficient times at().
+/// Light that a heterogeneous medium emits: radiance per unit length is the absorption coefficient times at(), or at()
+/// itself.
 struct WEND_API GridEmission {
+    /// Whether it shines by itself, in proportion to nothing.
+    bool is_apart = false;
     /// Emitted radiance where `field` is 1, or what multiplies the black body.
     Rgb radiance;
     std::shared_ptr<const Grid> field;          ///< scale or temperature; null: emits wherever it absorbs
@@ -75,6 +78,9 @@ public:
     const EmissionSampler* glow() const { return glow_.get(); }
     /// Radiance emitted per unit length at a point in the world; the medium must have an emission.
     Rgb emitted_at(const Vec3& p) const {
+        if (emission_->is_apart) {
+            return emission_->at(p);
+        }
         const Vec3 q = index_from_world_.point(p);
         return voxels_ ? voxels_->absorption.interpolate(q) * emission_->at(p)
                        : absorption_ * emission_->at(p) * density_->interpolate(q);

@@ -51,7 +51,8 @@ FieldLearner::FieldLearner(const LearningContext& context)
 
 void FieldLearner::begin(const PassPlan& plan) {
     records_ = plan.learns && !context_.settings.preset.is_classical();
-    if (!records_ || !plan.guides || !context_.settings.preset.direction) {
+    // Photons cost as much as the first samples do, which may be all.
+    if (!records_ || !plan.guides || !context_.settings.preset.direction || plan.first < warm_up_samples) {
         return;
     }
     if (fields_.surface.is_trained() || fields_.volume.is_trained()) {
@@ -93,7 +94,7 @@ void FieldLearner::learn(std::vector<Records>& mine, const PassPlan& plan, TileS
     }
     const bool shows = static_cast<bool>(context_.settings.on_records);
     const std::vector<std::uint64_t> totals = shares.team().sum({count, shows ? 1u : 0u});
-    budget_.learn(plan.recorded_share * context_.walks(plan), static_cast<double>(totals[0]));
+    budget_.learn(plan.recorded_walks, static_cast<double>(totals[0]));
     if (totals[1] > 0) {
         show(records, shares);
     }

@@ -4,21 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace wend {
 namespace {
 
+/// Of the first guided walks, the share of each kind: they cost little where they do not pay.
+constexpr float probe_share = 1.0f / 12;
+/// Where they seem so many times better, only those are tried that take directions from the fields, which get better.
+constexpr double plain = 2.5;
 /// What a tile's own walks are weighed against: so many walks of the picture's.
 constexpr double walks_of_picture = 4000;
 /// Kinds that are close to the best go on being tried.
 constexpr double close = 2;
 /// Of walks, the share of each; less where its noise would be seen beside that of the best.
 constexpr double trial_share = 1.0 / 16, noise_of_trials = 0.02;
-/// While the fields learn, every kind that follows them has that share, whatever it has shown: it gets better, and a
-/// few bright walks by a field that knows little would speak against it for long.
-constexpr double learning_share = 1.0 / 16;
+/// While the fields learn, every kind that takes directions from them has that share, whatever it has shown: it gets
+/// better, a few bright walks by a field that knows little would speak against it for long, and no others bring light
+/// to learn from where it is hard to find.
+constexpr double learning_share = 1.0 / 8;
+/// And it is taken to be as much better as it may become.
+constexpr double promise = 4;
 /// Later the best of them keeps this much: one that was misjudged is found out.
 constexpr double watched_share = 1.0 / 64;
 /// What an older field has shown counts so much less with each pass.
@@ -194,10 +202,7 @@ std::array<GuidingChoice::Means, most_walk_kinds> GuidingChoice::means() const {
     return means;
 }
 
-bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool learns) {
-    if (kinds_.size() == 1) {
-        return false;
-    }
+void GuidingChoice::remember(std::span<const WalkTallies> pass, bool learns) {
     for (std::size_t tile = 0; tile < pass.size(); ++tile) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
             WalkTally& known = tallies_[tile][kind];
@@ -205,30 +210,75 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, bool is_warm, bool 
             known += pass[tile][kind];
         }
     }
-    if (!is_warm) {
-        return false;
-    }
-    const std::vector<WalkShares> before = shares_;
-    if (state_ == State::classical) {
-        state_ = State::trial;
-        WalkShares even{};
-        std::fill_n(even.begin(), kinds_.size(), 1 / static_cast<float>(kinds_.size()));
-        std::fill(shares_.begin(), shares_.end(), even);
-        return true;
-    }
+}
+
+bool GuidingChoice::shows_directed(std::span<const WalkTallies> pass) const {
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        if (std::all_of(tallies_.begin(), tallies_.end(),
-                        [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
+        if (kinds_[kind].preset.direction &&
+            std::all_of(pass.begin(), pass.end(), [kind](const WalkTallies& tile) { return tile[kind].walks == 0; })) {
             return false;
         }
     }
-    state_ = State::chosen;
+    return true;
+}
+
+void GuidingChoice::probe() {
+    state_ = State::probe;
+    for (WalkShares& shares : shares_) {
+        const WalkShares most = shares;
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+            shares[kind] = most[kind] > 0 ? 1 - probe_share * static_cast<float>(kinds_.size() - 1) : probe_share;
+        }
+    }
+}
+
+void GuidingChoice::begin_trial(bool of_all) {
+    state_ = State::trial;
+    if (of_all) {
+        // Pixels are known better now: what walks have shown by then would not compare.
+        std::fill(tallies_.begin(), tallies_.end(), WalkTallies{});
+    }
+    WalkShares tried{};
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+        tried[kind] = of_all || kinds_[kind].preset.direction ? 1.0f : 0.0f;
+    }
+    const float all = std::accumulate(tried.begin(), tried.end(), 0.0f);
+    for (float& share : tried) {
+        share /= all;
+    }
+    std::fill(shares_.begin(), shares_.end(), tried);
+}
+
+bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool learns) {
+    if (kinds_.size() == 1) {
+        return false;
+    }
+    remember(pass, learns);
+    if (state_ == State::classical && samples >= few_samples) {
+        probe();
+        return true;
+    }
+    const bool shows_directed = this->shows_directed(pass);
+    const bool is_open = state_ == State::probe && samples < warm_up_samples;
+    if (state_ == State::classical || ((state_ == State::trial || is_open) && !shows_directed)) {
+        return false;
+    }
     const Products squares = squared_errors(), work = products(&WalkTally::work);
     const auto price = [&](std::size_t kind) { return squares.kind[kind] * work.kind[kind]; };
     gain_ = 0;
     for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
         gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
     }
+    if (state_ == State::probe) {
+        const bool is_plain = shows_directed && gain_ > plain;
+        if (is_open && !is_plain) {
+            return false;
+        }
+        begin_trial(!is_plain);
+        return true;
+    }
+    const std::vector<WalkShares> before = shares_;
+    state_ = State::chosen;
     for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
         shares_[tile] = chosen_for(tile, squares, work, learns);
     }
@@ -247,20 +297,33 @@ WalkShares GuidingChoice::shares(std::size_t tile, int samples) const {
     return kinds_.size() > 1 && !guides(samples) ? all_of(0) : shares_[tile];
 }
 
-double GuidingChoice::recorded_share(int samples) const {
+double GuidingChoice::recorded_share() const {
     if (kinds_.size() == 1) {
         return 1;
     }
-    constexpr double first = 1.0 / 16, before_trial = 0.3, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
+    constexpr double first = 0.1, before_trial = 0.2, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
     switch (state_) {
         case State::classical:
-            return samples < warm_up_samples / 2 ? first : before_trial;
+            return first;
+        case State::probe:
+            return before_trial;
         case State::trial:
             return at_trial;
         case State::chosen:
             return std::clamp(gain_ / enough, least, most);
     }
     return 1;
+}
+
+double GuidingChoice::directed_share(int samples) const {
+    double directed = 0;
+    for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
+        const WalkShares of_tile = shares(tile, samples);
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+            directed += kinds_[kind].preset.direction ? static_cast<double>(of_tile[kind]) : 0.0;
+        }
+    }
+    return directed / static_cast<double>(shares_.size());
 }
 
 WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, const Products& work,
@@ -271,7 +334,12 @@ WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, 
         const WalkTally& here = tallies_[tile][kind];
         const double n = here.walks + walks_of_picture;
         variance[kind] = (here.square + walks_of_picture * squares.at(tile, kind)) / n;
-        price[kind] = variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n;
+        // What was not tried is in no measure.
+        price[kind] = work.kind[kind] > 0 ? variance[kind] * (here.work + walks_of_picture * work.at(tile, kind)) / n
+                                          : std::numeric_limits<double>::infinity();
+        if (learns && kinds_[kind].preset.direction) {
+            price[kind] /= promise;
+        }
         best = price[kind] < price[best] ? kind : best;
     }
     const auto watched =
@@ -287,7 +355,7 @@ WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& squares, 
         const double tried = price[kind] < close * price[best] ? std::min(trial_share, unseen)
                              : kind == watched                 ? std::min(watched_share, unseen)
                                                                : 0.0;
-        const double taught = learns && kinds_[kind].preset.guides_survival() ? learning_share : 0.0;
+        const double taught = learns && kinds_[kind].preset.direction ? learning_share : 0.0;
         shares[kind] = static_cast<float>(std::max(tried, taught));
         rest -= shares[kind];
     }

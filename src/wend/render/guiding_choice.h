@@ -70,9 +70,10 @@ struct Guidable {
 };
 
 /// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
-/// no walk has a say in its own weight. All begin with classical walks. Then every kind is tried; the best of a tile
-/// goes on, and others as long as they are close. A picture that is too small for a trial has one kind, guided in all
-/// ways.
+/// no walk has a say in its own weight. All begin with classical walks. Then a few of every kind are tried. Where that
+/// leaves it open whether guiding pays, as many of each kind follow; else those that take directions from the fields.
+/// The best of a tile goes on, and others as long
+/// as they are close. A picture that is too small for a trial has one kind, guided in all ways.
 class GuidingChoice {
 public:
     /// By fewer pixels a trial of a few samples tells nothing.
@@ -93,21 +94,23 @@ public:
     /// Of a segment, in those of classical walks; those of guided interior walks cost more.
     static double cost_of_segment(const WalkKind& kind);
 
-    /// Chooses anew, by what the walks of a pass have shown in each tile; whether that changes anything. `is_warm`:
-    /// whether enough is known to begin; `learns`: whether the pass has taught the fields, so that guided walks will be
-    /// others.
-    bool learn(std::span<const WalkTallies> pass, bool is_warm, bool learns);
+    /// Chooses anew, by what the walks of a pass have shown in each tile, after so many samples of each pixel; whether
+    /// that changes anything. `learns`: whether the pass has taught the fields, so that guided walks will be others.
+    bool learn(std::span<const WalkTallies> pass, int samples, bool learns);
 
     /// Whether any walk may be guided in a pass of so many samples of each pixel.
     bool guides(int samples) const;
     /// Whether it is known where guiding pays.
     bool has_chosen() const { return state_ == State::chosen; }
-    /// Whether every kind is being tried.
+    /// Whether kinds are being tried.
     bool is_trial() const { return state_ == State::trial; }
     /// Whether guiding brings so much that to teach the fields further pays.
     bool guiding_pays() const { return gain_ > 2; }
-    /// Of the walks to come, those that are worth recording: the more, the more guiding has been found to bring.
-    double recorded_share(int samples) const;
+    /// Of the walks to come that take no directions from the fields, those that are worth recording: the more, the more
+    /// guiding has been found to bring.
+    double recorded_share() const;
+    /// Of the walks of a pass of so many samples, those that take directions from the fields.
+    double directed_share(int samples) const;
 
     /// Of a walk of each kind in the whole picture, were all walks of that kind: its variance relative to the picture's
     /// mean, and its work; estimates, 0 where none was tried.
@@ -135,6 +138,13 @@ private:
         double at(std::size_t t, std::size_t k) const { return tile[t] * kind[k]; }
         double mean_of_tiles() const;
     };
+    void remember(std::span<const WalkTallies> pass, bool learns);
+    /// From now on a few walks are of other kinds.
+    void probe();
+    /// From now on there are as many walks of each kind, or of each that takes directions from the fields.
+    void begin_trial(bool of_all);
+    /// Whether each kind that takes directions from the fields has walks in a pass.
+    bool shows_directed(std::span<const WalkTallies> pass) const;
     Products products(double WalkTally::*what) const;
     /// Of squared errors, with those of light that a kind has not found yet.
     Products squared_errors() const;
@@ -143,7 +153,7 @@ private:
     std::vector<WalkKind> kinds_;
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;
-    enum class State { classical, trial, chosen } state_ = State::classical;
+    enum class State { classical, probe, trial, chosen } state_ = State::classical;
     double gain_ = 0;  ///< of guiding, in the whole picture
 };
 

@@ -17,6 +17,8 @@ namespace wend {
 
 /// Before, neither the fields nor the pixels are known well enough to end or split walks by them, or to judge guides.
 inline constexpr int warm_up_samples = 7;
+/// By these, smoothed, pixels are known well enough for a few guided walks to show what they bring.
+inline constexpr int few_samples = 1;
 
 /// Whether there is a medium where free flights can be guided.
 inline bool has_fog(const Scene& scene) {
@@ -36,6 +38,9 @@ struct PassPlan {
     bool guides = false;        ///< whether any walk may be guided
     bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
     double recorded_share = 1;  ///< of the walks, those that are recorded
+    /// The same, of walks that take directions from the fields. Where light is hard to find they bring most of it.
+    double recorded_share_directed = 1;
+    double recorded_walks = 0;  ///< that many, as a mean
     /// Of each pixel of the crop, without exposure; empty where not known.
     std::vector<float> estimates;
     double mean_estimate = 0;    ///< of all pixels; 0 where estimates are not known
@@ -45,7 +50,8 @@ struct PassPlan {
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
         bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.guides, plan.steers,
-              plan.recorded_share, plan.estimates, plan.mean_estimate, plan.sample_variance);
+              plan.recorded_share, plan.recorded_share_directed, plan.recorded_walks, plan.estimates,
+              plan.mean_estimate, plan.sample_variance);
     }
 
     /// Samples of each pixel once the pass has ended.

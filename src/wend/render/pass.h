@@ -53,6 +53,16 @@ inline std::vector<Tile> tiles_of(const PixelRect& crop) {
     return tiles;
 }
 
+/// Samples of a pixel, of all passes, as a mean.
+inline int mean_samples(const std::vector<Tile>& tiles) {
+    double paths = 0, pixels = 0;
+    for (const Tile& tile : tiles) {
+        paths += static_cast<double>(tile.counts.paths);
+        pixels += tile.pixel_count();
+    }
+    return static_cast<int>(paths / pixels);
+}
+
 /// When walks are to rest: at a time, or once they are told to stop, which drops those on their way.
 class Rest {
 public:
@@ -89,6 +99,7 @@ public:
                   settings.max_depth, settings.stop),
           kind_(kind),
           cost_of_segment_(GuidingChoice::cost_of_segment(choice.kinds()[kind])),
+          recorded_share_(choice.kinds()[kind].preset.direction ? plan.recorded_share_directed : plan.recorded_share),
           is_guided_(!choice.kinds()[kind].is_classical()),
           expects_(choice.kinds()[kind].preset.guides_survival()),
           learners_(learners),
@@ -232,7 +243,7 @@ private:
     /// By a number of its own: what a walk does must not depend on whether it is recorded.
     bool records_walk(std::uint64_t pixel, int index) const {
         constexpr std::uint64_t purpose = 0x7265636f7264;
-        return Pcg32(hash_of(settings_.seed, pixel, index, purpose)).uniform_double() < plan_.recorded_share;
+        return Pcg32(hash_of(settings_.seed, pixel, index, purpose)).uniform_double() < recorded_share_;
     }
 
     /// In lists of what is known of each pixel of the crop.
@@ -270,6 +281,7 @@ private:
     PathTracer<Decisions, Learners::Recorders> tracer_;
     std::size_t kind_;
     double cost_of_segment_;
+    double recorded_share_;
     bool is_guided_;
     bool expects_;  ///< whether its survival follows the estimate of the pixel
     const Learners& learners_;

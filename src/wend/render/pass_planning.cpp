@@ -49,8 +49,12 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     // In a small picture the fields would learn from too few.
     constexpr double fewest_recorded = 1024;
     const double walks = context.walks(plan);
-    plan.recorded_share = std::min(learners.get<FieldLearner>().recorded_share(walks),
-                                   std::max(choice.recorded_share(samples), fewest_recorded / walks));
+    const double most_recorded = learners.get<FieldLearner>().recorded_share(walks);
+    const double wanted = std::max(choice.recorded_share(), fewest_recorded / walks);
+    const double directed = choice.directed_share(count);
+    plan.recorded_share = std::min(most_recorded, wanted);
+    plan.recorded_share_directed = std::min(most_recorded, 2 * wanted / std::max(directed, wanted));
+    plan.recorded_walks = walks * ((1 - directed) * plan.recorded_share + directed * plan.recorded_share_directed);
     double sample_variance = std::pow(rendered.noise, 2) * samples;
     const bool knows_noise = samples >= known_noise;
     if (!knows_noise && taught) {
@@ -68,7 +72,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
             plan.counts = sample_counts(noise, film.crop().width(), count, settings.seed);
         }
     }
-    if (preset.guides_survival() && (samples >= warm_up_samples || taught) && settings.exposure > 0) {
+    if (preset.guides_survival() && (samples >= few_samples || taught) && settings.exposure > 0) {
         const Image shown = as_in_scene(film, settings.balance);
         plan.estimates =
             taught ? pixel_estimates(taught->with(shown, samples, settings.exposure), taught->samples + samples)

@@ -1,4 +1,5 @@
 #include <wend/render/guiding_choice.h>
+#include <wend/render/noise_target.h>
 #include <wend/render/pass.h>
 #include <wend/render/pass_planning.h>
 #include <wend/render/render.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -107,7 +107,7 @@ public:
         RenderProgress progress;
         progress.seconds = seconds();
         progress.samples = statistics_.samples;
-        progress.relative_noise = noise_;
+        progress.relative_noise = ends_by_noise() ? noise_left_.worst : noise_;
         progress.learns = is_within_pass_ && plan_.learns;
         progress.fraction = fraction();
         const double pace = (progress.fraction - mark_.fraction) / (progress.seconds - mark_.seconds);
@@ -185,7 +185,7 @@ private:
     static void archive(Archive& bytes, Self& work) {
         bytes.same(work.tiles_.size());
         bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
-              work.recorded_samples_, work.mark_, work.last_mark_, work.taught_);
+              work.noise_left_, work.recorded_samples_, work.mark_, work.last_mark_, work.taught_);
         bytes.require(work.taught_.size() <= 1);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
@@ -246,9 +246,7 @@ private:
 
     /// Samples of each pixel in the next pass; 0 at the end.
     int next_count() const {
-        // By fewer samples noise is not known.
-        constexpr int fewest = 15;
-        if (settings_.noise > 0 && statistics_.samples >= fewest && noise_ <= settings_.noise) {
+        if (ends_by_noise() && statistics_.samples >= known_noise && noise_left_.worst <= settings_.noise) {
             return 0;
         }
         return schedule_.next(static_cast<int>(statistics_.passes.size()), statistics_.samples, seconds());
@@ -266,7 +264,7 @@ private:
         }
         const double samples =
             is_within_pass_ && pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
-        const double by_noise = settings_.noise > 0 && noise_ > 0 ? std::pow(settings_.noise / noise_, 2) : 0.0;
+        const double by_noise = ends_by_noise() && noise_left_.samples > 0 ? samples / noise_left_.samples : 0.0;
         return std::min(1.0, std::max(schedule_.fraction(samples, seconds()), by_noise));
     }
 
@@ -286,6 +284,9 @@ private:
             schedule_.is_last(static_cast<int>(statistics_.passes.size()), statistics_.samples + count);
         plan_ = plan_pass({context_, film_, learners_, choice_, taught()},
                           {statistics_.samples, recorded_samples_, noise_}, count, is_last);
+        if (ends_by_noise() && !plan_.counts.empty() && plan_.first >= known_noise) {
+            plan_.counts = counts_to_noise(film_, settings_, count);
+        }
         learners_.begin(plan_);
         for (std::size_t i = 0; i < tiles_.size(); ++i) {
             tiles_[i].shares = choice_.shares(i, count);
@@ -296,6 +297,7 @@ private:
         is_within_pass_ = true;
     }
 
+    bool ends_by_noise() const { return settings_.noise > 0; }
     /// By one sample a stage would not know its variance.
     bool next_kind_begins_stage() const {
         return choice_.is_trial() && plan_.count >= 2 * static_cast<int>(choice_.kinds().size());
@@ -307,7 +309,9 @@ private:
         for (Tile& tile : tiles_) {
             tile.pixels_done = 0;
         }
-        statistics_.samples += plan_.count;
+        // Where a pass leaves out what has no more noise than wanted, it has fewer samples than planned.
+        statistics_.samples =
+            ends_by_noise() && !plan_.counts.empty() ? mean_samples(tiles_) : statistics_.samples + plan_.count;
         statistics_.passes.push_back(plan_.count);
         const Clock::time_point start = Clock::now();
         learners_.learn(records_, plan_, shares_);
@@ -315,13 +319,17 @@ private:
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
         if (plan_.learns) {
-            recorded_samples_ += plan_.count * choice_.recorded_share(plan_.first);
+            recorded_samples_ += plan_.count * choice_.recorded_share();
         }
         const bool chooses_anew = choose(statistics_.samples);
-        if (statistics_.samples >= warm_up_samples && (learners_.changes_walks() || warms_up || chooses_anew)) {
+        if ((statistics_.samples >= warm_up_samples || choice_.is_trial()) &&
+            (learners_.changes_walks() || warms_up || chooses_anew)) {
             film_.begin_stage();
         }
         noise_ = film_.relative_noise();
+        if (ends_by_noise()) {
+            noise_left_ = noise_left(film_, settings_, statistics_.samples);
+        }
         mark_ = std::exchange(last_mark_, {fraction(), seconds()});
     }
 
@@ -338,7 +346,7 @@ private:
         for (const Tile& tile : tiles_) {
             tallies.push_back(tile.tallies);
         }
-        return choice_.learn(tallies, samples >= warm_up_samples, learners_.get<FieldLearner>().records());
+        return choice_.learn(tallies, samples, learners_.get<FieldLearner>().records());
     }
 
     /// Walks of the kind at hand; whether all have been walked.
@@ -371,6 +379,7 @@ private:
     PassPlan plan_;                ///< of the pass at hand
     std::size_t kind_ = 0;         ///< of the walks at hand
     double noise_ = 0;             ///< after the last pass
+    NoiseLeft noise_left_;         ///< likewise, where noise ends the render
     Mark mark_, last_mark_;        ///< at the ends of the last two passes
     RenderStatistics statistics_;  ///< samples, passes and time to train
     double seconds_before_ = 0;    ///< it was restored

@@ -10,9 +10,10 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/preset.h>
 #include <wend/sampling/sampler.h>
+#include <wend/subsurface/preset.h>
 #include <wend/transport/first_surface.h>
-#include <wend/transport/path_tracer.h>
-#include <wend/transport/subsurface_guides.h>
+#include <wend/transport/light_parts.h>
+#include <wend/transport/walk_result.h>
 
 #include <atomic>
 #include <cstdint>
@@ -30,8 +31,8 @@ struct RenderSettings {
     int samples = 16;
     /// Time to spend, training included.
     double seconds = 0;
-    /// Not 0: the picture is done once its relative_noise() is no more than this, as far as can be told from 15 samples
-    /// on.
+    /// Not 0: the picture is done once none of its squares of 16x16 pixels has more noise than this (SquaresNoise), as
+    /// far as can be told from 15 samples on.
     double noise = 0;
     /// The passes of an earlier run, to repeat exactly; overrides both.
     std::vector<int> passes;
@@ -72,7 +73,7 @@ struct RenderProgress {
     double seconds = 0;
     double seconds_left = 0;    ///< at the pace of the last pass
     int samples = 0;            ///< per pixel, so far
-    double relative_noise = 0;  ///< Film::relative_noise() after the last pass
+    double relative_noise = 0;  ///< after the last pass; of the noisiest square where noise is to end it
     bool learns = false;        ///< whether walks are there to learn from
 };
 

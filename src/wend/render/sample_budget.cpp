@@ -109,12 +109,16 @@ std::vector<double> worth_of_pixels(const std::vector<PixelNoise>& noise, int wi
 
 }  // namespace
 
-std::vector<std::uint32_t> sample_counts(const std::vector<PixelNoise>& noise, int width, int count,
-                                         std::uint64_t seed) {
+std::vector<std::uint32_t> sample_counts(const std::vector<PixelNoise>& noise, int width, int count, std::uint64_t seed,
+                                         const std::vector<double>& most) {
     const std::vector<double> worth = worth_of_pixels(noise, width);
-    const double wanted = count * static_cast<double>(noise.size());
+    double wanted = count * static_cast<double>(noise.size());
+    if (!most.empty()) {
+        wanted = std::min(wanted, std::accumulate(most.begin(), most.end(), 0.0));
+    }
     const auto missing = [&](std::size_t i, double level) {
-        return std::max(0.0, level * worth[i] - noise[i].samples);
+        const double samples = std::max(0.0, level * worth[i] - noise[i].samples);
+        return most.empty() ? samples : std::min(samples, most[i]);
     };
     // The level to which all are filled up, as water finds it.
     double low = 0, high = 1;

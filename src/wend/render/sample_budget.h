@@ -16,7 +16,9 @@ namespace wend {
 /// What one half of the chess board shows says what the other gets (film/chess_board.h): no sample has a say in how
 /// many follow it in its pixel, so the pixel's mean over all of them has no bias. Rounding is by chance, keyed by
 /// `seed` and pixel.
-std::vector<std::uint32_t> sample_counts(const std::vector<PixelNoise>& noise, int width, int count,
-                                         std::uint64_t seed);
+///
+/// `most`, if not empty, is of each pixel what it may get; where that is less than what there is to give, all get it.
+std::vector<std::uint32_t> sample_counts(const std::vector<PixelNoise>& noise, int width, int count, std::uint64_t seed,
+                                         const std::vector<double>& most = {});
 
 }  // namespace wend

@@ -26,7 +26,9 @@ const std::vector<int>& surfaces_of(const SceneDescription& scene, int object) {
 bool is_passable(const SceneDescription& scene, const Surface& surface) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
     const auto* principled = std::get_if<PrincipledMaterial>(&material);
-    return (principled && principled->subsurface >= 0) || std::holds_alternative<InterfaceMaterial>(material) ||
+    const auto* disney = std::get_if<DisneyMaterial>(&material);
+    return (principled && principled->subsurface >= 0) || (disney && disney->transmits) ||
+           std::holds_alternative<InterfaceMaterial>(material) ||
            std::holds_alternative<DielectricMaterial>(material) ||
            std::holds_alternative<ThinDielectricMaterial>(material) ||
            std::holds_alternative<DiffuseTransmissionMaterial>(material) ||

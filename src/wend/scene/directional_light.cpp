@@ -14,20 +14,24 @@ Vec3 to_light(const AffineMap& light_from_world, const Vec3& w) {
 
 }  // namespace
 
+float cone_falloff(float cosine, float cos_inner, float cos_outer, bool is_linear) {
+    if (cosine >= cos_inner) {
+        return 1;
+    }
+    if (!(cosine > cos_outer)) {
+        return 0;
+    }
+    if (is_linear) {
+        const float outer = std::acos(cos_outer), inner = std::acos(cos_inner);
+        return std::clamp((outer - std::acos(cosine)) / (outer - inner), 0.0f, 1.0f);
+    }
+    const float t = (cosine - cos_outer) / (cos_inner - cos_outer);
+    return t * t * (3 - 2 * t);
+}
+
 Rgb intensity_towards(const SpotLight& light, const Vec3& w) {
     const float cosine = to_light(light.light_from_world, w).z;
-    if (cosine >= light.cos_inner) {
-        return light.intensity;
-    }
-    if (!(cosine > light.cos_outer)) {
-        return Rgb(0.0f);
-    }
-    if (light.is_linear) {
-        const float outer = std::acos(light.cos_outer), inner = std::acos(light.cos_inner);
-        return light.intensity * std::clamp((outer - std::acos(cosine)) / (outer - inner), 0.0f, 1.0f);
-    }
-    const float t = (cosine - light.cos_outer) / (light.cos_inner - light.cos_outer);
-    return light.intensity * (t * t * (3 - 2 * t));
+    return light.intensity * cone_falloff(cosine, light.cos_inner, light.cos_outer, light.is_linear);
 }
 
 Rgb intensity_towards(const GoniometricLight& light, const Vec3& w) {

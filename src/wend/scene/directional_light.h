@@ -41,6 +41,9 @@ struct ProjectionLight {
     bool lights_plane_evenly = false;
 };
 
+/// What is left of full intensity at an angle of this cosine from the axis of a cone: SpotLight.
+float cone_falloff(float cosine, float cos_inner, float cos_outer, bool is_linear);
+
 /// Power per steradian that leaves into a unit direction of the world.
 Rgb intensity_towards(const SpotLight& light, const Vec3& w);
 Rgb intensity_towards(const GoniometricLight& light, const Vec3& w);

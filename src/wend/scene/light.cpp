@@ -253,10 +253,11 @@ auto ask_area_light(const Light& light, const Ask& ask)
     return std::nullopt;
 }
 
-/// Averaged over the picture, if any.
+/// Averaged over the picture and the directions, if they differ.
 template <class AreaLight>
 float mean_radiance(const AreaLight& light) {
-    return mean(light.picture ? light.radiance * light.picture->mean_colour() : light.radiance);
+    const Rgb radiance = light.picture ? light.radiance * light.picture->mean_colour() : light.radiance;
+    return mean(light.profile ? radiance * light.profile->mean() : radiance);
 }
 
 }  // namespace
@@ -270,7 +271,8 @@ Rgb emitted_radiance(const Light& light, const Vec3& normal, const Vec2& uv, con
         return Rgb(0.0f);
     }
     return *ask_area_light(light, [&](const auto& l) {
-        return l.picture ? l.radiance * l.picture->bilinear({uv.x, 1 - uv.y}) : l.radiance;
+        const Rgb radiance = l.profile ? l.radiance * l.profile->towards(normal, w) : l.radiance;
+        return l.picture ? radiance * l.picture->bilinear({uv.x, 1 - uv.y}) : radiance;
     });
 }
 

@@ -9,6 +9,7 @@
 #include <wend/medium/medium.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/directional_light.h>
+#include <wend/scene/emission_profile.h>
 #include <wend/scene/light_picture.h>
 #include <wend/scene/portal_light.h>
 #include <wend/scene/shape.h>
@@ -103,6 +104,8 @@ struct TriangleLight {
     Presence presence = Presence::solid;
     /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
     std::shared_ptr<const LightPicture> picture = nullptr;
+    /// Multiplies the radiance, by direction; null: 1.
+    std::shared_ptr<const EmissionProfile> profile = nullptr;
     Vec2 uv0{0, 0}, uv1{1, 0}, uv2{1, 1};
     /// Null: it stands still. Of one that moves, `normal` and `area` are those at time 0.
     std::shared_ptr<const TriangleMotion> motion = nullptr;
@@ -120,6 +123,8 @@ struct QuadricLight {
     Presence presence = Presence::solid;
     /// Multiplies the radiance, by (u, 1 - v) of the surface's parameters; null: 1.
     std::shared_ptr<const LightPicture> picture = nullptr;
+    /// Multiplies the radiance, by direction; null: 1.
+    std::shared_ptr<const EmissionProfile> profile = nullptr;
     /// Of the quadric in its world; null: it stands still.
     std::shared_ptr<const Motion> motion = nullptr;
 };

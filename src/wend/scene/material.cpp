@@ -132,11 +132,38 @@ Bsdf bsdf_of(const HairMaterial& m, const Textures& textures, const TexturePoint
                     value(m.roughness_along), across, value(m.tilt) * (pi / 180));
 }
 
+/// How much rougher brushed facets are along one direction, and smoother across it (burley2012).
+float aspect_of(float anisotropy) {
+    return std::sqrt(1 - 0.9f * anisotropy);
+}
+
+Bsdf bsdf_of(const DisneyMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const auto share = [&](TextureId id) { return std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f); };
+    constexpr float least_alpha = 1e-3f;
+    DisneyBsdf b;
+    b.base = clamp01(textures.evaluate(m.base, p));
+    b.roughness = share(m.roughness);
+    const float alpha = sqr(b.roughness), aspect = aspect_of(share(m.anisotropy));
+    b.alpha_x = std::max(alpha / aspect, least_alpha);
+    b.alpha_y = std::max(alpha * aspect, least_alpha);
+    b.ior = m.ior;
+    b.metallic = share(m.metallic);
+    b.spec_trans = m.transmits ? std::max(share(m.spec_trans), 1e-6f) : 0.0f;
+    b.spec_tint = share(m.spec_tint);
+    b.sheen = std::max(textures.evaluate_grey(m.sheen, p), 0.0f);
+    b.sheen_tint = share(m.sheen_tint);
+    b.flatness = share(m.flatness);
+    b.coat = std::max(textures.evaluate_grey(m.coat, p), 0.0f);
+    b.coat_alpha = 0.1f + (0.001f - 0.1f) * share(m.coat_gloss);
+    return b;
+}
+
 Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const TexturePoint& p) {
     const auto share = [&](TextureId id) { return std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f); };
     const auto alpha = [&](TextureId roughness) {
         return std::max(sqr(share(roughness)), PrincipledBsdf::least_alpha);
     };
+    const auto factor = [&](TextureId id) { return id < 0 ? Rgb(1.0f) : clamp01(textures.evaluate(id, p)); };
     PrincipledBsdf b;
     b.base = clamp01(textures.evaluate(m.base, p));
     b.metallic = share(m.metallic);
@@ -146,6 +173,10 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
     b.coat = share(m.coat);
     b.coat_alpha = alpha(m.coat_roughness);
     b.coat_ior = m.coat_ior;
+    b.aspect = m.anisotropy < 0 ? 1.0f : aspect_of(share(m.anisotropy));
+    b.specular_tint = factor(m.specular_tint);
+    b.coat_tint = factor(m.coat_tint);
+    b.diffuse_roughness = m.diffuse_roughness < 0 ? 0.0f : share(m.diffuse_roughness);
     if (m.subsurface >= 0) {
         b.has_inside = true;
         b.subsurface = share(m.subsurface);
@@ -156,6 +187,10 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
     b.below = m.below.get();
     b.above = m.above.get();
     return b;
+}
+
+Bsdf bsdf_of(const MeasuredMaterial& m, const Textures&, const TexturePoint&) {
+    return MeasuredBsdf{m.tables.get()};
 }
 
 Bsdf bsdf_of(const MixMaterial&, const Textures&, const TexturePoint&) {

@@ -94,6 +94,10 @@ struct PrincipledMaterial {
     TextureId specular = 0;
     TextureId coat = 0;
     TextureId coat_roughness = 0;
+    TextureId anisotropy = -1;         ///< from 0 to 1, of facets as Disney's model has it; -1: none
+    TextureId specular_tint = -1;      ///< those of PrincipledBsdf; -1: 1
+    TextureId coat_tint = -1;          ///< the same
+    TextureId diffuse_roughness = -1;  ///< -1: 0
     float ior = 1.5f, coat_ior = 1.5f;
     TextureId subsurface = -1;  ///< -1: there is nothing inside
     float entry_ior = 1.5f;
@@ -101,6 +105,28 @@ struct PrincipledMaterial {
     float entry_even = 0;
     TextureId relative_albedo = -1;                   ///< that of DielectricMaterial
     std::shared_ptr<const FacetAlbedo> below, above;  ///< of both
+};
+
+/// MeasuredBsdf.
+struct MeasuredMaterial {
+    std::shared_ptr<const MeasuredTables> tables;
+};
+
+/// DisneyBsdf by textures.
+struct DisneyMaterial {
+    TextureId base = 0;
+    TextureId roughness = 0;  ///< alpha is its square
+    TextureId anisotropy = 0;
+    TextureId metallic = 0;
+    TextureId spec_trans = 0;
+    TextureId spec_tint = 0;
+    TextureId sheen = 0;
+    TextureId sheen_tint = 0;
+    TextureId flatness = 0;
+    TextureId coat = 0;
+    TextureId coat_gloss = 0;  ///< from an alpha of 0.1 down to 0.001
+    float ior = 1.5f;
+    bool transmits = false;  ///< whether `spec_trans` is anything but 0
 };
 
 /// At each point one of two others, by chance.
@@ -114,8 +140,8 @@ struct MixMaterial {
 struct InterfaceMaterial {};
 
 using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
-                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial, MixMaterial,
-                              InterfaceMaterial>;
+                              ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial,
+                              MeasuredMaterial, DisneyMaterial, MixMaterial, InterfaceMaterial>;
 
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);

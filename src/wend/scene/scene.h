@@ -26,6 +26,13 @@
 namespace wend {
 
 /// A shape with what it is made of.
+/// What a surface is to rays of the camera that nothing has scattered.
+enum class CameraView {
+    shown,
+    hidden,   ///< it is not there
+    held_out  ///< it hides what is behind it, and there is a hole in the picture
+};
+
 struct Surface {
     SharedShape shape;
     int material = 0;
@@ -39,6 +46,7 @@ struct Surface {
     /// by the motion that its lights have.
     int first_light = -1;
     TextureId alpha = -1;  ///< probability of being there at all; -1: certain
+    CameraView view = CameraView::shown;
 
     bool bounds_medium() const { return interior != exterior; }
 };

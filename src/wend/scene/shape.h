@@ -17,7 +17,7 @@
 
 namespace wend {
 
-/// Triangles in world space. `normals` and `uvs` are empty or have one entry a vertex.
+/// Triangles in world space. `normals`, `uvs` and `tangents` are empty or have one entry a vertex.
 ///
 /// A mesh may change its shape: then vertices and normals move evenly from where they are at time 0 to where they are
 /// at time 1 (Ray::time). Whoever does not ask for a time sees it at time 0.
@@ -28,6 +28,7 @@ struct TriangleMesh {
     std::vector<std::uint32_t> indices;  ///< three a triangle
     std::vector<Vec3> end_positions{};   ///< at time 1; empty where nothing moves
     std::vector<Vec3> end_normals{};     ///< at time 1; empty where nothing moves, or there are no normals
+    std::vector<Vec3> tangents{};        ///< along which a surface is brushed; without them, along u
 
     bool is_moving() const { return !end_positions.empty(); }
     std::size_t triangle_count() const { return indices.size() / 3; }

@@ -70,6 +70,10 @@ LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
         hit.uv = uv0 * w + uv1 * raw.u + uv2 * raw.v;
         point.tangents = tangents(e1, e2, uv1 - uv0, uv2 - uv0);
     }
+    if (!mesh.tangents.empty()) {
+        const Vec3 along = mesh.tangents[i[0]] * w + mesh.tangents[i[1]] * raw.u + mesh.tangents[i[2]] * raw.v;
+        point.tangents = {along, length_squared(along) > 0};
+    }
     if (mesh.normals.empty()) {
         hit.against_winding = hit.surface->flip_normal;
         point.normal = hit.against_winding ? -point.normal : point.normal;

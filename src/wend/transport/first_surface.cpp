@@ -40,6 +40,14 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
             break;
         }
         seen.depth += is_straight ? hit->distance : 0;
+        if (is_straight && hit->surface->view == CameraView::held_out) {
+            seen.depth = 0;
+            break;
+        }
+        if (is_straight && hit->surface->view == CameraView::hidden) {
+            ray.pass(*hit);
+            continue;
+        }
         if (scene.is_interface(*hit)) {
             medium = scene.medium_beyond(*hit, ray.direction, medium);
             ray.pass(*hit);

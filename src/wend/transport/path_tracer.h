@@ -4,7 +4,6 @@
 
 #include <wend/core/contracts.h>
 #include <wend/decision/channels.h>
-#include <wend/film/film.h>
 #include <wend/light/emitter_hit.h>
 #include <wend/light/light_selection.h>
 #include <wend/light/scattering.h>
@@ -13,6 +12,8 @@
 #include <wend/transport/branching_path.h>
 #include <wend/transport/light_connections.h>
 #include <wend/transport/path_decisions.h>
+#include <wend/transport/path_flights.h>
+#include <wend/transport/path_survival.h>
 #include <wend/transport/path_technique.h>
 #include <wend/transport/recorders.h>
 #include <wend/transport/reflection_probability.h>
@@ -20,6 +21,7 @@
 #include <wend/transport/subsurface_guides.h>
 #include <wend/transport/surface_ahead.h>
 #include <wend/transport/vertex.h>
+#include <wend/transport/walk_result.h>
 
 #include <algorithm>
 #include <atomic>
@@ -28,26 +30,6 @@
 #include <utility>
 
 namespace wend {
-
-/// Counted work of walks.
-struct WalkCounts {
-    std::uint64_t paths = 0;
-    std::uint64_t segments = 0;
-    std::uint64_t rejected = 0;
-
-    WalkCounts& operator+=(const WalkCounts& o) {
-        paths += o.paths;
-        segments += o.segments;
-        rejected += o.rejected;
-        return *this;
-    }
-};
-
-/// What a walk found. The radiance may be not finite: the caller counts and rejects.
-struct WalkResult {
-    FilmSample sample;
-    std::uint32_t interior_segments = 0;  ///< of the segments, those of guided interior walks
-};
 
 /// Walks through a scene with given decisions, seen by given recorders: at least those of StandardRecorders. A vertex
 /// is a scattering event: interfaces are passed for free.
@@ -95,7 +77,8 @@ public:
           path_(recorders, parts),
           emitters_(scene_, tracer.lights_),
           connections_(scene_, tracer.lights_, tracer.reflections_, d_, tracer.max_depth_, sampler, path_),
-          expected_(expected) {}
+          flights_(scene_, d_, emitters_, sampler, path_),
+          survival_(scene_, d_, expected, tracer.max_depth_, sampler, path_) {}
 
     WalkResult run(const Ray& start) {
         path_.start();
@@ -120,16 +103,11 @@ private:
     bool step() {
         ++result_.sample.segments;
         result_.interior_segments += interior_of(path_.now.technique) ? 1 : 0;
-        const float drawn = path_.ask_technique([&](auto& technique) -> float {
-            if constexpr (requires { technique.draw_distance(sampler_); }) {
-                return technique.draw_distance(sampler_);
-            }
-            return infinity;
-        });
+        const float drawn = flights_.draw_distance();
         SurfaceAhead ahead(scene_, path_.now.ray, drawn);
         if (path_.now.medium.id != vacuum) {
             const Medium& medium = scene_.medium(path_.now.medium.id);
-            const Flight flight = fly(medium, ahead, drawn);
+            const Flight flight = flights_.fly(medium, ahead, drawn);
             if (!is_black(flight.emitted)) {
                 path_.glow(flight.emitted, path_.now.travelled + mean_value(flight.emitted) / flight.glow);
                 path_.sort(flight.emitted, {.medium = path_.now.medium.id});
@@ -151,6 +129,10 @@ private:
         }
         const Hit& hit = ahead.hit();
         path_.now.travelled += hit.distance;
+        if (hit.surface->view != CameraView::shown && path_.now.counts.vertices == 0) {
+            path_.now.ray.pass(hit);
+            return hit.surface->view == CameraView::hidden && ++path_.now.counts.interfaces < most_interfaces;
+        }
         if (hit.light >= 0) {
             const EmitterHit found = emitters_.at(hit, path_.now.last, path_.now.ray.direction);
             path_.meet(found);
@@ -166,53 +148,6 @@ private:
             return ++path_.now.counts.interfaces < most_interfaces;
         }
         return scatter_at(hit);
-    }
-
-    /// The next flight, up to the surface ahead; if it passes the segment, that is counted in.
-    Flight fly(const Medium& medium, SurfaceAhead& ahead, float drawn) {
-        const float length = ahead.distance();
-        path_.record(walk_events::Flew{path_.now.medium.id});
-        const TechniqueFlight flight = path_.ask_technique([&](auto& technique) -> TechniqueFlight {
-            if constexpr (requires { technique.fly(length, drawn); }) {
-                return technique.fly(length, drawn);
-            }
-            return {fly_by_decision(medium, ahead, length), std::nullopt};
-        });
-        if (!flight.flight.scatters) {
-            path_.now.last.pass_probability *= flight.pass_probability
-                                                   ? Rgb(*flight.pass_probability)
-                                                   : d_.distance.pass_probability(medium, path_.now.ray, length);
-        }
-        return flight.flight;
-    }
-
-    Flight fly_by_decision(const Medium& medium, SurfaceAhead& ahead, float length) {
-        FlightStart start{path_.now.ray,
-                          length,
-                          path_.now.weight.throughput,
-                          path_.now.weight_to_bound(),
-                          {},
-                          emitters_.in(path_.now.medium.id, path_.now.last)};
-        if (d_.distance.looks_ahead(medium, start)) {
-            start.end = end_of_segment(ahead);
-        }
-        return d_.distance.sample(medium, start, sampler_.uniform(), sampler_.random());
-    }
-
-    FlightEnd end_of_segment(SurfaceAhead& ahead) const {
-        FlightEnd end;
-        if (!ahead) {
-            end.emitted =
-                mean_value(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction).radiance);
-            return end;
-        }
-        const Hit& hit = ahead.hit();
-        end.kind = scene_.is_interface(hit) ? FlightEnd::Kind::interface : FlightEnd::Kind::surface;
-        end.position = hit.position;
-        end.normal = Vertex::facing_normal(hit, path_.now.ray.direction);
-        end.emitted =
-            hit.light >= 0 ? mean_value(emitters_.at(hit, path_.now.last, path_.now.ray.direction).radiance) : 0.0f;
-        return end;
     }
 
     /// Chooses a technique in the medium behind a boundary, once medium and ray are those beyond it, or tells the one
@@ -254,7 +189,7 @@ private:
         }
         path_.record(walk_events::Arrived{path_.now.travelled});
         path_.now.counts.begins_in_medium |= path_.now.counts.vertices == 0;
-        if (!count_vertex()) {
+        if (!survival_.count_vertex()) {
             return false;
         }
         const Vertex v = Vertex::in_medium(path_.now.ray.at(distance));
@@ -276,7 +211,7 @@ private:
             v.connected_before =
                 connections_.at_boundary * path_.now.last.emitters_ahead / mean_value(path_.now.last.pass_probability);
         }
-        if (!count_vertex()) {
+        if (!survival_.count_vertex()) {
             return false;
         }
         path_.record(walk_events::HitSurface{v});
@@ -293,7 +228,8 @@ private:
             connections_.connect_through_boundaries(f, directions, v);
         }
         const std::optional<WeightWindow::Outcome> outcome = d_.survival.before_direction(
-            {expected_ratio(f, directions), path_.now.weight.value(), path_.split_capacity()}, sampler_.random());
+            {survival_.expected_ratio(f, directions), path_.now.weight.value(), path_.split_capacity()},
+            sampler_.random());
         if (!outcome) {
             return draw_direction(f, directions, v, false);
         }
@@ -341,7 +277,7 @@ private:
                 technique.turn(directions, s->direction);
             }
         });
-        if (!judged && !survives(v.in_volume(), expected_ > 0 && !f.is_guidable())) {
+        if (!judged && !survival_.survives(f, v)) {
             return false;
         }
         const MediumState before = path_.now.medium;
@@ -388,61 +324,6 @@ private:
                           path_.now.ray.time};
     }
 
-    // ---- Whether to go on ----
-
-    /// Counts the vertex at hand in the medium at hand; false where the walk ends.
-    bool count_vertex() {
-        if (scene_.counts_vertices_in(path_.now.medium.id)) {
-            const bool goes_on = path_.now.counts.vertices_left(tracer_.max_depth_) >= 1;
-            ++path_.now.counts.vertices;
-            return goes_on;
-        }
-        ++path_.now.counts.vertices;
-        // Through a hole in its boundary, where nothing is absorbed, a walk would never end.
-        constexpr int long_walk = 10000;
-        constexpr float survival = 0.9999f;
-        if (++path_.now.counts.uncounted <= long_walk) {
-            return true;
-        }
-        path_.weigh(Rgb(1 / survival));
-        return sampler_.random().uniform() < survival;
-    }
-
-    /// What the walk may yet bring over what all of it is expected to, if both are known.
-    template <class F, class Directions>
-    std::optional<float> expected_ratio(const F& f, const Directions& directions) const {
-        const std::optional<Rgb> in_scattered = directions.in_scattered();
-        if (!in_scattered || !(expected_ > 0)) {
-            return std::nullopt;
-        }
-        return mean_value(path_.now.weight.throughput * f.albedo() * *in_scattered) / expected_;
-    }
-
-    /// Roulette after the direction is drawn.
-    bool survives(bool in_volume, bool is_judged_elsewhere) {
-        const float survival = survival_probability(in_volume, is_judged_elsewhere);
-        if (survival < 1) {
-            if (!(sampler_.uniform() < survival)) {
-                return false;
-            }
-            path_.weigh(Rgb(1 / survival));
-        }
-        return true;
-    }
-
-    float survival_probability(bool in_volume, bool is_judged_elsewhere) {
-        const PathWeight& weight = path_.now.weight;
-        return path_.ask_technique([&](auto& technique) {
-            if constexpr (requires { technique.survival(0.0f); }) {
-                if (!is_judged_elsewhere) {
-                    return technique.survival(max_value(weight.throughput) * weight.index_scale);
-                }
-            }
-            return d_.survival.after_direction({weight.throughput, weight.density_ratio, weight.index_scale,
-                                                path_.now.counts.vertices, is_judged_elsewhere, in_volume});
-        });
-    }
-
     const PathTracer& tracer_;
     const Scene& scene_;
     const Decisions& d_;
@@ -450,7 +331,8 @@ private:
     BranchingPath<Recorders> path_;
     EmitterHits emitters_;
     LightConnections<Decisions, Recorders> connections_;
-    float expected_;
+    PathFlights<Decisions, Recorders> flights_;
+    PathSurvival<Decisions, Recorders> survival_;
 
     WalkResult result_;
 };

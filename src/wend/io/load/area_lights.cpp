@@ -19,6 +19,18 @@ bool flips(const Surface& surface, const TriangleMesh& mesh, std::size_t triangl
     return dot(face, mesh.normals[i[0]] + mesh.normals[i[1]] + mesh.normals[i[2]]) < 0;
 }
 
+/// Its axis in the world.
+std::shared_ptr<const EmissionProfile> placed_profile(const AreaLight& light, const LampPlace& at) {
+    if (!light.profile) {
+        return nullptr;
+    }
+    EmissionProfile profile = *light.profile;
+    const Vec3 placed = at.world_from_object.vector(profile.axis);
+    const Vec3 axis = at.motion ? at.motion->start().vector(placed) : placed;
+    profile.axis = length_squared(axis) > 0 ? normalize(axis) : profile.axis;
+    return std::make_shared<const EmissionProfile>(profile);
+}
+
 void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surface& surface,
                        std::vector<Light>& lights) {
     QuadricLight source =
@@ -29,6 +41,7 @@ void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surfac
     source.radiance = light.radiance_of(source.object_area * std::cbrt(sqr(PlacedQuadric(source, 0).area_factor())));
     source.presence = at.presence;
     source.picture = light.picture;
+    source.profile = placed_profile(light, at);
     lights.push_back(std::move(source));
 }
 
@@ -66,12 +79,14 @@ void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& 
     // Below, the area's inverse and its products leave the range of floats.
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
+    const std::shared_ptr<const EmissionProfile> profile = placed_profile(light, at);
     const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
     for (std::size_t first = 0; first < triangles; first += together) {
         const std::size_t begin = lights.size();
         float area = 0;
         for (std::size_t i = first; i < first + together; ++i) {
             TriangleLight source = lamp_of(light, at, surface, i);
+            source.profile = profile;
             area += source.area;
             lights.push_back(std::move(source));
         }

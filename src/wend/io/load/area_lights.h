@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace wend {
@@ -19,6 +20,8 @@ struct AreaLight {
     /// luminance 1, and whatever the picture's is.
     float power = 0;
     bool two_sided = false;
+    /// Multiplies the radiance, by direction; the axis is that of the shape's own space. None: 1.
+    std::optional<EmissionProfile> profile;
 
     /// Radiance of a shape of this area, where the picture is 1.
     Rgb radiance_of(float area) const;
@@ -29,7 +32,7 @@ struct LampPlace {
     Presence presence = Presence::solid;
     /// How many shapes the surface's triangles are to pbrt, each with the power of one; 0: as many as triangles.
     std::size_t shapes = 0;
-    Transform world_from_object;           ///< of the surface's quadric
+    Transform world_from_object;           ///< of the shape, as its directive stands
     std::shared_ptr<const Motion> motion;  ///< of the surface in its world; null: it stands still
 };
 

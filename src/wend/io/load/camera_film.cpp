@@ -1,6 +1,7 @@
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/lenses.h>
 #include <wend/io/load/reach.h>
+#include <wend/io/spectrum/colour_space.h>
 #include <wend/io/spectrum/white_balance.h>
 
 #include <fmt/format.h>
@@ -108,7 +109,7 @@ int positive_int(const pbrt::ParameterSet& parameters, std::string_view name, in
     return value;
 }
 
-/// By "sensor" and "whitebalance". A measured sensor has a white even where the file gives it none.
+/// By "sensor", "whitebalance" and the colour space. A measured sensor has a white even where the file gives it none.
 ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parameters) {
     constexpr float white_of_sensors = 6500;
     const std::string sensor = parameters.get_string("sensor", "cie1931");
@@ -121,11 +122,12 @@ ColourMatrix load_balance(LoadContext& context, const pbrt::ParameterSet& parame
     }
     const float given = parameters.get_float("whitebalance", 0);
     const float temperature = given == 0 && is_measured ? white_of_sensors : given;
+    const ColourMatrix in_space = rec709_from(parameters.colour_space(), temperature != 0).inverse();
     if (temperature == 0) {
-        return {};
+        return in_space;
     }
     try {
-        return is_measured ? sensor_balance(double{temperature}) : white_balance(double{temperature});
+        return in_space * (is_measured ? sensor_balance(double{temperature}) : white_balance(double{temperature}));
     } catch (const InputError& error) {
         throw InputError(parameters.place_of("whitebalance"), error.what());
     }
@@ -178,6 +180,7 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
     settings.diagonal = positive_float(p, "diagonal", 35) / 1000;
     settings.sensitivity = positive_float(p, "iso", 100) / 100;
     settings.balance = load_balance(context, p);
+    settings.colour_space = p.colour_space();
     if (p.has("maxcomponentvalue")) {
         static_cast<void>(p.get_float("maxcomponentvalue", 0));
         context.warnings.add(p.place_of("maxcomponentvalue"),

@@ -23,6 +23,7 @@ struct FilmSettings {
     float sensitivity = 1;
     /// From colours of the scene to those of the picture.
     ColourMatrix balance;
+    pbrt::ColourSpace colour_space = pbrt::ColourSpace::srgb;  ///< of the picture
 };
 /// With another resolution, crop windows given in pixels are scaled with it.
 FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std::optional<Vec2i>& resolution);

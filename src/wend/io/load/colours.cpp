@@ -2,6 +2,7 @@
 #include <wend/io/pbrt/text_file.h>
 #include <wend/io/pbrt/token_stream.h>
 #include <wend/io/spectrum/blackbody.h>
+#include <wend/io/spectrum/colour_space.h>
 #include <wend/io/spectrum/named_spectra.h>
 
 #include <fmt/format.h>
@@ -11,40 +12,6 @@
 
 namespace wend {
 namespace {
-
-struct Matrix {
-    float m[3][3];
-
-    Rgb operator*(const Rgb& c) const {
-        return {m[0][0] * c.r + m[0][1] * c.g + m[0][2] * c.b, m[1][0] * c.r + m[1][1] * c.g + m[1][2] * c.b,
-                m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
-    }
-};
-
-// To Rec. 709 from the primaries of each space, white staying white. Rows sum to 1.
-constexpr Matrix from_dci_p3 = {
-    {{1.224940f, -0.224940f, 0}, {-0.042057f, 1.042057f, 0}, {-0.019638f, -0.078636f, 1.098274f}}};
-constexpr Matrix from_rec2020 = {
-    {{1.660491f, -0.587641f, -0.072850f}, {-0.124550f, 1.132900f, -0.008350f}, {-0.018151f, -0.100579f, 1.118730f}}};
-constexpr Matrix from_aces2065_1 = {
-    {{2.521690f, -1.134130f, -0.387560f}, {-0.276480f, 1.372720f, -0.096240f}, {-0.015380f, -0.152980f, 1.168360f}}};
-
-/// Colours that Rec. 709 cannot show are clamped to its faces.
-Rgb to_rec709(const pbrt::RgbColour& colour) {
-    const auto clamped = [](const Rgb& c) {
-        return Rgb(std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f));
-    };
-    switch (colour.space) {
-        case pbrt::ColourSpace::dci_p3:
-            return clamped(from_dci_p3 * colour.value);
-        case pbrt::ColourSpace::rec2020:
-            return clamped(from_rec2020 * colour.value);
-        case pbrt::ColourSpace::aces2065_1:
-            return clamped(from_aces2065_1 * colour.value);
-        default:
-            return colour.value;
-    }
-}
 
 /// The spectrum that samples stand for, with the place of those that stand for none.
 std::function<double(double)> spectrum_of(const std::vector<SpectrumSample>& samples, const Place& place) {
@@ -102,11 +69,19 @@ std::vector<SpectrumSample> pairs_of(const pbrt::SampledSpectrum& sampled) {
 
 }  // namespace
 
+Rgb rec709_of(const pbrt::RgbColour& colour, SpectrumKind kind) {
+    if (colour.space == pbrt::ColourSpace::srgb) {
+        return colour.value;
+    }
+    const Rgb c = rec709_from(colour.space, kind != SpectrumKind::illuminant) * colour.value;
+    return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)};
+}
+
 Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, SpectrumKind kind,
                   const pbrt::Location& place) {
     Rgb colour;
     if (const auto* rgb = std::get_if<pbrt::RgbColour>(&value)) {
-        colour = to_rec709(*rgb);
+        colour = rec709_of(*rgb, kind);
     } else if (const auto* sampled = std::get_if<pbrt::SampledSpectrum>(&value)) {
         colour = rgb_from_spectrum(spectrum_of(pairs_of(*sampled), place), kind);
     } else if (const auto* named = std::get_if<pbrt::NamedSpectrum>(&value)) {
@@ -122,6 +97,10 @@ Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, Sp
                                             colour.g, colour.b));
     }
     return colour;
+}
+
+Rgb default_light(const pbrt::ParameterSet& parameters) {
+    return rec709_of({Rgb(1.0f), parameters.colour_space()}, SpectrumKind::illuminant);
 }
 
 std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name,

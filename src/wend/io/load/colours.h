@@ -12,12 +12,19 @@
 
 namespace wend {
 
-/// A colour of a scene file. RGB is converted to Rec. 709 primaries and otherwise taken as it stands, whatever it
-/// means; spectra are reduced by their kind, light to luminance 1 (as are black bodies). Throws InputError at the
-/// parameter where a channel is negative or not finite, or the name is neither that of a known spectrum nor of a file
-/// of wavelengths and values.
+/// A colour of a scene file. RGB is converted to Rec. 709 primaries, whose white is that of all spaces but for light,
+/// and otherwise taken as it stands; spectra are reduced by their kind, light to luminance 1 (as are black bodies).
+/// Throws InputError at the parameter where a channel is negative or not finite, or the name is neither that of a known
+/// spectrum nor of a file of wavelengths and values.
 std::optional<Rgb> get_colour(const LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name,
                               SpectrumKind kind);
+
+/// A colour of a space in Rec. 709; where that cannot show it, clamped to its faces. The white of a space is white but
+/// for light.
+Rgb rec709_of(const pbrt::RgbColour& colour, SpectrumKind kind);
+
+/// What light is that has no colour of its own: the white of the directive's colour space.
+Rgb default_light(const pbrt::ParameterSet& parameters);
 
 /// The same for a value that was looked up already, at this place.
 Rgb reduce_colour(const LoadContext& context, const pbrt::ColourValue& value, SpectrumKind kind,

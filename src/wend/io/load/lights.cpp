@@ -3,6 +3,7 @@
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/sky_picture.h>
+#include <wend/io/spectrum/blackbody.h>
 
 #include <fmt/format.h>
 
@@ -26,13 +27,14 @@ float load_target(const pbrt::ParameterSet& p, std::string_view name) {
 
 /// A colour parameter times "scale"; white where it is absent.
 Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_view name) {
-    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(Rgb(1.0f)) *
+    return get_colour(context, p, name, SpectrumKind::illuminant).value_or(default_light(p)) *
            non_negative_float(p, "scale", 1);
 }
 
 /// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
 Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
-    Image image = *textures.picture(required_file(context, light, "filename"), "sRGB", light.place);
+    Image image =
+        *textures.picture(required_file(context, light, "filename"), "sRGB", light.place, PictureChannels::of_light);
     for (Rgb& pixel : image.pixels) {
         if (!is_finite(pixel)) {
             throw InputError(light.parameters.place_of("filename"),
@@ -91,12 +93,8 @@ bool load_linear_falloff(const pbrt::ParameterSet& p) {
     return falloff == "linear";
 }
 
-SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
-    const pbrt::ParameterSet& p = light.parameters;
-    const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
-    if (!is_finite(to - from) || !(length_squared(to - from) > 0)) {
-        throw InputError(p.place_of("to"), "a spot light shines from \"from\" to \"to\", which must differ");
-    }
+/// "coneangle", "conedeltaangle", "falloff".
+EmissionProfile load_cone(const pbrt::ParameterSet& p) {
     const float outer = p.get_float("coneangle", 30), rim = p.get_float("conedeltaangle", 5);
     if (!(outer > 0 && outer <= 180)) {
         throw InputError(p.place_of("coneangle"),
@@ -106,12 +104,50 @@ SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
         throw InputError(p.place_of("conedeltaangle"), "\"conedeltaangle\" must be finite and not negative");
     }
     const auto cos_degrees = [](float degrees) { return std::cos(degrees * pi / 180); };
+    EmissionProfile cone;
+    cone.cos_outer = cos_degrees(outer);
+    cone.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
+    cone.is_linear = load_linear_falloff(p);
+    return cone;
+}
+
+/// "spread": of all that leaves, how wide it fans out, in degrees.
+EmissionProfile load_slats(const pbrt::ParameterSet& p) {
+    // Narrower, a beam is all but parallel, and connections to it are all but dark.
+    constexpr float narrowest = 0.5f;
+    const float spread = p.get_float("spread", 180);
+    if (!(spread >= narrowest && spread < 180)) {
+        throw InputError(p.place_of("spread"),
+                         fmt::format("\"spread\" must be from {} to less than 180 degrees, not {}", narrowest, spread));
+    }
+    EmissionProfile slats;
+    slats.kind = EmissionProfile::Kind::slats;
+    slats.half_angle = spread / 2 * pi / 180;
+    return slats;
+}
+
+std::optional<EmissionProfile> load_profile(const pbrt::ParameterSet& p) {
+    if (p.has("coneangle") && p.has("spread")) {
+        throw InputError(p.place_of("spread"), "an area light takes either \"coneangle\" or \"spread\"");
+    }
+    return p.has("coneangle") ? std::optional(load_cone(p))
+           : p.has("spread")  ? std::optional(load_slats(p))
+                              : std::nullopt;
+}
+
+SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
+    const pbrt::ParameterSet& p = light.parameters;
+    const Vec3 from = p.get_point3("from", {0, 0, 0}), to = p.get_point3("to", {0, 0, 1});
+    if (!is_finite(to - from) || !(length_squared(to - from) > 0)) {
+        throw InputError(p.place_of("to"), "a spot light shines from \"from\" to \"to\", which must differ");
+    }
+    const EmissionProfile cone = load_cone(p);
     SpotLight spot;
     spot.position = load_position(light, from);
     spot.light_from_world = AffineMap((light.world_from_light * turned_to(normalize(to - from))).inverse());
-    spot.cos_outer = cos_degrees(outer);
-    spot.cos_inner = cos_degrees(std::max(outer - rim, 0.0f));
-    spot.is_linear = load_linear_falloff(p);
+    spot.cos_outer = cone.cos_outer;
+    spot.cos_inner = cone.cos_inner;
+    spot.is_linear = cone.is_linear;
     spot.intensity = load_scaled(context, p, "I") * power_factor(p, spread(spot));
     return spot;
 }
@@ -268,6 +304,21 @@ Image load_sky(LoadContext& context, TextureLoader& textures, const pbrt::LightE
     return image;
 }
 
+/// What shines through a portal. pbrt keeps it as a picture, in which a spectrum has its own luminance, not 1 as in all
+/// other lights; that of a black body is 1 at its peak.
+Rgb load_light_of_portal(LoadContext& context, const pbrt::ParameterSet& p) {
+    const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(default_light(p));
+    const double even = xyz_from_spectrum([](double) { return 1.0; }).y;
+    double luminance_given = even;
+    const auto value = p.get_colour("L");
+    if (const auto* body = value ? std::get_if<pbrt::Blackbody>(&*value) : nullptr) {
+        luminance_given = blackbody_xyz(double{body->temperature}).y;
+    } else if (const auto spectrum = find_spectrum(context, p, "L")) {
+        luminance_given = xyz_from_spectrum(spectrum).y;
+    }
+    return radiance * static_cast<float>(luminance_given / even);
+}
+
 Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     const pbrt::ParameterSet& p = light.parameters;
     if (p.has("filename")) {
@@ -277,8 +328,7 @@ Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::L
         return make_sky(light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
-        const Rgb radiance = get_colour(context, p, "L", SpectrumKind::illuminant).value_or(Rgb(1.0f));
-        return make_sky(light, Image(1, 1, radiance));
+        return make_sky(light, Image(1, 1, load_light_of_portal(context, p)));
     }
     Rgb radiance = load_scaled(context, p, "L");
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
@@ -351,6 +401,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
     }
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
+    result.profile = load_profile(p);
     context.warnings.add_unused("AreaLightSource", light);
     return result;
 }

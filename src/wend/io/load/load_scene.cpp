@@ -140,6 +140,7 @@ private:
             scene_.materials.push_back(std::move(material.material));
             scene_.details.push_back(std::move(material.detail));
             inside_.push_back(inside);
+            presences_.push_back(material.presence);
         }
     }
 
@@ -180,6 +181,7 @@ private:
         surface.exterior = exterior;
         surface.flip_normal = flips_normal(entity);
         surface.alpha = load_alpha(entity);
+        surface.view = load_view(entity, surface);
         if (is_curve && (entity.area_light || interior != exterior)) {
             context_.warnings.add(entity.place, "curves neither shine nor bound a medium");
         } else if (entity.area_light) {
@@ -219,7 +221,8 @@ private:
         const auto curves = curves_.find(last_index);
         if (curves == curves_.end() || last.material != surface.material || last.interior != surface.interior ||
             last.exterior != surface.exterior || last.flip_normal != surface.flip_normal ||
-            last.alpha != surface.alpha || !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
+            last.alpha != surface.alpha || last.view != surface.view ||
+            !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
             return false;
         }
         curves->second.directives.push_back(directive);
@@ -318,8 +321,26 @@ private:
         return names;
     }
 
+    /// "cameraview", once it is known whether the surface bounds a medium.
+    CameraView load_view(const pbrt::ShapeEntity& entity, const Surface& surface) {
+        const pbrt::ParameterSet& p = entity.parameters;
+        const std::string view = p.get_string("cameraview", "shown");
+        if (view != "shown" && view != "hidden" && view != "holdout") {
+            throw InputError(p.place_of("cameraview"),
+                             fmt::format("\"{}\" is no view of a camera; known are shown, hidden, holdout", view));
+        }
+        if (view == "hidden" && surface.bounds_medium()) {
+            context_.warnings.add(p.place_of("cameraview"), "what bounds a medium is not hidden from the camera");
+            return CameraView::shown;
+        }
+        return view == "hidden" ? CameraView::hidden : view == "holdout" ? CameraView::held_out : CameraView::shown;
+    }
+
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {
-        const std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        if (const TextureId presence = presences_[entity.material]; presence >= 0) {
+            alpha = alpha ? textures_.product(*alpha, presence) : presence;
+        }
         const Rgb* constant = alpha ? scene_.textures.constant(*alpha) : nullptr;
         const bool opaque = !alpha || (constant && constant->r >= 1);
         return opaque ? -1 : *alpha;
@@ -331,6 +352,7 @@ private:
     SceneDescription& scene_;
     TextureLoader textures_;
     std::vector<std::optional<MediumId>> inside_;  ///< by material
+    std::vector<TextureId> presences_;             ///< LoadedMaterial::presence
     std::vector<AreaLight> area_lights_;
     std::vector<int> area_light_groups_;
     std::vector<Place> places_;  ///< of the scene's surfaces
@@ -370,6 +392,7 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.film_file = film.file;
     loaded.exposure = film.sensitivity * shutter_time(description.camera);
     loaded.balance = film.balance;
+    loaded.colour_space = film.colour_space;
     loaded.filter = load_filter(context, description.filter);
     loaded.sampler = sampler.kind;
     loaded.samples = sampler.samples;

@@ -25,7 +25,8 @@ struct LoadedScene {
     Vec2i resolution{0, 0};
     PixelRect crop;
     float exposure = 1;    ///< multiplies the film's samples: shutter time times ISO / 100
-    ColourMatrix balance;  ///< multiplies them as well: what makes the film's white that of the picture
+    ColourMatrix balance;  ///< multiplies them as well: what makes the film's white and colours those of the picture
+    pbrt::ColourSpace colour_space = pbrt::ColourSpace::srgb;  ///< of the picture
     Filter filter = Filter::box();
     SamplerKind sampler = SamplerKind::sobol;
     int samples = 16;  ///< per pixel

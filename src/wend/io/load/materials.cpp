@@ -1,5 +1,7 @@
+#include <wend/io/load/artists_materials.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/materials.h>
+#include <wend/io/load/measured.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/mixtures.h>
 #include <wend/io/spectrum/metal.h>
@@ -41,8 +43,9 @@ public:
             {"subsurface", &MaterialLoader::load_subsurface},
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
+            {"burley", &MaterialLoader::load_disney},
             {"principled", &MaterialLoader::load_principled},
-            {"measured", &MaterialLoader::replace_measured},
+            {"measured", &MaterialLoader::load_measured},
         };
         for (const auto& [type, loader] : known) {
             if (type != entity.type) {
@@ -53,9 +56,10 @@ public:
             context_.warnings.add_unused("Material", entity);
             return material;
         }
-        refuse_type("Material", entity,
-                    {"coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
-                     "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
+        refuse_type(
+            "Material", entity,
+            {"burley", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
+             "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
     }
 
 private:
@@ -65,10 +69,10 @@ private:
         return {DiffuseMaterial{textures_.colour(entity.parameters, "reflectance", Rgb(0.5f))}};
     }
 
-    LoadedMaterial replace_measured(const pbrt::MaterialEntity& entity) {
-        context_.warnings.add(entity.place, "Material \"measured\" is not implemented: \"diffuse\" takes its place");
-        static_cast<void>(entity.parameters.get_string("filename", ""));
-        return load_diffuse(entity);
+    LoadedMaterial load_measured(const pbrt::MaterialEntity& entity) {
+        const std::filesystem::path file = required_file(context_, entity, "filename");
+        std::shared_ptr<const MeasuredTables>& tables = measured_[file];
+        return {MeasuredMaterial{tables ? tables : tables = read_measured(file)}};
     }
 
     LoadedMaterial load_diffuse_transmission(const pbrt::MaterialEntity& entity) {
@@ -170,19 +174,20 @@ private:
     /// Not one of pbrt's: what Blender, USD and MaterialX have.
     LoadedMaterial load_principled(const pbrt::MaterialEntity& entity) {
         const pbrt::ParameterSet& p = entity.parameters;
-        PrincipledMaterial material;
-        material.base = textures_.colour(p, "reflectance", Rgb(0.5f));
-        material.metallic = textures_.real(p, "metallic", 0);
-        material.roughness = textures_.real(p, "roughness", 0.5f);
-        material.specular = textures_.real(p, "specular", 1);
-        material.coat = textures_.real(p, "coat", 0);
-        material.coat_roughness = textures_.real(p, "coatroughness", 0.03f);
+        PrincipledMaterial material = principled_surface(textures_, p);
         material.ior = load_ior(p, "eta", 1.5f);
         material.coat_ior = load_ior(p, "coateta", 1.5f);
         material.below = facets_of(material.ior);
         material.above = facets_of(material.coat_ior);
         const auto subsurface = textures_.find_real(p, "subsurface");
         return subsurface ? load_principled_inside(p, material, *subsurface) : LoadedMaterial{material};
+    }
+
+    /// What Mitsuba's scenes have.
+    LoadedMaterial load_disney(const pbrt::MaterialEntity& entity) {
+        DisneyMaterial material = disney_surface(textures_, entity.parameters);
+        material.ior = load_ior(entity.parameters, "eta", 1.5f);
+        return {material};
     }
 
     /// An albedo that varies goes to where walks enter.
@@ -399,6 +404,7 @@ private:
     TextureLoader& textures_;
     const std::vector<pbrt::MaterialEntity>& all_;
     std::map<float, std::shared_ptr<const FacetAlbedo>> facets_;  // by index
+    std::map<std::filesystem::path, std::shared_ptr<const MeasuredTables>> measured_;
 };
 
 /// The share of light, even from above, that is scattered.
@@ -427,7 +433,7 @@ std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& 
     for (const pbrt::MaterialEntity& material : materials) {
         loaded.push_back(loader.load(material));
     }
-    check_mixtures(context, loaded, materials);
+    check_mixtures(context, textures, loaded, materials);
     return loaded;
 }
 

@@ -15,6 +15,8 @@ struct LoadedMaterial {
     Material material;
     std::optional<HomogeneousMedium> inside{};
     SurfaceDetail detail{};
+    /// How likely it is at a point that there is anything at all; -1: certain.
+    TextureId presence = -1;
 };
 
 /// The materials of a scene file, in its order. Throws InputError for an unknown type or name and for values out of

@@ -58,21 +58,35 @@ Medium load_volume_file(LoadContext& context, const pbrt::MediumEntity& entity) 
     const std::filesystem::path file = required_file(context, entity, "filename");
     const Transform medium_from_world = entity.world_from_medium.inverse();
     const auto density = load_volume(context, file, p.get_string("gridname", "density"), false);
-    const auto temperature = load_volume(context, file, p.get_string("temperaturename", "temperature"), true);
-    std::shared_ptr<GridEmission> emission;
-    const float scale = non_negative_float(p, emission_scale_name(p), 1);
+    const bool shines_apart = p.has("glow");
+    const std::string heat = p.get_string("temperaturename", shines_apart ? "" : "temperature");
+    const auto temperature = heat.empty() ? nullptr : load_volume(context, file, heat, true);
     for (const Volume* volume : {density.get(), temperature.get()}) {
         if (volume && !volume->warning.empty()) {
             context.warnings.add(p.place_of("filename"), volume->warning);
         }
     }
+    std::shared_ptr<GridEmission> emission = shines_apart ? load_glow(context, p) : nullptr;
     if (temperature) {
-        emission = make_emission_sampler(p, std::make_shared<const Grid>(temperature->grid),
-                                         temperature->world_from_index.inverse() * medium_from_world, scale);
+        auto field = std::make_shared<const Grid>(temperature->grid);
+        const Transform index_from_world = temperature->world_from_index.inverse() * medium_from_world;
+        if (!emission) {
+            const float scale = non_negative_float(p, emission_scale_name(p), 1);
+            emission = make_emission_sampler(p, std::move(field), index_from_world, scale);
+        } else if (!emission->black_body.empty()) {
+            set_temperature(p, std::move(field), index_from_world, *emission);
+        }
+    } else if (emission && !emission->black_body.empty()) {
+        throw InputError(p.place_of("glow"),
+                         fmt::format("colours by temperature need a grid of them, and there is no \"{}\"", heat));
     }
     const Vec3i first = density->grid.first();
     const Vec3i last = first + density->grid.size();
-    const Coefficients c = load_coefficients(context, p);
+    Coefficients c = load_coefficients(context, p);
+    if (shines_apart && is_black(c.absorption + c.scattering)) {
+        // What is followed has to meet something.
+        c.absorption = Rgb(1e-6f);
+    }
     return GridMedium(std::make_shared<const Grid>(density->grid),
                       density->world_from_index.inverse() * medium_from_world, Box3(Vec3(first), Vec3(last)),
                       c.absorption, c.scattering, load_phase(context, p), std::move(emission));

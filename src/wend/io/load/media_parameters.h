@@ -38,4 +38,12 @@ std::shared_ptr<GridEmission> make_emission_sampler(const pbrt::ParameterSet& p,
                                                     std::shared_ptr<const Grid> temperature,
                                                     const Transform& index_from_world, float scale);
 
+/// "temperatureoffset" and "temperaturescale" of a grid of temperatures, by which a medium glows.
+void set_temperature(const pbrt::ParameterSet& p, std::shared_ptr<const Grid> temperature,
+                     const Transform& index_from_world, GridEmission& emission);
+
+/// "glow": what a medium emits per unit of length, whatever it absorbs. One colour, or those at 0, "glowstep",
+/// 2 "glowstep", ... kelvin.
+std::shared_ptr<GridEmission> load_glow(LoadContext& context, const pbrt::ParameterSet& p);
+
 }  // namespace wend

@@ -67,7 +67,9 @@ TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::
     TriangleMeshData mesh = take_faces(shape, corners);
     mesh.normals = take_vectors<Vec3>(shape.parameters, "N", pbrt::ParameterType::normal3);
     mesh.uvs = take_vectors<Vec2>(shape.parameters, "uv", pbrt::ParameterType::point2);
+    mesh.tangents = take_vectors<Vec3>(shape.parameters, "S", pbrt::ParameterType::vector3);
     require_one_a_vertex(context, shape, mesh.normals, mesh.positions.size(), "N");
+    require_one_a_vertex(context, shape, mesh.tangents, mesh.positions.size(), "S");
     require_one_a_vertex(context, shape, mesh.uvs, mesh.positions.size(), "uv");
     return mesh;
 }
@@ -99,6 +101,7 @@ TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
     mesh.normals = std::move(raw.normals);
     mesh.uvs = std::move(raw.uvs);
     mesh.indices = std::move(raw.indices);
+    mesh.tangents = std::move(raw.tangents);
     mesh.end_positions = std::move(raw.end_positions);
     mesh.end_normals = std::move(raw.end_normals);
     for (auto* const positions : {&mesh.positions, &mesh.end_positions}) {
@@ -108,6 +111,10 @@ TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
                 throw InputError(shape.place, fmt::format("Shape \"{}\" has a vertex that is not finite", shape.type));
             }
         }
+    }
+    for (Vec3& t : mesh.tangents) {
+        t = shape.world_from_object.vector(t);
+        t = is_finite(t) ? t : Vec3(0, 0, 0);
     }
     for (auto* const normals : {&mesh.normals, &mesh.end_normals}) {
         for (Vec3& n : *normals) {

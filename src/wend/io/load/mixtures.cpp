@@ -5,27 +5,31 @@
 namespace wend {
 namespace {
 
-/// What a mixture becomes of which a part is an interface: the other part. Shadow rays could not tell which it is.
-void leave_out_interfaces(LoadContext& context, std::vector<LoadedMaterial>& loaded, std::size_t index,
-                          const pbrt::MaterialEntity& entity) {
+/// What a mixture becomes of which a part is an interface: the other part, as far as it is present.
+void leave_out_interfaces(LoadContext& context, TextureLoader& textures, std::vector<LoadedMaterial>& loaded,
+                          std::size_t index, const pbrt::MaterialEntity& entity) {
     auto& mix = std::get<MixMaterial>(loaded[index].material);
-    const auto is_interface = [&](int part) {
-        return std::holds_alternative<InterfaceMaterial>(loaded[static_cast<std::size_t>(part)].material);
-    };
+    const auto part = [&](int i) -> const LoadedMaterial& { return loaded[static_cast<std::size_t>(i)]; };
+    const auto is_interface = [&](int i) { return std::holds_alternative<InterfaceMaterial>(part(i).material); };
     const bool first = is_interface(mix.first), second = is_interface(mix.second);
     if (first && second) {
         loaded[index].material = InterfaceMaterial{};
     } else if (first || second) {
         context.warnings.add(entity.parameters.place_of("materials"),
-                             "an \"interface\" cannot be mixed: the other material takes its place (\"alpha\" of a "
-                             "shape leaves a share of it out)");
+                             "a mixture lets its share of an \"interface\" pass by chance, also of connections to "
+                             "lights, which pbrt stops there");
+        loaded[index].presence = first ? mix.amount : textures.complement(mix.amount);
         (first ? mix.first : mix.second) = first ? mix.second : mix.first;
+    } else if (part(mix.first).presence >= 0 || part(mix.second).presence >= 0) {
+        context.warnings.add(entity.parameters.place_of("materials"),
+                             "an \"interface\" within a mixture of mixtures is not mixed in: the other material takes "
+                             "its place");
     }
 }
 
 }  // namespace
 
-void check_mixtures(LoadContext& context, std::vector<LoadedMaterial>& loaded,
+void check_mixtures(LoadContext& context, TextureLoader& textures, std::vector<LoadedMaterial>& loaded,
                     const std::vector<pbrt::MaterialEntity>& materials) {
     enum class State : char { unseen, open, done };
     std::vector<State> states(loaded.size(), State::unseen);
@@ -45,7 +49,7 @@ void check_mixtures(LoadContext& context, std::vector<LoadedMaterial>& loaded,
             }
         }
         states[index] = State::done;
-        leave_out_interfaces(context, loaded, index, materials[index]);
+        leave_out_interfaces(context, textures, loaded, index, materials[index]);
     };
     for (std::size_t i = 0; i < loaded.size(); ++i) {
         visit(i);

@@ -1,5 +1,6 @@
 #include <wend/io/colour_encoding.h>
 #include <wend/io/exr_file.h>
+#include <wend/io/load/colours.h>
 #include <wend/io/load/pictures.h>
 
 #include <fmt/format.h>
@@ -46,6 +47,24 @@ ImageWithOpacity read_raw(const std::filesystem::path& file) {
     return picture;
 }
 
+/// The colours of a picture as they are, or one number a pixel in all channels.
+Image reduce_picture(ImageWithOpacity picture, PictureChannels channels) {
+    std::vector<Rgb>& pixels = picture.image.pixels;
+    const bool takes_colours = channels == PictureChannels::colours || channels == PictureChannels::of_surfaces ||
+                               channels == PictureChannels::of_light;
+    for (std::size_t i = 0; i < pixels.size() && !takes_colours; ++i) {
+        if (channels == PictureChannels::luminance) {
+            pixels[i] = Rgb(luminance(pixels[i]));
+            continue;
+        }
+        const bool is_first = channels == PictureChannels::first;
+        const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
+        const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
+        pixels[i] = Rgb(is_first || picture.opacity.empty() ? colour : picture.opacity[i]);
+    }
+    return std::move(picture.image);
+}
+
 }  // namespace
 
 std::string_view implied_encoding(const std::filesystem::path& file) {
@@ -72,19 +91,18 @@ ImageWithOpacity read_encoded(const std::filesystem::path& file, const std::stri
     return picture;
 }
 
-Image reduce_picture(ImageWithOpacity picture, PictureChannels channels) {
-    std::vector<Rgb>& pixels = picture.image.pixels;
-    for (std::size_t i = 0; i < pixels.size() && channels != PictureChannels::colours; ++i) {
-        if (channels == PictureChannels::luminance) {
-            pixels[i] = Rgb(luminance(pixels[i]));
-            continue;
+Image read_channels(const std::filesystem::path& file, const std::string& encoding, const Place& place,
+                    PictureChannels channels) {
+    Image image = reduce_picture(read_encoded(file, encoding, place), channels);
+    const bool is_light = channels == PictureChannels::of_light;
+    if ((is_light || channels == PictureChannels::of_surfaces) && is_exr(file)) {
+        const pbrt::ColourSpace space = exr_colour_space(file);
+        for (std::size_t i = 0; i < image.pixels.size() && space != pbrt::ColourSpace::srgb; ++i) {
+            image.pixels[i] =
+                rec709_of({image.pixels[i], space}, is_light ? SpectrumKind::illuminant : SpectrumKind::reflectance);
         }
-        const bool is_first = channels == PictureChannels::first;
-        const bool is_grey = pixels[i].r == pixels[i].g && pixels[i].g == pixels[i].b;
-        const float colour = is_first || is_grey ? pixels[i].r : mean(pixels[i]);
-        pixels[i] = Rgb(is_first || picture.opacity.empty() ? colour : picture.opacity[i]);
     }
-    return std::move(picture.image);
+    return image;
 }
 
 bool is_from_top(const pbrt::ParameterSet& parameters, std::string_view name) {

@@ -126,7 +126,7 @@ TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& 
         throw InputError(p.place_of("channels"),
                          fmt::format("the channels \"{}\" are unknown; known is luminance", channels));
     }
-    return texture.kind == pbrt::TextureKind::spectrum     ? Channels::colours
+    return texture.kind == pbrt::TextureKind::spectrum     ? Channels::of_surfaces
            : channels == "luminance"                       ? Channels::luminance
            : filter == "bilinear" || filter == "trilinear" ? Channels::number
                                                            : Channels::first;
@@ -340,6 +340,17 @@ TextureId TextureLoader::real(const pbrt::ParameterSet& parameters, std::string_
     return textures_.add_constant(Rgb(number));
 }
 
+TextureId TextureLoader::complement(TextureId number) {
+    const Rgb* value = textures_.constant(number);
+    return value ? constant(Rgb(1 - value->r))
+                 : textures_.add(MixTexture{constant(Rgb(1.0f)), constant(Rgb(0.0f)), number});
+}
+
+TextureId TextureLoader::product(TextureId a, TextureId b) {
+    const Rgb *first = textures_.constant(a), *second = textures_.constant(b);
+    return first && second ? constant(Rgb(first->r * second->r)) : textures_.add(ScaleTexture{a, b});
+}
+
 Rgb TextureLoader::mean(TextureId id) const {
     if (const Rgb* constant = textures_.constant(id)) {
         return *constant;
@@ -363,7 +374,7 @@ std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path&
     if (!image) {
         const std::tuple key(file.lexically_normal().string(), encoding, channels);
         image = read_part(context_, &LoadedParts::pictures, key, file, [&] {
-            return std::make_shared<const Image>(reduce_picture(read_encoded(file, encoding, place), channels));
+            return std::make_shared<const Image>(read_channels(file, encoding, place, channels));
         });
     }
     return image;

@@ -40,6 +40,10 @@ public:
         return textures_.add(RelativeAlbedoTexture{reflectance, std::move(albedo_of), albedo});
     }
 
+    /// 1 less a number, and the product of two.
+    TextureId complement(TextureId number);
+    TextureId product(TextureId a, TextureId b);
+
     bool varies(TextureId id) const { return !textures_.constant(id); }
     /// The texture's value if it is constant; otherwise its mean over the unit square of (u, v).
     Rgb mean(TextureId id) const;

@@ -307,29 +307,35 @@ Materials::Leaf Materials::plastic(const Object& bsdf) {
 Materials::Leaf Materials::principled(const Object& bsdf) {
     Parameters p(bsdf.place());
     p.colour("reflectance", textures_.colour(bsdf, "base_color", Rgb(0.5f)))
-        .real("roughness", textures_.number(bsdf, "roughness", 0.5))
-        .real("metallic", textures_.number(bsdf, "metallic", 0));
-    // The reflectance at normal incidence is 0.08 times "specular".
-    const double specular = bsdf.non_negative("specular", 0.5);
-    const double root = std::sqrt(0.08 * std::min(specular, 12.0));
-    p.real("eta", bsdf.has("eta") ? bsdf.positive("eta", 1.5) : (1 + root) / (1 - root));
-    // A coat is a quarter as strong as one of glass.
-    if (bsdf.has("clearcoat")) {
-        const double gloss = bsdf.number("clearcoat_gloss", 0);
-        const NumberOrTexture given = textures_.number(bsdf, "clearcoat", 0);
-        const auto* number = std::get_if<float>(&given);
-        p.real("coat", number ? NumberOrTexture(0.25f * *number)
-                              : textures_.scaled(std::get<TextureRef>(given), 0.25, bsdf.place()))
-            .real("coatroughness", std::sqrt(0.1 + gloss * (0.001 - 0.1)));
+        .real("roughness", textures_.number(bsdf, "roughness", 0.5));
+    for (const auto& [name, parameter] :
+         {std::pair{"anisotropic", "anisotropy"}, std::pair{"metallic", "metallic"},
+          std::pair{"spec_trans", "transmission"}, std::pair{"spec_tint", "speculartint"}, std::pair{"sheen", "sheen"},
+          std::pair{"sheen_tint", "sheentint"}, std::pair{"flatness", "flatness"}, std::pair{"clearcoat", "coat"},
+          std::pair{"clearcoat_gloss", "coatgloss"}}) {
+        if (bsdf.has(name)) {
+            p.real(parameter, textures_.number(bsdf, name, 0));
+        }
     }
+    if (bsdf.has("eta") && bsdf.has("specular")) {
+        throw InputError(bsdf.place_of("specular"), "a principled surface takes either \"eta\" or \"specular\"");
+    }
+    const bool transmits = bsdf.has("spec_trans");
+    double index = 0;
+    if (bsdf.has("eta")) {
+        index = bsdf.positive("eta", 1.5);
+        index = transmits && index == 1 ? 1.001 : index;
+    } else {
+        // The reflectance at normal incidence is 0.08 times "specular".
+        const double specular = bsdf.non_negative("specular", 0.5);
+        index = 2 / (1 - std::sqrt(0.08 * std::clamp(specular, transmits ? 1e-3 : 0.0, 12.0))) - 1;
+    }
+    p.real("eta", index);
     for (const char* name :
          {"main_specular_sampling_rate", "clearcoat_sampling_rate", "diffuse_reflectance_sampling_rate"}) {
         bsdf.ignore(name);
     }
-    context_.warn(bsdf.place(),
-                  "<bsdf type=\"principled\"> is a material of Wend's own, of the same colour, roughness, "
-                  "metal and coat: it loses no energy");
-    return {"principled", std::move(p)};
+    return {"burley", std::move(p), !transmits};
 }
 
 Materials::Leaf Materials::replaced(const Object& bsdf) {

@@ -47,7 +47,7 @@ public:
         return std::move(parameters_);
     }
     ParameterSet take_set(DescriptionBuilder& builder) {
-        ParameterSet set(place_);
+        ParameterSet set(place_, builder.colour_space());
         for (Parameter& parameter : take_parameters(builder.colour_space())) {
             const Parameter last = {parameter.type, parameter.name, place_, parameter.colour_space, {}};
             if (const auto earlier = set.add(std::move(parameter))) {

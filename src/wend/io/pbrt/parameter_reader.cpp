@@ -156,7 +156,7 @@ Parameter read_option(TokenStream& tokens, ColourSpace colour_space) {
 
 ParameterSet read_parameters(TokenStream& tokens, const Location& directive, ColourSpace colour_space,
                              const OnRepeated& on_repeated) {
-    ParameterSet parameters(directive);
+    ParameterSet parameters(directive, colour_space);
     while (true) {
         tokens.leave_finished_includes();
         if (tokens.peek().is_word("Include")) {

@@ -23,7 +23,8 @@ class ParameterSet {
 public:
     ParameterSet() = default;
     /// `directive` is the place to blame for what is missing.
-    explicit ParameterSet(Location directive) : directive_(std::move(directive)) {}
+    explicit ParameterSet(Location directive, ColourSpace space = ColourSpace::srgb)
+        : directive_(std::move(directive)), colour_space_(space) {}
 
     /// Takes the place of one of this name (whatever its type), which it returns: null if there was none. Throws
     /// InputError if there are far too many.
@@ -41,6 +42,8 @@ public:
     /// Whether these are the very parameters of the other set, and not just alike.
     bool is_same_as(const ParameterSet& other) const { return own_ == other.own_ && defaults_ == other.defaults_; }
     bool has(std::string_view name) const { return find(name) != nullptr; }
+    /// That of the directive.
+    ColourSpace colour_space() const { return colour_space_; }
     /// The type under which a parameter was given; does not mark it as looked up.
     std::optional<ParameterType> type_of(std::string_view name) const;
     /// The place of the parameter, or of the directive if it is absent: for messages about its value.
@@ -103,6 +106,7 @@ private:
     std::vector<Value> take_list(std::string_view name, ParameterType type);
 
     Location directive_;
+    ColourSpace colour_space_ = ColourSpace::srgb;
     std::vector<std::shared_ptr<Parameter>> own_;
     std::shared_ptr<const ParameterSet> defaults_;
 };

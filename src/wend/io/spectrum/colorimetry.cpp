@@ -106,14 +106,18 @@ Rgb rgb_from_chromaticity(double x, double y) {
     return clamp_below(rgb_from_xyz({x / y, 1, (1 - x - y) / y}));
 }
 
+Rgb rgb_of_reflectance(const std::function<double(double)>& spectrum) {
+    const Xyz xyz = integrate([&](double w) { return spectrum(w) * d65(w); }, matching);
+    static const double y_of_white = integrate(d65, matching).y;
+    return rgb_from_xyz({xyz.x / y_of_white, xyz.y / y_of_white, xyz.z / y_of_white});
+}
+
 Rgb rgb_from_spectrum(const std::function<double(double)>& spectrum, SpectrumKind kind) {
     if (kind == SpectrumKind::illuminant) {
         const Xyz xyz = xyz_from_spectrum(spectrum);
         return xyz.y > 0 ? clamp_below(rgb_from_xyz({xyz.x / xyz.y, 1, xyz.z / xyz.y})) : Rgb();
     }
-    const Xyz xyz = integrate([&](double w) { return spectrum(w) * d65(w); }, matching);
-    static const double y_of_white = integrate(d65, matching).y;
-    const Rgb rgb = clamp_below(rgb_from_xyz({xyz.x / y_of_white, xyz.y / y_of_white, xyz.z / y_of_white}));
+    const Rgb rgb = clamp_below(rgb_of_reflectance(spectrum));
     return kind == SpectrumKind::unbounded ? rgb
                                            : Rgb(std::min(rgb.r, 1.0f), std::min(rgb.g, 1.0f), std::min(rgb.b, 1.0f));
 }

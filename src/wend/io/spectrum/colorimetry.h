@@ -33,6 +33,9 @@ Rgb rgb_from_pairs(std::span<const SpectrumSample> samples, SpectrumKind kind);
 /// The same for a spectrum as a function of the wavelength in nanometres.
 Rgb rgb_from_spectrum(const std::function<double(double)>& spectrum, SpectrumKind kind);
 
+/// The colour that a surface of a reflectance has under daylight D65, not clamped: in proportion to the reflectance.
+Rgb rgb_of_reflectance(const std::function<double(double)>& spectrum);
+
 /// The spectrum that samples stand for. Throws InputError as rgb_from_pairs().
 std::function<double(double)> spectrum_from_pairs(std::vector<SpectrumSample> samples);
 

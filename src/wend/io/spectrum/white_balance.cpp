@@ -69,6 +69,13 @@ ColourMatrix colours_of_sensor(double temperature) {
 
 }  // namespace
 
+ColourMatrix adaptation(const std::array<double, 3>& from, const std::array<double, 3>& to) {
+    const Tristimulus seen_from = bradford * from, seen_to = bradford * to;
+    const ColourMatrix scaled =
+        ColourMatrix::diagonal(seen_to[0] / seen_from[0], seen_to[1] / seen_from[1], seen_to[2] / seen_from[2]);
+    return bradford.inverse() * scaled * bradford;
+}
+
 ColourMatrix sensor_balance(double temperature) {
     return colours_of_sensor(temperature) * white_balance(temperature);
 }
@@ -79,9 +86,8 @@ ColourMatrix white_balance(double temperature) {
         throw InputError(
             fmt::format("the white of {} K: it must lie between {} and {} K", temperature, lowest, highest));
     }
-    const Tristimulus from = bradford * daylight(temperature), to = bradford * from_chromaticity(0.3127, 0.3290);
-    const ColourMatrix scaled = ColourMatrix::diagonal(to[0] / from[0], to[1] / from[1], to[2] / from[2]);
-    return rgb_from_xyz_matrix() * bradford.inverse() * scaled * bradford * rgb_from_xyz_matrix().inverse();
+    return rgb_from_xyz_matrix() * adaptation(daylight(temperature), from_chromaticity(0.3127, 0.3290)) *
+           rgb_from_xyz_matrix().inverse();
 }
 
 }  // namespace wend

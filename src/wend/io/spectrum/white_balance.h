@@ -2,7 +2,13 @@
 
 #include <wend/core/colour_matrix.h>
 
+#include <array>
+
 namespace wend {
+
+/// Of tristimulus values: makes one white another one, by scaling each response of the eye (Bradford transform,
+/// lam1985).
+ColourMatrix adaptation(const std::array<double, 3>& from, const std::array<double, 3>& to);
 
 /// What makes daylight of this temperature, in kelvin, the white of Rec. 709, as pbrt's films do it: each response of
 /// the eye is scaled, by those of the Bradford transform (lam1985). Below 4000 K, where the CIE's daylight ends, it is

@@ -1,5 +1,6 @@
 #include <wend/medium/fresnel.h>
 #include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/bsdf/measured.h>
 
 #include <cmath>
 
@@ -30,6 +31,12 @@ Rgb albedo(const HairBsdf& b, const Vec3& wo) {
     return b.albedo(wo);
 }
 Rgb albedo(const PrincipledBsdf& b, const Vec3& wo) {
+    return b.albedo(wo);
+}
+Rgb albedo(const MeasuredBsdf& b, const Vec3& wo) {
+    return b.tables->albedo(wo);
+}
+Rgb albedo(const DisneyBsdf& b, const Vec3& wo) {
     return b.albedo(wo);
 }
 

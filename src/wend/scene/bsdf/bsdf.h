@@ -195,11 +195,20 @@ struct PrincipledBsdf {
     Rgb base;            ///< colour of the diffuse base, and of metal from the front; in [0, 1]
     float metallic = 0;  ///< share of metal
     float alpha = 0.25f;
+    float aspect = 1;  ///< facets are rougher along x by 1 over this and along y by this
     float ior = 1.5f;
     float specular = 1;  ///< what multiplies the reflectance of the dielectric
-    float coat = 0;      ///< share of the surface that it covers
+    /// In [0, 1]: of the dielectric what multiplies it at normal incidence, of metal what multiplies it at an angle of
+    /// the cosine 1/7 (kutz2021).
+    Rgb specular_tint{1.0f};
+    /// Of the diffuse base, in [0, 1]: facets without a gloss (fujii2020), and what they reflect several times
+    /// (portsmouth2025).
+    float diffuse_roughness = 0;
+    float coat = 0;  ///< share of the surface that it covers
     float coat_alpha = 0.01f;
     float coat_ior = 1.5f;
+    /// What is left of what passes the coat, twice the way straight through; aslant it is a longer way, from wo.
+    Rgb coat_tint{1.0f};
     /// Whether there is a medium inside, of the same index, in place of a share of the diffuse base. What goes in goes
     /// by refraction at facets or evenly, undiminished by what facets reflect from inside; what comes out does so
     /// evenly, whatever it met. The two directions cannot be exchanged.
@@ -227,13 +236,69 @@ private:
         float coat, facets, base, entry;
     };
     Shares shares(const Parts& parts) const;
+    Microfacets facets() const { return {alpha / aspect, alpha * aspect}; }
+    /// Of the facets of the dielectric, where glass would reflect this.
+    Rgb tinted(float fresnel) const;
+    Rgb diffuse_value(const Vec3& wo, const Vec3& wi) const;
+    Rgb diffuse_albedo(float cosine) const;
     float entry_density(const Vec3& wo, const Vec3& wi) const;
     std::optional<Vec3> sample_entry(const Vec3& wo, float u, const Vec2& u2) const;
 };
 
+class MeasuredTables;
+
+/// A measured reflection, alike from either side; x is where azimuths begin.
+struct MeasuredBsdf {
+    const MeasuredTables* tables = nullptr;  ///< referred to
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+};
+
+/// The surface that Mitsuba calls principled (burley2012, burley2015), as it has it: lobes that are added, so that
+/// energy is lost or gained. From the front there is a diffuse base with a gloss at grazing angles, facets, a coat and
+/// cloth; from behind, and through it, the facets of a dielectric.
+struct DisneyBsdf {
+    Rgb base;
+    float roughness = 0.5f;  ///< of the diffuse base
+    float alpha_x = 0.25f, alpha_y = 0.25f;
+    float ior = 1.5f;
+    float metallic = 0;
+    float spec_trans = 0;             ///< share of what is no metal that lets light through; 0: alike from both sides
+    float spec_tint = 0;              ///< how far the facets of a dielectric have the base's hue
+    float sheen = 0, sheen_tint = 0;  ///< of cloth: how much, and how far it has the base's hue
+    float flatness = 0;               ///< share of the diffuse base that is as if light went below the surface
+    float coat = 0;
+    float coat_alpha = 0.1f;
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+    /// Rough estimate of what is reflected or passes of light from wo.
+    Rgb albedo(const Vec3& wo) const;
+
+private:
+    struct Meeting;
+    /// How a direction is drawn; facets get the rest.
+    struct Shares {
+        float base, coat;
+    };
+    Shares shares(bool is_front) const;
+    std::optional<Meeting> meet(const Vec3& wo, const Vec3& wi) const;
+    Vec3 to_front(const Vec3& w, const Vec3& wo) const;
+    Rgb tint() const;
+    Rgb facet_colour(const Meeting& at, bool is_front) const;
+    Rgb diffuse_value(const Meeting& at, float cos_o, float cos_i) const;
+    float reflected_share(float fresnel, bool is_front) const;
+    std::optional<Vec3> sample_direction(const Vec3& wo, float u, const Vec2& u2) const;
+};
+
 /// The closed set of BSDFs.
 using Bsdf = std::variant<LambertBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                          CoatedBsdf, HairBsdf, PrincipledBsdf>;
+                          CoatedBsdf, HairBsdf, PrincipledBsdf, MeasuredBsdf, DisneyBsdf>;
 
 /// Refractive index beyond over before for light going from wo to wi; 1 unless refracted.
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);

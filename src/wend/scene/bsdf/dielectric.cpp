@@ -153,11 +153,13 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const 
 }
 
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
-    const auto* b = std::get_if<DielectricBsdf>(&bsdf);
-    if (!b || wo.z * wi.z >= 0) {
+    const auto* glass = std::get_if<DielectricBsdf>(&bsdf);
+    const auto* disney = std::get_if<DisneyBsdf>(&bsdf);
+    if ((!glass && !disney) || wo.z * wi.z >= 0) {
         return 1;
     }
-    return wo.z > 0 ? b->ior : 1 / b->ior;
+    const float ior = glass ? glass->ior : disney->ior;
+    return wo.z > 0 ? ior : 1 / ior;
 }
 
 }  // namespace wend

@@ -59,6 +59,7 @@ struct LobesOf {
     AxialLobes operator()(const DielectricBsdf&) const { return {}; }
     AxialLobes operator()(const ThinDielectricBsdf&) const { return {}; }
     AxialLobes operator()(const HairBsdf&) const { return {}; }
+    AxialLobes operator()(const MeasuredBsdf&) const { return {}; }
     // The facets of a dielectric are left to the BSDF's own sampling.
     AxialLobes operator()(const PrincipledBsdf& b) const {
         constexpr float half = 0.5f;
@@ -66,6 +67,14 @@ struct LobesOf {
             return {};
         }
         return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha, b.alpha, wo);
+    }
+    // The same; what passes has no lobes.
+    AxialLobes operator()(const DisneyBsdf& b) const {
+        constexpr float half = 0.5f;
+        if (b.spec_trans > 0) {
+            return {};
+        }
+        return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha_x, b.alpha_y, wo);
     }
 };
 
@@ -84,7 +93,9 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const ThinDielectricBsdf&) const { return false; }
         bool operator()(const CoatedBsdf& b) const { return !b.is_specular(); }
         bool operator()(const HairBsdf&) const { return false; }
+        bool operator()(const MeasuredBsdf&) const { return false; }
         bool operator()(const PrincipledBsdf& b) const { return !b.has_inside; }
+        bool operator()(const DisneyBsdf& b) const { return !(b.spec_trans > 0); }
     };
     return std::visit(Pictured{}, bsdf);
 }
