@@ -24,6 +24,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ["fog-door", "cloud"]
 TILE = 16
+# Of the picture that is measured.
+WIDTH, HEIGHT = 160, 90
 # Of a pixel of the film, and of a record of a vertex, as ranks tell them to each other.
 BYTES_OF_PIXEL, BYTES_OF_RECORD, MOST_RECORDS = 168, 100, 2e6
 CLUSTERS = {"100 Gb/s, 2 µs": (2e-6, 12.5e9), "10 Gb/s, 20 µs": (20e-6, 1.25e9)}
@@ -52,7 +54,7 @@ def measure(wend, scene, repetitions, folder):
         for way in ways:
             starts[way].append(render(wend, scene, *way, ["--resolution", "16x9", "--spp", 1, "--sampling", "classical"],
                                       folder)["cpu"])
-            told[way].append(render(wend, scene, *way, ["--resolution", "160x90", "--spp", 31, "--sampling",
+            told[way].append(render(wend, scene, *way, ["--resolution", f"{WIDTH}x{HEIGHT}", "--spp", 31, "--sampling",
                                                         "direction+roulette+splitting"], folder))
     return [{"scene": scene, "ranks": ranks, "threads": threads,
              "seconds": statistics.median(t["seconds"] for t in told[ranks, threads]),
@@ -64,10 +66,19 @@ def measure(wend, scene, repetitions, folder):
              "bytes_per_pass": told[ranks, threads][0].get("bytes_per_pass", 0)} for ranks, threads in ways]
 
 
+def exchanged(rows, ranks):
+    """Bytes that all ranks together take in a pass. Film and cells go to each of the others; of the records, which two
+    ranks tell the size of, each goes to one rank, and one of so many stays where it is."""
+    two = next(r for r in rows if r["ranks"] == 2)
+    to_all = WIDTH * HEIGHT * BYTES_OF_PIXEL + two["field_bytes"]
+    records = 2 * (2 * two["bytes_per_pass"] - to_all)
+    return (ranks - 1) * to_all + records * (ranks - 1) / ranks
+
+
 def predicted(rows, ranks):
-    """Seconds of processors by the model: what is shared out, and what every other rank adds for itself."""
+    """Seconds of processors by the model: what is shared out, and what goes with what is exchanged."""
     one, two = (next(r for r in rows if r["ranks"] == n and r["threads"] == 1) for n in (1, 2))
-    return one["cpu"] + (ranks - 1) * (two["cpu"] - one["cpu"])
+    return one["cpu"] + (two["cpu"] - one["cpu"]) * exchanged(rows, ranks) / exchanged(rows, 2)
 
 
 def tile_work(wend, scene, seed, folder):

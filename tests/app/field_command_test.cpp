@@ -103,6 +103,41 @@ TEST_F(FieldCommand, ALoadedFieldGuidesFromTheFirstSample) {
     EXPECT_NE(test::read_text(folder_.file("room.exr")), untrained);
 }
 
+TEST_F(FieldCommand, OfAChangedSceneTheFieldsAreTakenAndTheNotesAreNot) {
+    const std::string field = folder_.file("room.field");
+    ASSERT_EQ(render({"--spp", "31", "--save-field", field}).status, 0);
+    const auto go_on = [&](const std::string& from) {
+        const auto result = run_wend(
+            {"render", scene_, "-o", folder_.file("on.exr"), "--spp", "3", "--seed", "5", "--load-field", from});
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err;
+    };
+    const auto pixels = [&] {
+        const std::vector<Rgb> all = read_picture(folder_.file("on.exr")).image.pixels;
+        return std::string(reinterpret_cast<const char*>(all.data()), all.size() * sizeof(Rgb));
+    };
+    const std::string sentence = "room.field: was learned in another scene, or before this one changed";
+    EXPECT_EQ(go_on(field).find(sentence), std::string::npos);
+    const std::string taught = pixels();
+    // Another text, and nothing else that the notes could be told by.
+    folder_.write("room.pbrt", test::small_scene() + "\n# A word more.\n");
+    EXPECT_NE(go_on(field).find(sentence), std::string::npos);
+    const std::string changed = pixels();
+
+    // Files without the scene's digest, and without notes: as earlier versions wrote them.
+    const std::string bytes = test::read_text(field);
+    const std::size_t notes = bytes.find("WENDNOTE\x1a") - sizeof(std::uint64_t),
+                      scene = bytes.find("WENDSCENE\x1a") - sizeof(std::uint64_t);
+    const std::string unplaced = folder_.write("unplaced.field", std::string_view(bytes).substr(0, scene));
+    const std::string oldest = folder_.write("oldest.field", std::string_view(bytes).substr(0, notes));
+    go_on(oldest);
+    EXPECT_TRUE(pixels() == changed) << "the same fields, and no notes";
+    folder_.write("room.pbrt", test::small_scene());
+    go_on(unplaced);
+    EXPECT_TRUE(pixels() == taught) << "notes of a scene that is not known are taken";
+    EXPECT_FALSE(changed == taught);
+}
+
 TEST_F(FieldCommand, RefusesWhatIsNoFieldAndNamesIt) {
     save_field();
     const std::string bytes = test::read_text(folder_.file("room.field"));

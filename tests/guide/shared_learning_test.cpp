@@ -58,13 +58,14 @@ std::string bytes_of(const Fields& fields) {
 
 const Box3 box(Vec3(0, 0, 0), Vec3(1, 1, 1));
 
-TEST(SharedLearning, IsThatOfOneProcess) {
+/// Learns in so many processes, each with the records of some producers, and holds all of them against one alone.
+void expect_one_learning(const FitSettings& settings, std::size_t cells_at_least) {
     constexpr std::uint64_t passes = 3;
     Fields expected{Field::empty(box), Field::empty(box)};
     for (std::uint64_t pass = 0; pass < passes; ++pass) {
-        expected = learn(expected, pass_of(pass), 1);
+        expected = learn(expected, pass_of(pass), settings, 1);
     }
-    ASSERT_GT(expected.surface.size(), 20u) << "too few cells to be shared";
+    ASSERT_GE(expected.surface.size(), cells_at_least) << "too few cells to be shared";
     for (const int count : {1, 2, 3, 5}) {
         std::vector<std::string> learned(static_cast<std::size_t>(count));
         test::by_thread_ranks(count, [&](Ranks& ranks) {
@@ -78,13 +79,33 @@ TEST(SharedLearning, IsThatOfOneProcess) {
                         records[i] = {};
                     }
                 }
-                fields = learn_together(fields, std::move(records), 2, team);
+                fields = learn_together(fields, std::move(records), 2, team, settings);
             }
             learned[static_cast<std::size_t>(ranks.rank())] = bytes_of(fields);
         });
         for (const std::string& one : learned) {
             EXPECT_TRUE(one == bytes_of(expected)) << count << " processes";
         }
+    }
+}
+
+TEST(SharedLearning, IsThatOfOneProcess) {
+    expect_one_learning({}, 20);
+}
+
+// Cells compete for what is left, those of other processes included: the most used ones are split.
+TEST(SharedLearning, IsThatOfOneProcessWhereMemoryDoesNotSuffice) {
+    FitSettings settings;
+    settings.leaf_samples = 100;
+    Fields fields{Field::empty(box), Field::empty(box)};
+    for (std::uint64_t pass = 0; pass < 3; ++pass) {
+        fields = learn(fields, pass_of(pass), settings, 1);
+    }
+    // From an early pass on, and in the last one alone.
+    for (const std::size_t cells : {std::size_t{45}, fields.surface.size() - 3}) {
+        ASSERT_LE(cells + 3, fields.surface.size()) << "there is room for all";
+        settings.max_bytes = cells * Field::bytes_per_cell() + 1;
+        expect_one_learning(settings, cells);
     }
 }
 

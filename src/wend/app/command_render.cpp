@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <optional>
 
 namespace wend {
 namespace {
@@ -140,6 +141,20 @@ nlohmann::json report(const Session& session, const RenderSettings& settings, co
     return results;
 }
 
+/// What a file of fields has for a scene. Fields of another one steer walks all the same; what is noted of its pixels
+/// and lights would mislead.
+FieldsPointer fields_for(const Session& session, SavedFields saved, const RenderOptions& options,
+                         const Streams& streams) {
+    const bool is_of_scene = saved.scene.empty() || saved.scene == digest_of(session.files());
+    if (!is_of_scene && !saved.fields.notes.empty()) {
+        options.common.note(streams, options.load_field +
+                                         ": was learned in another scene, or before this one changed: the fields are "
+                                         "taken, but not what is noted of pixels, lights and techniques");
+        saved.fields.notes.clear();
+    }
+    return std::make_shared<const guide::Fields>(std::move(saved.fields));
+}
+
 /// Whether this process is the one that tells and writes.
 bool is_first_of(const Ranks* ranks) {
     return !ranks || ranks->rank() == 0;
@@ -152,10 +167,14 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     const RenderPlan plan = plan_of(options);
     check(options, plan.preset);
     check_paths(options, options.output);
+    std::optional<SavedFields> saved;
     if (!fields && !options.load_field.empty()) {
-        fields = std::make_shared<const guide::Fields>(read_fields(options.load_field));
+        saved = read_saved_fields(options.load_field);
     }
     const Session session(options.scene, options.common, streams);
+    if (saved) {
+        fields = fields_for(session, std::move(*saved), options, streams);
+    }
     const std::filesystem::path output =
         options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
     check_paths(options, output.string());
@@ -207,7 +226,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
         return statistics.fields;
     }
     if (!options.save_field.empty()) {
-        write_fields(options.save_field, *statistics.fields);
+        write_fields(options.save_field, *statistics.fields, digest_of(session.files()));
     }
     if (!options.save_records.empty()) {
         write_records(options.save_records, records);

@@ -90,11 +90,12 @@ std::vector<std::vector<std::uint32_t>> cells_of(const Field& field, Producers p
 class SharedField {
 public:
     SharedField(const Field& before, Producers producers, const Records& (PathRecords::*arrived)() const,
-                const ScatterRecords& (PathRecords::*scattered)() const, int threads)
+                const ScatterRecords& (PathRecords::*scattered)() const, const FitSettings& settings, int threads)
         : before_(before),
           producers_(producers),
           arrived_(arrived),
           scattered_(scattered),
+          settings_(settings),
           threads_(threads),
           arrived_cells_(cells_of(before, producers, arrived, threads)),
           scattered_cells_(cells_of(before, producers, scattered, threads)) {}
@@ -114,15 +115,20 @@ public:
     void send(ArchiveWriter& bytes, std::span<const int> owners, int owner) const {
         bytes(parcel(arrived_, arrived_cells_, owners, owner), parcel(scattered_, scattered_cells_, owners, owner));
     }
+    /// Takes the records of its own cells, which need not be sent.
+    void keep(std::span<const int> owners, int owner) {
+        arrived_parcels_.push_back(parcel(arrived_, arrived_cells_, owners, owner));
+        scattered_parcels_.push_back(parcel(scattered_, scattered_cells_, owners, owner));
+    }
     /// Takes what another has sent.
     void receive(ArchiveReader& bytes) { bytes(arrived_parcels_.emplace_back(), scattered_parcels_.emplace_back()); }
 
     /// Fits with what was received; how many cells that has made, or more than there may be.
     std::uint64_t fit() {
-        const FitSettings settings;
-        FitResult fitted = guide::fit(before_, opened<Record>(std::exchange(arrived_parcels_, {})), settings, threads_);
+        FitResult fitted =
+            guide::fit(before_, opened<Record>(std::exchange(arrived_parcels_, {})), settings_, threads_);
         next_ = fit_scattered(std::move(fitted.field), opened<ScatterRecord>(std::exchange(scattered_parcels_, {})),
-                              settings.decay, threads_);
+                              settings_.decay, threads_);
         return fitted.report.memory_limited ? most_cells() : next_->size() - before_.size();
     }
     /// Whether so many new cells are more than one fit would have made.
@@ -137,7 +143,7 @@ public:
     }
 
 private:
-    static std::uint64_t most_cells() { return FitSettings().max_bytes / Field::bytes_per_cell(); }
+    std::uint64_t most_cells() const { return settings_.max_bytes / Field::bytes_per_cell(); }
 
     template <class T>
     Parcel<T> parcel(const std::vector<T>& (PathRecords::*kind)() const,
@@ -165,6 +171,7 @@ private:
     Producers producers_;
     const Records& (PathRecords::*arrived_)() const;
     const ScatterRecords& (PathRecords::*scattered_)() const;
+    const FitSettings& settings_;
     int threads_;
     std::vector<std::vector<std::uint32_t>> arrived_cells_, scattered_cells_;
     std::vector<Parcel<Record>> arrived_parcels_;
@@ -173,7 +180,8 @@ private:
 };
 
 /// Every process learns from all records: for fields that have no room left, which cells compete for.
-Fields learn_from_all(const Fields& fields, std::vector<PathRecords> records, int threads, Team& team) {
+Fields learn_from_all(const Fields& fields, std::vector<PathRecords> records, const FitSettings& settings, int threads,
+                      Team& team) {
     ArchiveWriter mine;
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (records[i].size() > 0) {
@@ -189,7 +197,7 @@ Fields learn_from_all(const Fields& fields, std::vector<PathRecords> records, in
             bytes(records[i]);
         }
     }
-    return learn(fields, std::move(records), threads);
+    return learn(fields, std::move(records), settings, threads);
 }
 
 /// The cells of an owner that there is work in.
@@ -205,12 +213,14 @@ std::vector<std::uint32_t> owned(std::span<const std::uint64_t> work, std::span<
 
 }  // namespace
 
-Fields learn_together(const Fields& fields, std::vector<PathRecords> records, int threads, Team& team) {
+Fields learn_together(const Fields& fields, std::vector<PathRecords> records, int threads, Team& team,
+                      const FitSettings& settings) {
     if (team.is_alone()) {
-        return learn(fields, std::move(records), threads);
+        return learn(fields, std::move(records), settings, threads);
     }
-    SharedField surface(fields.surface, records, &PathRecords::surface, &PathRecords::surface_scattered, threads);
-    SharedField volume(fields.volume, records, &PathRecords::volume, &PathRecords::volume_scattered, threads);
+    SharedField surface(fields.surface, records, &PathRecords::surface, &PathRecords::surface_scattered, settings,
+                        threads);
+    SharedField volume(fields.volume, records, &PathRecords::volume, &PathRecords::volume_scattered, settings, threads);
 
     std::vector<std::uint64_t> work(surface.cells() + volume.cells(), 0);
     surface.count(std::span(work).first(surface.cells()));
@@ -221,13 +231,24 @@ Fields learn_together(const Fields& fields, std::vector<PathRecords> records, in
                of_volume = std::span(owners).last(volume.cells());
 
     std::vector<std::string> messages(static_cast<std::size_t>(team.size()));
+    const auto own = static_cast<std::size_t>(team.rank());
     parallel_for(messages.size(), threads, [&](std::size_t rank) {
+        if (rank == own) {
+            surface.keep(of_surface, team.rank());
+            volume.keep(of_volume, team.rank());
+            return;
+        }
         ArchiveWriter bytes;
         surface.send(bytes, of_surface, static_cast<int>(rank));
         volume.send(bytes, of_volume, static_cast<int>(rank));
         messages[rank] = bytes.take();
     });
-    for (const std::string& message : team.exchange(std::move(messages))) {
+    messages = team.exchange(std::move(messages));
+    for (std::size_t rank = 0; rank < messages.size(); ++rank) {
+        if (rank == own) {
+            continue;
+        }
+        const std::string message = std::exchange(messages[rank], {});
         ArchiveReader bytes(message);
         surface.receive(bytes);
         volume.receive(bytes);
@@ -236,7 +257,7 @@ Fields learn_together(const Fields& fields, std::vector<PathRecords> records, in
 
     const std::vector<std::uint64_t> made = team.sum({surface.fit(), volume.fit()});
     if (surface.exceeds_memory(made[0]) || volume.exceeds_memory(made[1])) {
-        return learn_from_all(fields, std::move(records), threads, team);
+        return learn_from_all(fields, std::move(records), settings, threads, team);
     }
     const auto grafted = [&](SharedField& field, std::span<const std::uint64_t> work_of_cells,
                              std::span<const int> owners_of_cells) {

@@ -8,9 +8,13 @@
 
 namespace wend::guide {
 
+/// learn() by other settings.
+Fields learn(const Fields& fields, std::vector<PathRecords> records, const FitSettings& settings, int threads);
+
 /// learn() where each record is with one of several processes: `records` has as many producers in all of them, and each
 /// producer's records are with one, empty with the others. Records go to who fits their cell, what was fitted goes to
 /// all. The same fields in all of them, bit for bit those of one process alone. Throws like Team.
-Fields learn_together(const Fields& fields, std::vector<PathRecords> records, int threads, Team& team);
+Fields learn_together(const Fields& fields, std::vector<PathRecords> records, int threads, Team& team,
+                      const FitSettings& settings = {});
 
 }  // namespace wend::guide

@@ -12,23 +12,34 @@ namespace {
 constexpr std::string_view signature = "WENDFIELDS\n";
 // The version is that of what a render notes (render/taught.h).
 constexpr guide::SealedKind notes{"notes of a guiding field", "notes", "WENDNOTE\x1a", 1};
+constexpr guide::SealedKind digest{"scene of a guiding field", "a scene's digest", "WENDSCENE\x1a", 1};
 
 }  // namespace
 
-void write_fields(const std::filesystem::path& file, const guide::Fields& fields) {
-    write_parts(
-        file, signature,
-        std::array{guide::to_bytes(fields.surface), guide::to_bytes(fields.volume), guide::seal(notes, fields.notes)});
+void write_fields(const std::filesystem::path& file, const guide::Fields& fields, const std::string& scene) {
+    write_parts(file, signature,
+                std::array{guide::to_bytes(fields.surface), guide::to_bytes(fields.volume),
+                           guide::seal(notes, fields.notes), guide::seal(digest, scene)});
 }
 
 guide::Fields read_fields(const std::filesystem::path& file) {
-    // Older files have no notes.
-    const PartsFile parts(file, signature, 3, "guiding fields", 1);
-    guide::Fields fields{parts.decode(0, guide::field_from_bytes), parts.decode(1, guide::field_from_bytes)};
+    return read_saved_fields(file).fields;
+}
+
+SavedFields read_saved_fields(const std::filesystem::path& file) {
+    // Older files have no scene, or no notes either.
+    const PartsFile parts(file, signature, 4, "guiding fields", 2);
+    SavedFields saved{{parts.decode(0, guide::field_from_bytes), parts.decode(1, guide::field_from_bytes)}, {}};
+    const auto text = [&](std::size_t part, const guide::SealedKind& kind) {
+        return parts.decode(part, [&](std::string_view bytes) { return std::string(guide::unseal(kind, bytes)); });
+    };
     if (parts.size() > 2) {
-        fields.notes = parts.decode(2, [](std::string_view bytes) { return std::string(guide::unseal(notes, bytes)); });
+        saved.fields.notes = text(2, notes);
     }
-    return fields;
+    if (parts.size() > 3) {
+        saved.scene = text(3, digest);
+    }
+    return saved;
 }
 
 }  // namespace wend
