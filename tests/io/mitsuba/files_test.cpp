@@ -88,7 +88,7 @@ TEST_F(VolFile, IsLinearBetweenTheMiddlesOfVoxels) {
 
 TEST_F(VolFile, TakesNoMemoryThatTheFileHasNot) {
     EXPECT_PRED2(contains, error_of("VO"), "no volume file");
-    EXPECT_PRED2(contains, error_of("VOL\2" + std::string(100, '\0')), "no volume file of version 3");
+    EXPECT_PRED2(contains, error_of(std::string("VOL\2").append(100, '\0')), "no volume file of version 3");
     EXPECT_PRED2(contains, error_of(head(2, 1, 1, 1, 1)), "not of type 2");
     EXPECT_PRED2(contains, error_of(head(1, 1 << 20, 1 << 20, 1 << 20, 3)), "truncated");
     EXPECT_PRED2(contains, error_of(head(1, -1, 1, 1, 1)), "out of range");
