@@ -618,10 +618,10 @@ TEST(Bsdf, IsReciprocal) {
     Pcg32 random(5);
     for (const Model& model : models()) {
         // The outcomes of walks are reciprocal on average alone. Fibres with tilted scales are not (chiang2016), nor
-        // are layers that are weighed by albedo, and numbers that were made up.
+        // are layers that are weighed by albedo, numbers that were made up, and lobes that are added up.
         if (model.name.starts_with("coated_m") || model.name.starts_with("coated_black") || model.name == "coated" ||
             model.name.starts_with("hair") || model.name.starts_with("principled") ||
-            model.name.starts_with("measured")) {
+            model.name.starts_with("measured") || model.name.starts_with("disney")) {
             continue;
         }
         for (int i = 0; i < 2000; ++i) {

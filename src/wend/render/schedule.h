@@ -24,7 +24,7 @@ public:
         const int wanted = std::min(largest_pass, 1 << std::min(pass, 5));
         if (settings_.seconds <= 0) {
             const int left = settings_.samples - done;
-            return is_short(settings_.samples) ? without_asking(left) : std::min(wanted, left);
+            return done > 0 && is_short(settings_.samples) ? without_asking(left) : std::min(wanted, left);
         }
         if (done == 0) {
             return 1;
