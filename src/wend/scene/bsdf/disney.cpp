@@ -162,7 +162,8 @@ std::optional<Vec3> DisneyBsdf::sample_direction(const Vec3& wo, float u, const 
     }
     if (u < share.base + share.coat) {
         const Vec3 m = sample_coat_facet(coat_alpha, u2);
-        return m * (2 * dot(wo, m)) - wo;
+        const Vec3 wi = m * (2 * dot(wo, m)) - wo;
+        return wi.z > 0 ? std::optional(wi) : std::nullopt;
     }
     u = (u - share.base - share.coat) / (1 - share.base - share.coat);
     const Vec3 m = Microfacets(alpha_x, alpha_y).sample_visible(wo, u2);
@@ -182,7 +183,6 @@ std::optional<BsdfSample> DisneyBsdf::sample(const Vec3& given_o, float u, const
     }
     const Vec3 wi = to_front(*drawn, given_o);
     const float p = density(given_o, wi);
-    // Of what a facet of the coat throws below, nothing is there.
     return p > 0 ? std::optional(BsdfSample{wi, evaluate(given_o, wi), p}) : std::nullopt;
 }
 
