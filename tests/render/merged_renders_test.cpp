@@ -8,17 +8,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace wend {
 namespace {
 
+constexpr int side = 16;
+
 /// Thin fog over a floor under a lamp that is far off: rare bright samples would hide a difference.
 Scene foggy_floor() {
-    SceneDescription scene = test::scene_with_camera({0, 1, 4}, {0, 0.6f, 0}, 40, 1);
+    SceneDescription scene = test::scene_with_camera({0, 1, 4}, {0, 0.6f, 0}, 40, side);
     const MediumId fog = test::add_homogeneous(scene, Rgb(0.05f), Rgb(0.3f, 0.25f, 0.2f));
     const int grey = test::add_diffuse(scene, Rgb(0.6f));
     test::add_parallelogram(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, grey);
@@ -28,30 +26,15 @@ Scene foggy_floor() {
     return Scene(std::move(scene));
 }
 
-/// How a picture is rendered, but for its samples.
-struct Job {
-    std::string sampling;
-    int side;
-    std::shared_ptr<const guide::Fields> fields = nullptr;
-    bool keeps_fields = false;
-};
-
-struct Rendered {
-    Picture picture;
-    std::shared_ptr<const guide::Fields> fields;
-};
-
-Rendered rendered(const Scene& scene, const Job& job, int samples, std::uint64_t seed) {
+Picture picture_of(const Scene& scene, int samples, std::uint64_t seed) {
     RenderSettings settings;
-    settings.preset = parse_preset(job.sampling);
+    settings.preset = parse_preset("classical");
     settings.sampler = SamplerKind::independent;
     settings.samples = samples;
     settings.seed = seed;
-    settings.fields = job.fields;
-    settings.keeps_fields = job.keeps_fields;
-    Film film({job.side, job.side}, {{0, 0}, {job.side, job.side}});
-    const RenderStatistics statistics = render(scene, film, settings);
-    return {film.picture(), statistics.fields};
+    Film film({side, side}, {{0, 0}, {side, side}});
+    render(scene, film, settings);
+    return film.picture();
 }
 
 /// Over repetitions: relMSE, and the mean of the layer `variance`.
@@ -89,8 +72,11 @@ void expect_alike(const Moments& merged, const Moments& single) {
     EXPECT_LT(4 * error, 0.05) << "too few renders to see 5 %";
 }
 
-/// Many times four renders of 16 samples, merged, against one of 64.
-void expect_as_good(const Scene& scene, const Job& job, int repetitions, const Image& truth) {
+TEST(MergedRendersSlow, AreAsGoodAsOneOfAsManySamples) {
+    // 300 times four renders of 16 samples against one of 64; the truth has the noise of 64 such renders.
+    constexpr int repetitions = 300;
+    const Scene scene = foggy_floor();
+    const Image truth = picture_of(scene, 64 * 64, 1).image;
     Quality merged, single;
     std::uint64_t seed = 2;
     for (int i = 0; i < repetitions; ++i) {
@@ -98,30 +84,13 @@ void expect_as_good(const Scene& scene, const Job& job, int repetitions, const I
         seed += 5;
         std::vector<Picture> parts;
         for (std::uint64_t k = 0; k < 4; ++k) {
-            parts.push_back(rendered(scene, job, 16, first + k).picture);
+            parts.push_back(picture_of(scene, 16, first + k));
         }
         merged.add(merge_pictures(4, [&](std::size_t k) { return parts[k]; }).picture, truth);
-        single.add(rendered(scene, job, 64, first + 4).picture, truth);
+        single.add(picture_of(scene, 64, first + 4), truth);
     }
     expect_alike(merged.relmse, single.relmse);
     expect_alike(merged.variance, single.variance);
-}
-
-TEST(MergedRendersSlow, AreAsGoodAsOneOfAsManySamples) {
-    // The truth has the noise of 64 renders.
-    const Scene scene = foggy_floor();
-    const Job job{"classical", 16};
-    expect_as_good(scene, job, 300, rendered(scene, job, 64 * 64, 1).picture.image);
-}
-
-TEST(MergedRendersSlow, AreAsGoodAsOneWhereAllBeginWithTheSameFields) {
-    // Large enough for all kinds of walks to be tried.
-    constexpr int side = 36;
-    const Scene scene = foggy_floor();
-    const Job teacher{"full", side, nullptr, true};
-    const Job job{"full", side, rendered(scene, teacher, 64, 100000).fields};
-    ASSERT_FALSE(job.fields->notes.empty());
-    expect_as_good(scene, job, 60, rendered(scene, job, 64 * 64, 1).picture.image);
 }
 
 }  // namespace
