@@ -253,8 +253,12 @@ class _Surface:
         self.add_to(parameters, "coat_roughness", "coatroughness", "float", _COAT_ROUGHNESS.get(self.kind, 0.0))
         parameters["float coateta"] = float(self.constant("coat_ior", ior if self.is_preview else _COAT_IOR.get(self.kind, 1.6)))
         specular = blender.specular(self.inputs) if self.is_preview else float(self.constant("specular", 1))
-        if specular != 1:
+        if specular != 1 and self.kind == "ND_standard_surface_surfaceshader":
             parameters["float specular"] = specular
+        elif specular != 1:
+            # Another index, which reflects so much more.
+            root = min(((ior - 1) / (ior + 1)) ** 2 * max(specular, 0.0), 0.99) ** 0.5
+            parameters["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
         if "rgb reflectance" in parameters:
             parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(self.constant("weight", 1))
         if not self.is_preview and "opacity" in self.words:
