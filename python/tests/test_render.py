@@ -47,7 +47,7 @@ def test_a_film_is_arrays(demo):
         film["nothing"]
     assert np.array_equal(np.asarray(film), film.image)
     assert film._repr_png_().startswith(b"\x89PNG")
-    assert film.statistics["spp"] == 3 and film.statistics["passes"] == [1, 1, 1]
+    assert film.statistics["spp"] == 3 and film.statistics["passes"] == [1, 2]
 
 
 def test_saving_and_reading(demo, tmp_path):

@@ -24,7 +24,7 @@ WalkTally walks(double count, double variance, double work) {
 GuidingChoice untried(std::size_t tiles) {
     GuidingChoice choice(parse_preset("full"), {}, false, tiles, many);
     const std::vector<WalkTallies> nothing(tiles);
-    choice.learn(nothing, few_samples, true);
+    choice.learn(nothing, 1, true);
     choice.learn(nothing, warm_up_samples, true);
     return choice;
 }
@@ -44,7 +44,7 @@ TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
         const std::vector<WalkTallies> shown(3, {walks(1000, 1, 1)});
         EXPECT_FALSE(choice.learn(shown, 15, true)) << name;
         EXPECT_EQ(choice.shares(2, 1), WalkShares{1});
-        EXPECT_EQ(choice.recorded_share(), 1);
+        EXPECT_EQ(choice.recorded_share(1), 1);
         EXPECT_EQ(choice.directed_share(1), choice.kinds()[0].preset.direction ? 1 : 0) << name;
     }
 }
@@ -75,18 +75,8 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     GuidingChoice choice(parse_preset("full"), {}, false, 2, many);
     const std::vector<WalkTallies> nothing(2);
     EXPECT_FALSE(choice.guides(8));
-    EXPECT_FALSE(choice.learn(nothing, 0, true));
     EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
-    // A few at first.
-    EXPECT_TRUE(choice.learn(nothing, few_samples, true));
-    EXPECT_TRUE(choice.guides(2));
-    EXPECT_FALSE(choice.guides(3)) << "a pass that asks nothing";
-    const WalkShares first = choice.shares(1, 4);
-    EXPECT_GT(first[classical], 0.8f);
-    EXPECT_GT(first[survival], 0);
-    EXPECT_EQ(first[directions], first[survival]);
-    EXPECT_FLOAT_EQ(std::accumulate(first.begin(), first.end(), 0.0f), 1);
-    EXPECT_NEAR(choice.directed_share(4), first[directions], 1e-6);
+    choice.learn(nothing, 1, true);
     EXPECT_FALSE(choice.learn(nothing, warm_up_samples - 1, true));
     EXPECT_TRUE(choice.learn(nothing, warm_up_samples, true));
     EXPECT_TRUE(choice.is_trial());
@@ -102,10 +92,30 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     EXPECT_TRUE(choice.is_trial());
 }
 
+TEST(GuidingChoice, AFewWalksOfOtherKindsComeBeforeTheTrial) {
+    const auto probed = [](double pixels, int samples) {
+        GuidingChoice choice(parse_preset("full"), {}, false, 1, pixels);
+        choice.learn(std::vector<WalkTallies>(1), 1, true);
+        const WalkShares shares = choice.shares(0, samples);
+        EXPECT_FLOAT_EQ(std::accumulate(shares.begin(), shares.end(), 0.0f), 1);
+        EXPECT_EQ(shares[directions], shares[survival]);
+        EXPECT_EQ(choice.guides(samples), shares[directions] > 0);
+        EXPECT_NEAR(choice.directed_share(samples), static_cast<double>(shares[directions]), 1e-6);
+        return shares[directions];
+    };
+    constexpr double small = 160 * 90, large = 1920 * 1080;
+    EXPECT_EQ(probed(many, 4), 0) << "too few to show anything";
+    EXPECT_EQ(probed(small, 2), 0) << "or too dear";
+    EXPECT_NEAR(probed(small, 4), 1.0 / 12, 1e-6);
+    // While all of the render may be a few samples, fewer.
+    EXPECT_NEAR(probed(large, 2), 1.0 / 48, 1e-6);
+    EXPECT_NEAR(probed(large, 4), 1.0 / 12, 1e-6);
+}
+
 TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlone) {
     const auto trial_after = [](double classical_variance) {
         GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
-        choice.learn(std::vector<WalkTallies>(1), few_samples, true);
+        choice.learn(std::vector<WalkTallies>(1), 1, true);
         choice.learn(std::vector<WalkTallies>{{walks(1000, classical_variance, 1), walks(100, 1, 1), walks(100, 2, 1)}},
                      warm_up_samples, true);
         EXPECT_TRUE(choice.is_trial());
@@ -213,7 +223,7 @@ TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
 
 TEST(GuidingChoice, RecordsTheMoreTheMoreGuidingBrings) {
     const auto share = [](double variance) {
-        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).recorded_share();
+        return tried(1, {{walks(1000, variance, 1), walks(1000, 1, 1), walks(1000, 1, 1)}}).recorded_share(8);
     };
     EXPECT_GT(share(0.1), 0);
     EXPECT_EQ(share(0.1), share(0.5));

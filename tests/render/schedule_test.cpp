@@ -1,5 +1,4 @@
 // How many samples each pass takes; of a timed render by a clock that tells what it is told.
-#include <wend/render/guiding_choice.h>
 #include <wend/render/schedule.h>
 
 #include <gtest/gtest.h>
@@ -29,24 +28,6 @@ TEST(Schedule, PassesDoubleUpToTheSamplesAskedFor) {
     RenderSettings settings;
     settings.samples = 100;
     EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2, 4, 8, 16, 32, 32, 5}));
-}
-
-TEST(Schedule, PassesOfAShortRenderAskNothing) {
-    RenderSettings settings;
-    settings.preset = parse_preset("full");
-    for (settings.samples = 1; settings.samples < 9; ++settings.samples) {
-        int done = 0;
-        for (const int pass : passes(settings, 1)) {
-            EXPECT_FALSE(GuidingChoice::asks(pass)) << settings.samples;
-            done += pass;
-        }
-        EXPECT_EQ(done, settings.samples);
-    }
-    EXPECT_TRUE(GuidingChoice::asks(passes(settings, 1)[1]));
-    settings.seconds = 6;
-    for (const int pass : passes(settings, 1)) {
-        EXPECT_FALSE(GuidingChoice::asks(pass));
-    }
 }
 
 TEST(Schedule, PassesOfAnEarlierRunAreRepeated) {

@@ -3,7 +3,6 @@
 
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
-#include <wend/render/learner.h>
 #include <wend/render/render.h>
 
 #include <gtest/gtest.h>
@@ -86,14 +85,14 @@ protected:
 TEST_F(SlowTaught, BeginsWhereTheOtherHadFoundGuidingToPay) {
     ASSERT_FALSE(fields_->notes.empty());
     Film film = new_film(), other = new_film();
-    EXPECT_GT(kinds_walked(render(scene_, film, settings_of(few_samples, 2, fields_))), 1);
-    EXPECT_EQ(kinds_walked(render(scene_, other, settings_of(few_samples, 2, without_notes()))), 1);
+    EXPECT_GT(kinds_walked(render(scene_, film, settings_of(7, 2, fields_))), 1);
+    EXPECT_EQ(kinds_walked(render(scene_, other, settings_of(7, 2, without_notes()))), 1);
 }
 
 TEST_F(SlowTaught, NotesOfAnotherSceneOrPictureSayNothing) {
     // Another size of the picture: lights and techniques are as they were learned, where guiding pays is not known.
     Film wide = new_film(side + 1);
-    EXPECT_EQ(kinds_walked(render(scene_, wide, settings_of(few_samples, 2, fields_))), 1);
+    EXPECT_EQ(kinds_walked(render(scene_, wide, settings_of(7, 2, fields_))), 1);
     // Another place of a lamp, which makes the scene larger.
     const Scene other = foggy_block(3);
     EXPECT_TRUE(rendered(other, settings_of(9, 2, fields_)) == rendered(other, settings_of(9, 2, without_notes())));

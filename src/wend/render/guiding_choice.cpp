@@ -11,8 +11,11 @@
 namespace wend {
 namespace {
 
-/// Of the first guided walks, the share of each kind: they cost little where they do not pay.
-constexpr float probe_share = 1.0f / 12;
+/// Of the first guided walks, the share of each kind: they cost little where they do not pay, least while all of the
+/// render may be a few samples. By fewer walks of a pass than this nothing is known.
+constexpr float early_probe_share = 1.0f / 48, probe_share = 1.0f / 12;
+constexpr double fewest_probes = 2000;
+constexpr int few_samples = 3;
 /// Where they seem so many times better, only those are tried that take directions from the fields, which get better.
 constexpr double plain = 2.5;
 /// What a tile's own walks are weighed against: so many walks of the picture's.
@@ -75,7 +78,8 @@ WalkTally WalkTally::scaled(double factor) const {
 }
 
 GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles,
-                             double pixels) {
+                             double pixels)
+    : pixels_(pixels) {
     const bool dense = guidable.dense_media;
     Preset everywhere = preset;
     everywhere.where_it_pays = everywhere.adaptive = false;
@@ -222,14 +226,9 @@ bool GuidingChoice::shows_directed(std::span<const WalkTallies> pass) const {
     return true;
 }
 
-void GuidingChoice::probe() {
-    state_ = State::probe;
-    for (WalkShares& shares : shares_) {
-        const WalkShares most = shares;
-        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            shares[kind] = most[kind] > 0 ? 1 - probe_share * static_cast<float>(kinds_.size() - 1) : probe_share;
-        }
-    }
+float GuidingChoice::probed_share(int samples) const {
+    const float share = samples <= few_samples ? early_probe_share : probe_share;
+    return static_cast<double>(share) * samples * pixels_ >= fewest_probes ? share : 0.0f;
 }
 
 void GuidingChoice::begin_trial(bool of_all) {
@@ -254,13 +253,13 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         return false;
     }
     remember(pass, learns);
-    if (state_ == State::classical && samples >= few_samples) {
-        probe();
+    if (state_ == State::classical) {
+        state_ = State::probe;
         return true;
     }
     const bool shows_directed = this->shows_directed(pass);
     const bool is_open = state_ == State::probe && samples < warm_up_samples;
-    if (state_ == State::classical || ((state_ == State::trial || is_open) && !shows_directed)) {
+    if ((state_ == State::trial || is_open) && !shows_directed) {
         return false;
     }
     const Products squares = squared_errors(), work = products(&WalkTally::work);
@@ -289,25 +288,42 @@ bool GuidingChoice::guides(int samples) const {
     if (kinds_.size() == 1) {
         return !kinds_[0].is_classical();
     }
-    const bool is_too_short =
-        (is_trial() && samples < static_cast<int>(kinds_.size())) || (state_ == State::probe && !asks(samples));
-    return !is_too_short && !(state_ == State::classical && shares_.front()[0] == 1);
+    switch (state_) {
+        case State::classical:
+            return shares_.front()[0] < 1;
+        case State::probe:
+            return shares_.front()[0] < 1 || probed_share(samples) > 0;
+        case State::trial:
+            return samples >= static_cast<int>(kinds_.size());
+        case State::chosen:
+            return true;
+    }
+    return true;
 }
 
 WalkShares GuidingChoice::shares(std::size_t tile, int samples) const {
-    return kinds_.size() > 1 && !guides(samples) ? all_of(0) : shares_[tile];
+    if (kinds_.size() > 1 && !guides(samples)) {
+        return all_of(0);
+    }
+    WalkShares shares = shares_[tile];
+    if (state_ == State::probe) {
+        const float probed = probed_share(samples), others = probed * static_cast<float>(kinds_.size() - 1);
+        for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+            shares[kind] = shares[kind] > 0 ? 1 - others : probed;
+        }
+    }
+    return shares;
 }
 
-double GuidingChoice::recorded_share() const {
+double GuidingChoice::recorded_share(int samples) const {
     if (kinds_.size() == 1) {
         return 1;
     }
-    constexpr double first = 0.1, before_trial = 0.2, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
+    constexpr double at_first = 1.0 / 16, before_trial = 0.3, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
     switch (state_) {
         case State::classical:
-            return first;
         case State::probe:
-            return before_trial;
+            return samples <= few_samples ? at_first : before_trial;
         case State::trial:
             return at_trial;
         case State::chosen:

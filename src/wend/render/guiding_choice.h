@@ -98,9 +98,6 @@ public:
     /// that changes anything. `learns`: whether the pass has taught the fields, so that guided walks will be others.
     bool learn(std::span<const WalkTallies> pass, int samples, bool learns);
 
-    /// Whether the first walks of other kinds than classical ones may be in a pass of so many samples of each pixel.
-    /// Which passes there are is all that a render depends on, so it is they that tell.
-    static bool asks(int samples) { return samples != 1 && samples != 3; }
     /// Whether any walk may be guided in a pass of so many samples of each pixel.
     bool guides(int samples) const;
     /// Whether it is known where guiding pays.
@@ -109,9 +106,9 @@ public:
     bool is_trial() const { return state_ == State::trial; }
     /// Whether guiding brings so much that to teach the fields further pays.
     bool guiding_pays() const { return gain_ > 2; }
-    /// Of the walks to come that take no directions from the fields, those that are worth recording: the more, the more
-    /// guiding has been found to bring.
-    double recorded_share() const;
+    /// Of the walks of a pass of so many samples that take no directions from the fields, those that are worth
+    /// recording: the more, the more guiding has been found to bring.
+    double recorded_share(int samples) const;
     /// Of the walks of a pass of so many samples, those that take directions from the fields.
     double directed_share(int samples) const;
 
@@ -142,8 +139,9 @@ private:
         double mean_of_tiles() const;
     };
     void remember(std::span<const WalkTallies> pass, bool learns);
-    /// From now on a few walks are of other kinds.
-    void probe();
+    /// Of the first walks of other kinds, the share of each in a pass of so many samples of each pixel; 0 where they
+    /// would be too few.
+    float probed_share(int samples) const;
     /// From now on there are as many walks of each kind, or of each that takes directions from the fields.
     void begin_trial(bool of_all);
     /// Whether each kind that takes directions from the fields has walks in a pass.
@@ -153,6 +151,7 @@ private:
     Products squared_errors() const;
     WalkShares chosen_for(std::size_t tile, const Products& squares, const Products& work, bool learns) const;
 
+    double pixels_;
     std::vector<WalkKind> kinds_;
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;

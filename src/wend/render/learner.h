@@ -15,10 +15,8 @@
 
 namespace wend {
 
-/// Before, neither the fields nor the pixels are known well enough to end or split walks by them, or to judge guides.
+/// Before, neither the fields nor the pixels are known well enough to judge guides by them.
 inline constexpr int warm_up_samples = 7;
-/// By these, smoothed, pixels are known well enough for a few guided walks to show what they bring.
-inline constexpr int few_samples = 1;
 
 /// Whether there is a medium where free flights can be guided.
 inline bool has_fog(const Scene& scene) {

@@ -50,7 +50,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     constexpr double fewest_recorded = 1024;
     const double walks = context.walks(plan);
     const double most_recorded = learners.get<FieldLearner>().recorded_share(walks);
-    const double wanted = std::max(choice.recorded_share(), fewest_recorded / walks);
+    const double wanted = std::max(choice.recorded_share(count), fewest_recorded / walks);
     const double directed = choice.directed_share(count);
     plan.recorded_share = std::min(most_recorded, wanted);
     plan.recorded_share_directed = std::min(most_recorded, 2 * wanted / std::max(directed, wanted));
@@ -72,7 +72,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
             plan.counts = sample_counts(noise, film.crop().width(), count, settings.seed);
         }
     }
-    if (preset.guides_survival() && (samples >= few_samples || taught) && settings.exposure > 0) {
+    if (preset.guides_survival() && (samples > 0 || taught) && settings.exposure > 0) {
         const Image shown = as_in_scene(film, settings.balance);
         plan.estimates =
             taught ? pixel_estimates(taught->with(shown, samples, settings.exposure), taught->samples + samples)

@@ -319,7 +319,7 @@ private:
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
         if (plan_.learns) {
-            recorded_samples_ += plan_.count * choice_.recorded_share();
+            recorded_samples_ += plan_.count * choice_.recorded_share(plan_.count);
         }
         const bool chooses_anew = choose(statistics_.samples);
         if ((statistics_.samples >= warm_up_samples || choice_.is_trial()) &&

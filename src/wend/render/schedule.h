@@ -8,8 +8,7 @@
 
 namespace wend {
 
-/// Plans the passes: doubling while the field learns, then as long as time or samples allow. A short render has none
-/// but such that ask nothing (GuidingChoice::asks).
+/// Plans the passes: doubling while the field learns, then as long as time or samples allow.
 class Schedule {
 public:
     explicit Schedule(const RenderSettings& settings) : settings_(settings) {}
@@ -23,8 +22,7 @@ public:
         constexpr int largest_pass = 32;
         const int wanted = std::min(largest_pass, 1 << std::min(pass, 5));
         if (settings_.seconds <= 0) {
-            const int left = settings_.samples - done;
-            return done > 0 && is_short(settings_.samples) ? without_asking(left) : std::min(wanted, left);
+            return std::min(wanted, settings_.samples - done);
         }
         if (done == 0) {
             return 1;
@@ -38,8 +36,7 @@ public:
         }
         const double fitting = left * done / elapsed;
         const double next = fitting < 2 * wanted && left > short_time ? std::ceil(fitting / 2) : fitting;
-        const int count = static_cast<int>(std::clamp(next, 1.0, static_cast<double>(wanted)));
-        return is_short(done + fitting) ? without_asking(count) : count;
+        return static_cast<int>(std::clamp(next, 1.0, static_cast<double>(wanted)));
     }
 
     /// Whether time ends the render.
@@ -65,11 +62,6 @@ public:
     }
 
 private:
-    /// Of fewer samples than this the price of asking whether guiding pays is not earned back.
-    static constexpr double shortest_asked = 9;
-    bool is_short(double samples) const { return settings_.preset.where_it_pays && samples < shortest_asked; }
-    static int without_asking(int most) { return most >= 3 ? 3 : std::min(most, 1); }
-
     /// Less time is not worth another pass.
     double tolerance() const { return std::min(0.25, 0.02 * settings_.seconds); }
 
