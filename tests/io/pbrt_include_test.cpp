@@ -3,6 +3,7 @@
 #include <wend/io/pbrt/token_stream.h>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -116,6 +117,13 @@ TEST_F(PbrtInclude, MissingFilesAreErrors) {
               path("main.pbrt") + ":2:3: error: cannot read \"" + path("none.pbrt") + "\": No such file or directory");
     EXPECT_THROW(parse_file(directory_ / "none.pbrt"), InputError);
     EXPECT_THROW(parse_file(directory_), InputError);
+}
+
+TEST_F(PbrtInclude, PipesAreRefused) {
+    // Reading one that nobody writes to would wait for ever.
+    ASSERT_EQ(mkfifo(path("pipe.pbrt").c_str(), 0600), 0);
+    EXPECT_EQ(error_of("WorldBegin\n  Include \"pipe.pbrt\""),
+              path("main.pbrt") + ":2:3: error: \"" + path("pipe.pbrt") + "\" is a pipe, which may never end");
 }
 
 TEST_F(PbrtInclude, CyclesAreErrorsNamingBothPlaces) {

@@ -25,7 +25,6 @@
 
 namespace wend {
 
-/// A shape with what it is made of.
 /// What a surface is to rays of the camera that nothing has scattered.
 enum class CameraView {
     shown,
@@ -33,6 +32,7 @@ enum class CameraView {
     held_out  ///< it hides what is behind it, and there is a hole in the picture
 };
 
+/// A shape with what it is made of.
 struct Surface {
     SharedShape shape;
     int material = 0;

@@ -28,8 +28,7 @@ struct SeenObjects {
 /// The ray's first surface, media left out: its distance, and the albedo and normal of what is seen there, through
 /// smooth mirrors and glass where it is of these. How much of its light media take away or scatter on the straight way
 /// there is told apart. What any surface covers, glass too, is opaque: alpha tells where nothing but sky is behind.
-/// What is held out is
-/// as if it were sky. `objects` takes which these are, and may be null.
+/// What is held out is as if it were sky. `objects` takes which these are, and may be null.
 FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& random, SeenObjects* objects = nullptr);
 
 }  // namespace wend

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 
@@ -133,6 +134,12 @@ TEST(MitsubaDocument, AFileNeedsAVersionAndToBeAScene) {
     EXPECT_PRED2(contains, files.error_of_text("<bsdf version=\"3.0.0\" type=\"diffuse\"/>"), "expected <scene>");
     EXPECT_PRED2(contains, files.error_of_text(""), "this is no XML");
     EXPECT_PRED2(contains, files.error_of_text("<scene version=\"3.0.0\"/>"), "the scene has no <sensor>");
+}
+
+TEST(MitsubaDocument, PipesAreRefused) {
+    const MitsubaFiles files;
+    ASSERT_EQ(mkfifo(files.path("pipe.xml").c_str(), 0600), 0);
+    EXPECT_PRED2(contains, files.error_of("<include filename=\"pipe.xml\"/>"), "is a pipe, which may never end");
 }
 
 TEST(MitsubaDocument, CirclesEnd) {

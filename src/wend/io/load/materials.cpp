@@ -8,7 +8,6 @@
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/albedo_inversion.h>
-#include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/rough_coat.h>
 
 #include <fmt/format.h>
@@ -407,22 +406,6 @@ private:
     std::map<std::filesystem::path, std::shared_ptr<const MeasuredTables>> measured_;
 };
 
-/// The share of light, even from above, that is scattered.
-Rgb hemispherical_albedo(const Bsdf& bsdf) {
-    constexpr int samples = 4096;
-    Pcg32 random(1);
-    Rgb sum(0.0f);
-    for (int i = 0; i < samples; ++i) {
-        const Vec3 wo = to_cosine_hemisphere(random.uniform2());
-        const float u = random.uniform();
-        const Vec2 u2 = random.uniform2();
-        if (const auto s = std::visit([&](const auto& b) { return b.sample(wo, u, u2); }, bsdf)) {
-            sum += s->value / s->density;
-        }
-    }
-    return sum / samples;
-}
-
 }  // namespace
 
 std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& textures,
@@ -435,19 +418,6 @@ std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& 
     }
     check_mixtures(context, textures, loaded, materials);
     return loaded;
-}
-
-void force_diffuse(std::vector<LoadedMaterial>& materials, Textures& textures) {
-    for (LoadedMaterial& loaded : materials) {
-        loaded.inside.reset();
-        loaded.detail = {};
-        const Material& material = loaded.material;
-        if (!std::holds_alternative<InterfaceMaterial>(material) && !std::holds_alternative<MixMaterial>(material) &&
-            !std::holds_alternative<DiffuseMaterial>(material)) {
-            loaded.material = DiffuseMaterial{
-                textures.add_constant(hemispherical_albedo(make_bsdf(material, textures, {{0.5f, 0.5f}, {0, 0, 0}})))};
-        }
-    }
 }
 
 }  // namespace wend

@@ -24,8 +24,4 @@ struct LoadedMaterial {
 std::vector<LoadedMaterial> load_materials(LoadContext& context, TextureLoader& textures,
                                            const std::vector<pbrt::MaterialEntity>& materials);
 
-/// pbrt's option "forcediffuse": all that scatters reflects diffusely, as much as it does of light from above. Of what
-/// is no diffuse material the textures are taken at one point.
-void force_diffuse(std::vector<LoadedMaterial>& materials, Textures& textures);
-
 }  // namespace wend

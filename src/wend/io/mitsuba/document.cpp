@@ -64,6 +64,9 @@ private:
                 throw InputError(place, fmt::format("\"{}\" includes itself", file.string()));
             }
         }
+        if (!open_.empty() && std::filesystem::is_fifo(file, ignored)) {
+            throw InputError(place, fmt::format("\"{}\" is a pipe, which may never end", file.string()));
+        }
         const std::string text = pbrt::read_text_file(file, place);
         document_.files.push_back(file);
         const auto source = std::make_shared<pbrt::SourceFile>(pbrt::SourceFile{file.string(), file.parent_path()});

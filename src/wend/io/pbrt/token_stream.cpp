@@ -70,6 +70,9 @@ void TokenStream::enter(const std::string& file_name, const Location& place, Ent
     std::error_code ignored;
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, ignored);
     refuse_cycle(canonical, place);
+    if (std::filesystem::is_fifo(path, ignored)) {
+        throw InputError(place, fmt::format("\"{}\" is a pipe, which may never end", path.string()));
+    }
     if (sources_.size() >= deepest_nesting) {
         throw InputError(place, fmt::format("files are included more than {} deep", deepest_nesting));
     }

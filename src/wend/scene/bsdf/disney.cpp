@@ -53,7 +53,10 @@ std::optional<DisneyBsdf::Meeting> DisneyBsdf::meet(const Vec3& wo, const Vec3& 
     at.m = at.m.z < 0 ? -at.m : at.m;
     at.with_o = dot(wo, at.m);
     at.with_i = dot(wi, at.m);
-    at.fresnel = fresnel_dielectric(at.with_o, ior);
+    // Of two that bend into each other, by the one in the thinner medium: the other is near the critical angle where
+    // this one grazes, and would say little of it. So both ways have the same.
+    const bool is_front_thin = ior > 1;
+    at.fresnel = fresnel_dielectric(at.reflects || (wo.z > 0) == is_front_thin ? at.with_o : at.with_i, ior);
     const bool is_seen = at.with_o * wo.z > 0 && at.with_i * wi.z > 0;
     return is_seen ? std::optional(at) : std::nullopt;
 }
