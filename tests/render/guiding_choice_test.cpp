@@ -15,9 +15,20 @@ namespace {
 constexpr std::size_t classical = 0, survival = 1, directions = 2;
 constexpr double many = GuidingChoice::fewest_pixels;
 
-/// Walks that each brought the pixel's value but for an error of this variance.
-WalkTally walks(double count, double variance, double work) {
-    return {count, count, count * variance, count * variance, count * work};
+/// Walks that each brought the pixel's value but for an error of this variance; and, gone the same ways unguided, of
+/// another, where that is known.
+WalkTally walks(double count, double variance, double work, double unguided = 0) {
+    return {count, count, count * variance, count * variance, count * work, count * unguided};
+}
+
+/// Tallies of tiles where all kinds see classical walks as those see themselves.
+std::vector<WalkTallies> agreeing(std::vector<WalkTallies> tiles) {
+    for (WalkTallies& tile : tiles) {
+        for (WalkTally& kind : tile) {
+            kind.unguided = tile[classical].walks > 0 ? kind.walks * tile[classical].square / tile[classical].walks : 0;
+        }
+    }
+    return tiles;
 }
 
 /// Of a scene without fog, taught by classical walks, with every kind about to be tried.
@@ -32,7 +43,7 @@ GuidingChoice untried(std::size_t tiles) {
 /// The same, with every kind tried.
 GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
     GuidingChoice choice = untried(tiles);
-    choice.learn(shown, 15, false);
+    choice.learn(agreeing(shown), 15, false);
     return choice;
 }
 
@@ -116,7 +127,7 @@ TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlon
     const auto trial_after = [](double classical_variance) {
         GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
         choice.learn(std::vector<WalkTallies>(1), 1, true);
-        choice.learn(std::vector<WalkTallies>{{walks(1000, classical_variance, 1), walks(100, 1, 1), walks(100, 2, 1)}},
+        choice.learn(agreeing({{walks(1000, classical_variance, 1), walks(100, 1, 1), walks(100, 2, 1)}}),
                      warm_up_samples, true);
         EXPECT_TRUE(choice.is_trial());
         return choice.shares(0, 8);
@@ -141,6 +152,33 @@ TEST(GuidingChoice, TakesTheLeastSquaredErrorTimesWork) {
     EXPECT_EQ(unguided.shares(0, 8)[directions], 0);
 }
 
+TEST(GuidingChoice, ClassicalWalksThatHaveMissedWhatGuidedOnesMeetAreNotTakenToBeGood) {
+    // Bright walks are so rare without guiding that none was there. Guided ones know how rare.
+    const std::vector<WalkTallies> shown = {{walks(1000, 1, 1), walks(1000, 2, 1, 30), walks(1000, 3, 5, 50)}};
+    GuidingChoice choice = untried(1);
+    choice.learn(shown, 15, false);
+    EXPECT_EQ(choice.shares(0, 8)[classical], 0);
+    EXPECT_GT(choice.shares(0, 8)[survival], 0.9f) << "each kind is judged by its own walks";
+    // What guided walks show of a tile counts there more than what they show elsewhere.
+    const WalkTallies easy = {walks(1e5, 1, 1), walks(1e5, 1, 1, 1), walks(1e5, 2, 5, 1)};
+    const WalkTallies hard = {walks(1e5, 1, 1), walks(1e5, 1, 1, 1), walks(1e5, 2, 5, 100)};
+    GuidingChoice two = untried(2);
+    two.learn(std::vector<WalkTallies>{easy, hard}, 15, false);
+    EXPECT_LT(two.shares(0, 8)[directions], 0.1f);
+    EXPECT_GT(two.shares(1, 8)[directions], 0.9f);
+}
+
+TEST(GuidingChoice, WalksInDenseMediaThatAreUnguidedAreNoBetterThanGuidedOnes) {
+    GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many);
+    choice.learn(std::vector<WalkTallies>(1), 1, true);
+    choice.learn(std::vector<WalkTallies>(1), warm_up_samples, true);
+    // Classical walks have missed what comes with one walk in many.
+    choice.learn(std::vector<WalkTallies>{{walks(1000, 1, 1, 1), walks(1000, 40, 2, 40), walks(1000, 30, 2, 40),
+                                           walks(1000, 1, 4, 40)}},
+                 15, false);
+    EXPECT_GT(choice.shares(0, 8)[3], 0.9f);
+}
+
 TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {
     const GuidingChoice choice = tried(1, {{walks(1000, 3, 2), walks(1000, 1, 5), walks(1000, 1, 6)}});
     const WalkShares shares = choice.shares(0, 32);
@@ -153,21 +191,21 @@ TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {
 TEST(GuidingChoice, TriesWhatFollowsTheFieldsWhileTheyLearn) {
     GuidingChoice choice = untried(1);
     // One bright walk by a field that knows little.
-    const std::vector<WalkTallies> shown = {{walks(1000, 1, 2), walks(1000, 1, 20), walks(1000, 1e6, 4)}};
+    const std::vector<WalkTallies> shown = agreeing({{walks(1000, 1, 2), walks(1000, 1, 20), walks(1000, 1e6, 4)}});
     choice.learn(shown, 15, true);
     EXPECT_FLOAT_EQ(choice.shares(0, 8)[directions], 1.0f / 8);
     EXPECT_LE(choice.shares(0, 8)[survival], 1.0f / 64) << "takes no directions";
     EXPECT_NEAR(choice.directed_share(8), 1.0 / 8, 1e-6);
     // A better field is soon believed.
     for (int pass = 0; pass < 8; ++pass) {
-        choice.learn(std::vector<WalkTallies>{{walks(5000, 1, 2), walks(500, 1, 20), walks(500, 0.1, 4)}}, 31, true);
+        choice.learn(agreeing({{walks(5000, 1, 2), walks(500, 1, 20), walks(500, 0.1, 4)}}), 31, true);
     }
     EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
 }
 
 TEST(GuidingChoice, DirectionsThatAreBeingLearnedAreTakenToGetBetter) {
     // Twice as dear as classical walks so far.
-    const std::vector<WalkTallies> shown = {{walks(1000, 1, 1), walks(1000, 9, 1), walks(1000, 1, 2)}};
+    const std::vector<WalkTallies> shown = agreeing({{walks(1000, 1, 1), walks(1000, 9, 1), walks(1000, 1, 2)}});
     GuidingChoice learning = untried(1), taught = untried(1);
     learning.learn(shown, 15, true);
     taught.learn(shown, 15, false);
@@ -181,7 +219,7 @@ TEST(GuidingChoice, TheBestGuidedKindIsWatched) {
     EXPECT_EQ(choice.shares(0, 8), (WalkShares{1 - 1.0f / 64, 0, 1.0f / 64}));
     // By and by it shows what it is worth.
     for (int pass = 0; pass < 5; ++pass) {
-        choice.learn(std::vector<WalkTallies>{{walks(10000, 1, 1), {}, walks(10000, 0.1, 2)}}, 31, false);
+        choice.learn(agreeing({{walks(10000, 1, 1), {}, walks(10000, 0.1, 2)}}), 31, false);
     }
     EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
 }
@@ -276,7 +314,8 @@ TEST(PixelWalks, KindsAreComparedInTheSamePixels) {
         for (const auto& [count, spread] : {std::pair(hard_walks, 8.0f), std::pair(easy_walks, 1.0f)}) {
             PixelWalks pixel(1, mean / count);
             for (int i = 0; i < count; ++i) {
-                pixel.add(10 + (i % 2 == 0 ? spread : -spread), spread);
+                const float x = 10 + (i % 2 == 0 ? spread : -spread);
+                pixel.add(x, spread, static_cast<double>(x * x));
             }
             tally += pixel.tally();
         }
@@ -285,21 +324,25 @@ TEST(PixelWalks, KindsAreComparedInTheSamePixels) {
     const WalkTally even = shown(4000, 4000), uneven = shown(6400, 1600);
     EXPECT_DOUBLE_EQ(uneven.walks, even.walks);
     EXPECT_NEAR(uneven.square / even.square, 1, 1e-3);
+    EXPECT_NEAR(even.unguided / even.square, 1, 1e-9) << "of unguided walks";
+    EXPECT_NEAR(uneven.unguided / uneven.square, 1, 1e-9);
     EXPECT_NEAR(uneven.value / even.value, 1, 1e-9);
     EXPECT_NEAR(uneven.work / even.work, 1, 1e-9);
 }
 
 TEST(PixelWalks, ShowTheVarianceByTheirScale) {
     PixelWalks walks(0.5);
-    walks.add(3, 5);
+    walks.add(3, 5, 20);
     EXPECT_EQ(walks.tally().walks, 0) << "one alone has none";
-    walks.add(1, 6);
+    walks.add(1, 6, 4);
     const WalkTally tally = walks.tally();
     EXPECT_EQ(tally.walks, 2);
     EXPECT_EQ(tally.value, 4);
     EXPECT_EQ(tally.spread, 2 * 2);
     EXPECT_EQ(tally.square, 2 * 0.5);
     EXPECT_EQ(tally.work, 11);
+    // The mean of squares less the square of the mean, of which 3 · 1 is an estimate.
+    EXPECT_EQ(tally.unguided, 2 * 0.25 * (12 - 3));
     EXPECT_EQ(tally.scaled(0.5).walks, 1);
     EXPECT_EQ(tally.scaled(0.5).square, 0.5);
 }

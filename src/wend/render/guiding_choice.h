@@ -18,6 +18,9 @@ struct WalkTally {
     double spread = 0;  ///< sum over the walks of the variance of what one brings
     double square = 0;  ///< the same, as PixelWalks weighs it
     double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
+    /// What `square` would be, had they gone the same ways unguided but inside dense media
+    /// (WalkResult::unguided_square).
+    double unguided = 0;
 
     WalkTally& operator+=(const WalkTally& o);
     /// As if there had been fewer walks.
@@ -32,20 +35,21 @@ public:
     /// kinds that have walks in different passes are to be compared in the same pixels.
     explicit PixelWalks(double scale = 1, double weight = 1) : scale_(scale), weight_(weight) {}
 
-    /// A walk that brought so much, by so much counted work.
-    void add(float brought, double work) {
+    /// A walk that brought so much, by so much counted work; see WalkResult::unguided_square.
+    void add(float brought, double work, double unguided_square) {
         const double x = static_cast<double>(brought);
         ++count_;
         sum_ += x;
         squares_ += x * x;
         work_ += work;
+        unguided_ += unguided_square;
     }
     /// Empty where one walk alone shows no variance.
     WalkTally tally() const;
 
 private:
     double scale_, weight_;
-    double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0;
+    double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0, unguided_ = 0;
 };
 
 /// Walks that are guided in the same way.
@@ -146,10 +150,20 @@ private:
     void begin_trial(bool of_all);
     /// Whether each kind that takes directions from the fields has walks in a pass.
     bool shows_directed(std::span<const WalkTallies> pass) const;
+    static Products products_of(const std::vector<WalkTallies>& tallies, std::size_t kinds, double WalkTally::*what);
     Products products(double WalkTally::*what) const;
+    /// The kind that guides the same dense media, and nothing else.
+    std::size_t base_of(std::size_t kind) const { return kind > 0 && kinds_[1].guides_dense_media ? 1 : 0; }
+    /// Of unguided walks, as those of every kind show it that has the same base.
+    Products unguided_squares() const;
+    /// Squared errors of each kind, over those of its base, as its own walks show both.
+    std::array<double, most_walk_kinds> ratios() const;
     /// Of squared errors, with those of light that a kind has not found yet.
-    Products squared_errors() const;
-    WalkShares chosen_for(std::size_t tile, const Products& squares, const Products& work, bool learns) const;
+    Products squared_errors(const Products& unguided) const;
+    /// Of walks of a kind that is its own base, in a tile.
+    double unguided_square(std::size_t tile, std::size_t base, const Products& unguided) const;
+    WalkShares chosen_for(std::size_t tile, const Products& unguided, const Products& squares, const Products& work,
+                          bool learns) const;
 
     double pixels_;
     std::vector<WalkKind> kinds_;

@@ -190,7 +190,8 @@ private:
         }
         tile.of_pixel.add(
             place.weight * mean_value(result.sample.radiance),
-            cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments);
+            cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments,
+            sqr(static_cast<double>(place.weight * ray.weight)) * result.unguided_square);
         result.sample.guided = is_guided_;
         result.sample.radiance = settings_.balance * (result.sample.radiance * (place.weight * settings_.exposure));
         result.sample.is_of_half_a = is_of_half_a(number, index);

@@ -24,6 +24,8 @@ public:
     PathState now;
 
     const Rgb& radiance() const { return radiance_; }
+    /// WalkResult::unguided_square.
+    double unguided_square() const { return unguided_square_; }
 
     void start() {
         recorder_.start();
@@ -64,6 +66,7 @@ public:
     /// Light with its weight.
     void bring(const Rgb& light, const walk_events::LightFound& found) {
         radiance_ += light;
+        count_unguided(mean_value(light));
         record(walk_events::Contributed{mean_value(light), now.technique, found});
     }
 
@@ -98,10 +101,23 @@ public:
 private:
     static constexpr int max_pending = 64;
 
+    /// An unguided path has no branches. Had it gone as this one has, it would have brought unguided_ratio() times as much,
+    /// and that would have been less often by as much. So the square of what it brings, which is the sum of what each
+    /// light on the way adds to it, is a mean over the branches of guided ones.
+    void count_unguided(float brought) {
+        if (brought == 0) {
+            return;
+        }
+        const float unguided = brought * now.weight.unguided_ratio();
+        unguided_square_ += static_cast<double>(brought) * (2 * now.weight.unguided + unguided);
+        now.weight.unguided += unguided;
+    }
+
     Recorders recorder_;
     LightParts* parts_;
     std::vector<Branch> pending_;
     Rgb radiance_;
+    double unguided_square_ = 0;
 };
 
 }  // namespace wend

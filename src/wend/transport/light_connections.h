@@ -109,7 +109,7 @@ public:
         if (!hit || scene_.is_interface(*hit)) {
             return;
         }
-        const auto here = path_.branch();
+        auto here = path_.branch();
         const Rgb phase = f.evaluate(*w);
         path_.record(walk_events::Turning{path_.now.technique});
         technique.turn(directions, *w);
@@ -138,6 +138,7 @@ public:
                 brought += arriving * found.contribution();
             }
         }
+        here.state.weight.unguided = path_.now.weight.unguided;
         path_.go_on_from(here);
         path_.record(walk_events::ConnectedAhead{*w, phase, brought});
     }

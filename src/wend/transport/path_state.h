@@ -19,7 +19,12 @@ struct PathWeight {
     float density_ratio = 1;  ///< see WalkState
     float index_scale = 1;    ///< see WalkState
     float copies = 1;         ///< of the walk, as a mean: the product of all splits on the way here
+    /// Probability of not having been ended by roulette, over what it would have been unguided.
+    float survival_ratio = 1;
+    float unguided = 0;  ///< what the path would have brought so far, had it gone this way unguided
 
+    /// Density of having come here, over what it would have been unguided.
+    float unguided_ratio() const { return density_ratio * survival_ratio; }
     /// ExpectedContribution::weight.
     float value() const { return mean_value(throughput) * index_scale; }
 };

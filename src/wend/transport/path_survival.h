@@ -49,6 +49,20 @@ public:
         return mean_value(path_.now.weight.throughput * f.albedo() * *in_scattered) / expected_;
     }
 
+    /// Counts the probability of surviving that an unguided path would have, once the direction is drawn.
+    void count_unguided(const Vertex& v) {
+        if (technique_judges()) {
+            return;
+        }
+        PathWeight& weight = path_.now.weight;
+        const float survival =
+            unguided_walks_end.after_direction({weight.throughput * weight.unguided_ratio(), 1, weight.index_scale,
+                                                path_.now.counts.vertices, false, v.in_volume()});
+        if (survival > 0) {
+            weight.survival_ratio /= survival;
+        }
+    }
+
     /// Roulette after the direction is drawn.
     template <class F>
     bool survives(const F& f, const Vertex& v) {
@@ -58,11 +72,17 @@ public:
                 return false;
             }
             path_.weigh(Rgb(1 / survival));
+            path_.now.weight.survival_ratio *= technique_judges() ? 1.0f : survival;
         }
         return true;
     }
 
 private:
+    /// Whether walks end by the technique at hand, guided or not.
+    bool technique_judges() const {
+        return path_.ask_technique([](auto& technique) { return requires { technique.survival(0.0f); }; });
+    }
+
     float probability(bool in_volume, bool is_judged_elsewhere) {
         const PathWeight& weight = path_.now.weight;
         return path_.ask_technique([&](auto& technique) {

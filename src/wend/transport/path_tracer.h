@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -91,6 +92,8 @@ public:
         } while (!is_stopped() && path_.take_up_pending());
         path_.finish();
         result_.sample.radiance = path_.radiance();
+        // A guided path may have gone where no other would.
+        result_.unguided_square = std::isfinite(path_.unguided_square()) ? path_.unguided_square() : 0;
         return result_;
     }
 
@@ -277,6 +280,7 @@ private:
                 technique.turn(directions, s->direction);
             }
         });
+        survival_.count_unguided(v);
         if (!judged && !survival_.survives(f, v)) {
             return false;
         }

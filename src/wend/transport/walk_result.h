@@ -25,6 +25,9 @@ struct WalkCounts {
 struct WalkResult {
     FilmSample sample;
     std::uint32_t interior_segments = 0;  ///< of the segments, those of guided interior walks
+    /// An estimate of the mean square of what walks bring, as a mean over the channels, were all decisions but those of
+    /// interior walks classical: that of this walk, if they are.
+    double unguided_square = 0;
 };
 
 }  // namespace wend
