@@ -1,6 +1,7 @@
 #include "load_support.h"
 
 #include <wend/io/load/message_length.h>
+#include <wend/io/load/parse_scene.h>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +12,9 @@ constexpr std::size_t longest = 1600;
 
 std::string message_of(const std::string& world) {
     try {
-        test::load_text(world);
+        load_scene(parse_scene("WorldBegin\n" + world, std::filesystem::temp_directory_path(), "test.pbrt"));
     } catch (const InputError& error) {
-        EXPECT_EQ(error.place().line, 3);
+        EXPECT_EQ(error.place().line, 2);
         return error.what();
     }
     return "";
@@ -61,7 +62,7 @@ TEST(MessageLength, NamesOfAnyLengthGetReadableErrors) {
           "LightSource \"infinite\" \"spectrum L\" \"" + name + "\"", "ColorSpace \"" + name + "\"",
           "Shape \"plymesh\" \"string filename\" \"" + name + "\""}) {
         const std::string message = message_of(world);
-        EXPECT_TRUE(message.starts_with("test.pbrt:3:")) << world.substr(0, 60);
+        EXPECT_TRUE(message.starts_with("test.pbrt:2:")) << world.substr(0, 60);
         EXPECT_LT(message.size(), longest) << world.substr(0, 60);
     }
 }
