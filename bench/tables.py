@@ -279,9 +279,9 @@ def phases(results):
     for row in results["rows"]:
         cells = [f"{told(gains['gain'][0], gains['error'][0])} ({told(gains['gain'][1], gains['error'][1])})"
                  for gains in (row["own"], row["hg"])]
-        share = digits(row["own"]["gain"][1] / row["hg"]["gain"][1])
-        rows.append([row["function"], f"{row['mean_cosine']:.2f}", *cells, share])
-    head = ["phase function", "mean cosine", "gain", "of Henyey and Greenstein's", "one over the other, trimmed"]
+        shares = [row["own"]["gain"][i] / row["hg"]["gain"][i] for i in range(2)]
+        rows.append([row["function"], f"{row['mean_cosine']:.2f}", *cells, both(*shares)])
+    head = ["phase function", "mean cosine", "gain", "of Henyey and Greenstein's", "one over the other"]
     samples = (f"{results['samples']} samples, means over {results['classical_seeds']} seeds of `classical` and "
                f"{results['seeds']} of the default")
     return table(head, rows) + f"\n*Commit `{results['commit']}`, {results['resolution']}, {samples}.*\n"
