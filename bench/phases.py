@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """Whether every phase function is guided as well as Henyey and Greenstein's.
 
-usage: bench/phases.py [--wend BIN] [--samples N] [--seeds N] [--reference-samples N] [--resolution WxH] [--commit REV]
+usage: bench/phases.py [--wend BIN] [--samples N] [--seeds N] [--classical-seeds N] [--reference-samples N]
+                       [--resolution WxH] [--commit REV]
 
 Renders scenes/fog-door.pbrt with each phase function in its fog, and with Henyey and Greenstein's of the same mean
 cosine: relMSE times processor time of classical sampling over that of the default, on one thread, with as many samples.
-Each scene's reference is rendered first, as two halves. Rows go to bench/results/phases.json, the table to the
-terminal.
+Means over seeds; those of classical sampling vary more and cost less, so that there are more of them. Each scene's
+reference is rendered first, as two halves. Rows go to bench/results/phases.json, the table into docs/pbrt.md by
+bench/tables.py.
 """
 
 import argparse
 import json
+import math
 import statistics
 import subprocess
 import tempfile
@@ -63,31 +66,31 @@ class Bench:
         return seconds * row["relmse"], seconds * row["relmse_trimmed"]
 
     def gain(self, name, parameters):
-        """Classical over default: medians over seeds of both costs."""
+        """Of classical over default, plain and without the worst pixels, and the relative standard errors of both."""
         scene, reference = write_scene(self.folder, name, parameters), self.folder / name
         for half, seed in (("a", 9001), ("b", 9002)):
             self.render(scene, DEFAULT, self.options.reference_samples, seed, f"{reference}.ref-{half}.exr", "--half")
-        seeds = range(1, self.options.seeds + 1)
-        costs = {preset: [self.cost(scene, reference, preset, seed) for seed in seeds]
-                 for preset in (CLASSICAL, DEFAULT)}
-        return [statistics.median(c[i] for c in costs[CLASSICAL]) / statistics.median(c[i] for c in costs[DEFAULT])
-                for i in range(2)]
+        seeds = {CLASSICAL: self.options.classical_seeds, DEFAULT: self.options.seeds}
+        costs = {preset: [self.cost(scene, reference, preset, seed) for seed in range(1, count + 1)]
+                 for preset, count in seeds.items()}
+        means = {preset: [mean_and_error([c[i] for c in costs[preset]]) for i in range(2)] for preset in costs}
+        pairs = list(zip(means[CLASSICAL], means[DEFAULT]))
+        return {"gain": [a / b for (a, _), (b, _) in pairs], "error": [math.hypot(a, b) for (_, a), (_, b) in pairs]}
 
 
-def table(rows):
-    yield "| phase function | mean cosine | gain | of Henyey and Greenstein's |"
-    yield "|---|---|---|---|"
-    for row in rows:
-        own, other = ("%.3g (%.3g)" % tuple(row[key]) for key in ("gain", "gain_of_hg"))
-        yield f"| {row['function']} | {row['mean_cosine']:.2f} | {own} | {other} |"
+def mean_and_error(values):
+    """The mean, and its standard error over it."""
+    mean = statistics.mean(values)
+    return mean, statistics.stdev(values) / math.sqrt(len(values)) / mean
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--wend", type=Path, default=ROOT / "build/release/bin/wend")
     parser.add_argument("--samples", type=int, default=64)
-    parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument("--reference-samples", type=int, default=512)
+    parser.add_argument("--seeds", type=int, default=6, help="two or more")
+    parser.add_argument("--classical-seeds", type=int, default=16, help="two or more")
+    parser.add_argument("--reference-samples", type=int, default=256)
     parser.add_argument("--resolution", default="80x45")
     parser.add_argument("--commit")
     options = parser.parse_args()
@@ -99,15 +102,13 @@ def main():
         for i, (function, (parameters, mean_cosine)) in enumerate(FUNCTIONS.items()):
             if mean_cosine not in of_hg:
                 of_hg[mean_cosine] = bench.gain(f"hg{i}", f'"float g" {mean_cosine}')
-            gain = of_hg[mean_cosine] if function == "isotropic" else bench.gain(f"function{i}", parameters)
-            rows.append({"function": function, "mean_cosine": mean_cosine, "gain": gain,
-                         "gain_of_hg": of_hg[mean_cosine]})
+            own = of_hg[mean_cosine] if function == "isotropic" else bench.gain(f"function{i}", parameters)
+            rows.append({"function": function, "mean_cosine": mean_cosine, "own": own, "hg": of_hg[mean_cosine]})
             print(rows[-1], flush=True)
-    settings = {"resolution": options.resolution, "samples": options.samples, "seeds": options.seeds,
-                "reference_samples": options.reference_samples}
+    settings = {key: getattr(options, key)
+                for key in ("resolution", "samples", "seeds", "classical_seeds", "reference_samples")}
     (ROOT / "bench/results/phases.json").write_text(
         json.dumps({"commit": commit, **settings, "rows": rows}, indent=1) + "\n")
-    print("\n".join(table(rows)))
 
 
 if __name__ == "__main__":

@@ -272,6 +272,21 @@ def example(results):
     return table(head, rows) + note(results)
 
 
+def phases(results):
+    """What guiding brings with each phase function, beside Henyey and Greenstein's of the same mean cosine."""
+    told = lambda value, error: f"{value:.2g} ± {100 * error:.0f} %"
+    rows = []
+    for row in results["rows"]:
+        cells = [f"{told(gains['gain'][0], gains['error'][0])} ({told(gains['gain'][1], gains['error'][1])})"
+                 for gains in (row["own"], row["hg"])]
+        shares = [row["own"]["gain"][i] / row["hg"]["gain"][i] for i in range(2)]
+        rows.append([row["function"], f"{row['mean_cosine']:.2f}", *cells, both(*shares)])
+    head = ["phase function", "mean cosine", "gain", "of Henyey and Greenstein's", "one over the other"]
+    samples = (f"{results['samples']} samples, means over {results['classical_seeds']} seeds of `classical` and "
+               f"{results['seeds']} of the default")
+    return table(head, rows) + f"\n*Commit `{results['commit']}`, {results['resolution']}, {samples}.*\n"
+
+
 # Name: what makes it, of which files of bench/results.
 TABLES = {
     "scenes-equal-time": (scenes_equal_time, "scenes"),
@@ -280,6 +295,7 @@ TABLES = {
     "demo": (demo, "demo"),
     "peers": (peers, "peers"),
     "peers-all": (peers_all, "peers"),
+    "phases": (phases, "phases"),
     "shields": (shields, "shields"),
     "planar": (planar, "planar"),
     "example-subsurface": (example, "example"),

@@ -1,7 +1,10 @@
+#include <wend/io/image_size.h>
 #include <wend/io/png_check.h>
 
+#include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -51,6 +54,19 @@ std::uint64_t unpacked_size(std::string_view header) {
     return height * (width * bits / 8 + 2) * (header[12] == 0 ? 1 : 2) + 16;
 }
 
+/// stb says of what it does not take that it is no picture of a known kind.
+void check_header(std::string_view header, std::size_t file_bytes, const Place& place) {
+    check_image_size(big_endian(header), big_endian(header.substr(4)), file_bytes, place);
+    const auto depth = static_cast<unsigned char>(header[8]), kind = static_cast<unsigned char>(header[9]);
+    constexpr std::array<int, 5> depths{1, 2, 4, 8, 16}, kinds{0, 2, 3, 4, 6};
+    if (std::find(depths.begin(), depths.end(), depth) == depths.end() ||
+        std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+        throw InputError(
+            place,
+            fmt::format("the picture is damaged: PNG has no samples of {} bits in pixels of kind {}", depth, kind));
+    }
+}
+
 /// Unpacks what chunks hold together, and keeps none of it.
 class Unpacking {
 public:
@@ -98,6 +114,7 @@ void prepare_png(std::string& file, const Place& place) {
             break;
         }
         if (chunk->type == "IHDR" && chunk->data.size() == 13) {
+            check_header(chunk->data, file.size(), place);
             most = unpacked_size(chunk->data);
         } else if (chunk->type == "IDAT" && chunk->data.empty()) {
             empty.push_back(chunk->begin);

@@ -185,16 +185,17 @@ float TabulatedPhase::convolved(const Vec3& before, const Vec3& mean) const {
 }
 
 AxialLobes TabulatedPhase::lobes() const {
-    // Concentrations are fixed, a factor of 2 apart in both directions; shares follow.
+    // Concentrations are fixed, a factor apart in both directions; shares follow. Where the sharpest forward lobe is
+    // wider than the function's peak, weights of guided directions vary by as much as it is too low.
     constexpr std::size_t count = AxialLobes::capacity;
     constexpr int backward = 8;
     std::array<float, count> kappa{};
     std::array<double, count> share{};
     for (std::size_t j = 1; j < count; ++j) {
-        const auto k = static_cast<int>(j);
-        kappa[j] = k <= backward ? -0.5f * std::exp2(static_cast<float>(k))
-                                 : 0.5f * std::exp2(static_cast<float>(k - backward));
-        kappa[j] = std::min(kappa[j], Vmf::max_kappa);
+        const int k = static_cast<int>(j) - backward - 1;
+        constexpr int sharpest = static_cast<int>(count) - backward - 2;
+        kappa[j] = k < 0 ? -std::exp2(static_cast<float>(j - 1))
+                         : std::pow(Vmf::max_kappa, static_cast<float>(k) / static_cast<float>(sharpest));
     }
     share.fill(1.0 / count);
     constexpr int rounds = 200;

@@ -59,6 +59,28 @@ struct Triangle {
 
 }  // namespace
 
+SeenInstances::SeenInstances(const std::vector<Instance>& instances) {
+    objects.reserve(instances.size());
+    ends.reserve(instances.size());
+    from_objects.reserve(instances.size());
+    for (const Instance& instance : instances) {
+        const Motion& motion = instance.world_from_object;
+        for (std::size_t i = 0; i < motion.key_count(); ++i) {
+            const Transform& world_from_object = motion.key(i);
+            Matrix& matrix = from_objects.emplace_back();
+            for (int column = 0; column < 4; ++column) {
+                for (int row = 0; row < 3; ++row) {
+                    matrix[static_cast<std::size_t>(column * 3 + row)] =
+                        static_cast<float>(world_from_object.element(row, column));
+                }
+            }
+            largest_inverse = std::max(largest_inverse, largest_image(world_from_object.inverse()));
+        }
+        objects.push_back(instance.object);
+        ends.push_back(from_objects.size());
+    }
+}
+
 SeenShapes::SeenShapes(const SceneDescription& scene)
     : world(scene.world_surfaces), objects(scene.objects), instances(scene.instances) {
     shapes.reserve(scene.surfaces.size());
@@ -77,12 +99,13 @@ AccelerationStructure::AccelerationStructure(SeenShapes shapes, const Callbacks&
     if (!device_) {
         throw std::runtime_error("Embree cannot start on this processor (it needs SSE 4.2)");
     }
+    reach_ /= shapes_.instances.largest_inverse;
     for (const ObjectDefinition& object : shapes_.objects) {
         objects_.push_back(new_scene(object.surfaces));
         rtcCommitScene(objects_.back().get());
     }
     scene_ = new_scene(shapes_.world);
-    for (std::size_t i = 0; i < shapes_.instances.size(); ++i) {
+    for (std::size_t i = 0; i < shapes_.instances.objects.size(); ++i) {
         add_instance(i);
     }
     rtcCommitScene(scene_.get());
@@ -102,21 +125,14 @@ AccelerationStructure::SceneHandle AccelerationStructure::new_scene(const std::v
 }
 
 void AccelerationStructure::add_instance(std::size_t index) {
-    const Instance& instance = shapes_.instances[index];
-    const Motion& motion = instance.world_from_object;
+    const SeenInstances& instances = shapes_.instances;
+    const std::size_t first = index == 0 ? 0 : instances.ends[index - 1], end = instances.ends[index];
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, objects_[static_cast<std::size_t>(instance.object)].get());
-    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(motion.key_count()));
-    for (std::size_t i = 0; i < motion.key_count(); ++i) {
-        const Transform& world_from_object = motion.key(i);
-        float matrix[12];
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 3; ++row) {
-                matrix[column * 3 + row] = static_cast<float>(world_from_object.element(row, column));
-            }
-        }
-        rtcSetGeometryTransform(geometry, static_cast<unsigned>(i), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
-        reach_ = std::min(reach_, embree_reach / largest_image(world_from_object.inverse()));
+    rtcSetGeometryInstancedScene(geometry, objects_[static_cast<std::size_t>(instances.objects[index])].get());
+    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(end - first));
+    for (std::size_t i = first; i < end; ++i) {
+        rtcSetGeometryTransform(geometry, static_cast<unsigned>(i - first), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                instances.from_objects[i].data());
     }
     rtcSetGeometryMask(geometry, static_cast<unsigned>(Visible::everything));
     rtcCommitGeometry(geometry);

@@ -5,6 +5,8 @@
 #include <wend/scene/embree.h>
 #include <wend/scene/scene.h>
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -13,6 +15,22 @@ namespace wend {
 
 /// Which surfaces a ray sees.
 enum class Visible : unsigned { opaque = 1, interfaces = 2, everything = 3 };
+
+/// Where objects are placed, as Embree has it: a scene may have very many, and its own transforms are larger.
+struct SeenInstances {
+    /// The upper three rows, column by column.
+    using Matrix = std::array<float, 12>;
+
+    SeenInstances() = default;
+    explicit SeenInstances(const std::vector<Instance>& instances);
+
+    std::vector<int> objects;          ///< by instance
+    std::vector<std::size_t> ends;     ///< by instance: where its matrices end
+    std::vector<Matrix> from_objects;  ///< of one instance after the other, at its steps of time
+    float largest_inverse = 1;  ///< the largest coordinate that a way into an object makes of coordinates up to 1
+
+    friend bool operator==(const SeenInstances&, const SeenInstances&) = default;
+};
 
 /// What of a scene an acceleration structure depends on. Copies share the shapes.
 struct SeenShapes {
@@ -28,7 +46,7 @@ struct SeenShapes {
     std::vector<Shape> shapes;  ///< by surface
     std::vector<int> world;     ///< surfaces that are in no object
     std::vector<ObjectDefinition> objects;
-    std::vector<Instance> instances;
+    SeenInstances instances;
 
     /// Whether the shapes are the same ones, and not just alike, seen and placed alike.
     friend bool operator==(const SeenShapes&, const SeenShapes&) = default;

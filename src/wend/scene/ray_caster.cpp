@@ -121,6 +121,7 @@ void RayCaster::occlude_own_shape(const RTCOccludedFunctionNArguments* arguments
 }
 
 RayCaster::RayCaster(const SceneDescription& description, const RayCaster* other) : d_(description) {
+    placements_.reserve(d_.instances.size());
     for (const Instance& instance : d_.instances) {
         placements_.push_back(instance.world_from_object.at(0));
         is_moving_ = is_moving_ || instance.world_from_object.is_moving();

@@ -7,6 +7,7 @@
 #include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>
+#include <wend/io/load/message_length.h>
 #include <wend/io/load/parse_scene.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/shapes.h>
@@ -86,6 +87,7 @@ public:
         for (const Group& group : groups_.back()) {
             place(group.object, *group.motion, group.place);
         }
+        scene_.instances.reserve(scene_.instances.size() + description_.instances.size());
         for (const pbrt::ObjectInstance& instance : description_.instances) {
             add_instance(instance);
         }
@@ -375,7 +377,9 @@ LoadedScene load_scene(const std::filesystem::path& file, const LoadOverrides& o
     return load_scene(parse_scene(file), overrides);
 }
 
-LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides, LoadedParts* parts) {
+namespace {
+
+LoadedScene build_scene(pbrt::Description& description, const LoadOverrides& overrides, LoadedParts* parts) {
     const LoadedParts earlier = parts ? std::exchange(*parts, {}) : LoadedParts();
     LoadContext context{description.base_directory, {}};
     context.earlier = parts ? &earlier : nullptr;
@@ -408,7 +412,14 @@ LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overr
     loaded.kept_files = std::move(context.kept_files);
     loaded.warnings = std::move(description.warnings);
     loaded.warnings.insert(loaded.warnings.end(), context.warnings.all().begin(), context.warnings.all().end());
+    std::transform(loaded.warnings.begin(), loaded.warnings.end(), loaded.warnings.begin(), readable_message);
     return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(pbrt::Description description, const LoadOverrides& overrides, LoadedParts* parts) {
+    return with_readable_messages([&] { return build_scene(description, overrides, parts); });
 }
 
 }  // namespace wend
