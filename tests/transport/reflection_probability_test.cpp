@@ -155,7 +155,8 @@ TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SlowRoughness, DarkGlass, testing::Values(Glass{0, {0.09796447, 0.0000588}}, Glass{0.2f, {0.09625471, 0.0000453}}));
+INSTANTIATE_TEST_SUITE_P(SlowRoughness, DarkGlass,
+                         testing::Values(Glass{0, {0.09796447, 0.0000588}}, Glass{0.2f, {0.09625471, 0.0000453}}));
 
 }  // namespace
 }  // namespace wend
