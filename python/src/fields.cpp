@@ -355,9 +355,7 @@ PhaseFunction mixture_of(const std::vector<std::pair<float, float>>& parts) {
     return PhaseFunction(mixture);
 }
 
-}  // namespace
-
-void bind_fields(nb::module_& module) {
+void bind_phases(nb::module_& module) {
     nb::class_<AxialLobes>(module, "Lobes", "A function of the angle to an axis, as von Mises-Fisher lobes.")
         .def_static("cosine", &AxialLobes::cosine, nb::rv_policy::copy)
         .def_static("custom", &lobes_of, nb::arg("parts"))
@@ -386,7 +384,9 @@ void bind_fields(nb::module_& module) {
         .def("lobes", [](const PhaseFunction& phase) {
             return phase.lobes({0, 0, 1});
         });
+}
 
+void bind_field(nb::module_& module) {
     nb::class_<Distribution>(module, "Distribution", "A distribution of directions at one position.")
         .def("sample", &Distribution::sample, nb::arg("u"), nb::arg("threads"))
         .def("pdf", &Distribution::pdf, nb::arg("direction"), nb::arg("threads"))
@@ -435,7 +435,9 @@ void bind_fields(nb::module_& module) {
         .def("radiance", &radiance, nb::arg("position"), nb::arg("direction"), nb::arg("threads"))
         .def("in_scattered", &in_scattered, nb::arg("position"), nb::arg("lobes"), nb::arg("axis"), nb::arg("threads"))
         .def("cells", &cells);
+}
 
+void bind_both_fields(nb::module_& module) {
     nb::class_<Fields>(module, "Fields", "The fields of surfaces and volumes.")
         .def(
             "__init__",
@@ -459,6 +461,14 @@ void bind_fields(nb::module_& module) {
                 return std::make_shared<Fields>(read_fields(file));
             },
             nb::arg("file"));
+}
+
+}  // namespace
+
+void bind_fields(nb::module_& module) {
+    bind_phases(module);
+    bind_field(module);
+    bind_both_fields(module);
 }
 
 }  // namespace wend::python

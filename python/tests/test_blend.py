@@ -114,7 +114,7 @@ def test_volume_scatter(scene, tmp_path, kind):
     mesh(scene, "cube", fog, place=(0, 0, 0.5), stretch=(3, 2, 3))
     lamp(scene, "SUN", 3, (0, 0, 5), (0.7, 0.1, 0), angle=0)
     # Noise is half of it.
-    check(scene, tmp_path, 3000, tolerance=0.015)
+    check(scene, tmp_path, 2000, tolerance=0.015)
 
 
 def test_principled_volume(scene, tmp_path):
@@ -379,6 +379,7 @@ def test_errors(tmp_path, capsys, scene):
 
 def test_a_volume_glows_as_a_black_body(scene, tmp_path):
     fire = material("VolumePrincipled", "Volume", density=0.5, blackbody_intensity=1.0, temperature=3200.0, blackbody_tint=(1, 0.8, 0.9))
-    mesh(scene, "cube", fire, place=(0, 0, 0.8))
+    # Its edges leave no block a sliver, whose noise would be as large as the tolerance.
+    mesh(scene, "cube", fire, place=(0, 0, 0.8), stretch=(0.9, 0.9, 0.9))
     # The colours of black bodies are fits.
     check(scene, tmp_path, 400, tolerance=0.03)

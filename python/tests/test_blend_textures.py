@@ -256,7 +256,7 @@ def test_bumps_and_the_strength_of_normal_maps(scene, tmp_path, shape, wire):
     made.cycles.use_bump_map_correction = False
     mesh(scene, shape, made, True, place=(0, 0, 0.5), turn=(0.1, 0.2, 0.7), stretch=(1.6, 1.6, 1.6))
     # Where a normal faces away from the eye nothing is reflected, and Cycles reflects: at the edge of a ball.
-    bumped, _ = check(scene, tmp_path, 300, tolerance=0.01 if shape == "plane" else 0.02, bake_resolution=512)
+    bumped = check(scene, tmp_path, 300, tolerance=0.01 if shape == "plane" else 0.02, bake_resolution=512)
     made.node_tree.links.remove(made.node_tree.nodes["Diffuse BSDF"].inputs["Normal"].links[0])
     smooth = wend.render(blend.of_scene(scene, spp=64).scene(), sampling="classical").image
     # What is left out would be refused.

@@ -172,7 +172,8 @@ TEST(CausticPhotons, DoNotDependOnThreads) {
     }
 }
 
-// Three ways, sixteen renders of 8 x 8 pixels by 8192 samples each: 25 million samples.
+// Four classical renders of 8 x 8 pixels by 4096 samples each, whose noise is a thousand times as much, and two ways of
+// guiding by sixteen or more: 11 million samples. The guided means have standard errors of 0.15 %.
 TEST(SlowCausticPhotons, TeachTheGuideOfWhatAMirrorShows) {
     constexpr int resolution = 8;
     constexpr float size = 0.5f, radiance = 20, albedo = 0.5f;
@@ -202,7 +203,7 @@ TEST(SlowCausticPhotons, TeachTheGuideOfWhatAMirrorShows) {
     }
 
     RenderSettings settings;
-    settings.samples = 8192;
+    settings.samples = 4096;
     settings.max_depth = 2;
     settings.seed = 1000;
     test::expect_right_and_quieter(scene, settings, resolution, expected, 0.02);

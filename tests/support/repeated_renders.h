@@ -12,17 +12,26 @@
 
 namespace wend::test {
 
-/// Sixteen renders with seeds from `settings.seed` on, or as many more as it takes to see a bias of 1 %.
+/// How many renders there are: as many as tell their noise, and then those that it takes to see a bias of 1 %.
+struct RenderCount {
+    int least = 16, most = 64;
+    double error = 0.0015;  ///< of the mean, relative: enough to end
+};
+
+/// Of what is known beforehand.
+struct KnownMean {
+    double mean, standard_error;
+};
+
+/// Renders with seeds from `settings.seed` on.
 struct RepeatedRenders {
     Moments mean;      ///< of the luminance of whole pictures
     double noise = 0;  ///< mean of squared differences of pictures in luminance, between renders that follow each other
 
-    RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution) {
+    RepeatedRenders(const Scene& scene, RenderSettings settings, int resolution, const RenderCount& count = {}) {
         Image last;
-        constexpr int least = 16, most = 64;
-        constexpr double enough = 0.0015;
         int i = 0;
-        for (; i < least || (i < most && mean.relative_error() > enough); ++i, ++settings.seed) {
+        for (; i < count.least || (i < count.most && mean.relative_error() > count.error); ++i, ++settings.seed) {
             Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
             render(scene, film, settings);
             const Image image = film.beauty();
@@ -38,19 +47,24 @@ struct RepeatedRenders {
     }
 };
 
-/// Both means agree within four standard errors, which are small enough that a bias of 1 % would be seen.
+/// Agrees with the mean within four standard errors, which are small enough that a bias of 1 % would be seen.
+inline void expect_mean(const RepeatedRenders& renders, const KnownMean& known) {
+    const double error = std::hypot(known.standard_error, renders.mean.standard_error());
+    EXPECT_TRUE(agrees(renders.mean.mean() - known.mean, error, 0, 4))
+        << renders.mean.mean() << " and " << known.mean << " +- " << error;
+    EXPECT_FALSE(agrees(1.01 * renders.mean.mean() - known.mean, error, 0, 4))
+        << "a bias of 1 % must be seen: " << error / known.mean;
+}
+
 inline void expect_same_mean(const RepeatedRenders& classical, const RepeatedRenders& guided) {
-    const double error = std::hypot(classical.mean.standard_error(), guided.mean.standard_error());
-    EXPECT_TRUE(agrees(guided.mean.mean() - classical.mean.mean(), error, 0, 4))
-        << guided.mean.mean() << " and " << classical.mean.mean() << " +- " << error;
-    EXPECT_FALSE(agrees(1.01 * guided.mean.mean() - classical.mean.mean(), error, 0, 4))
-        << "a bias of 1 % must be seen: " << error / classical.mean.mean();
+    expect_mean(guided, {classical.mean.mean(), classical.mean.standard_error()});
 }
 
 /// Guided renders have the mean that is expected, seen to 1 %, and a small part of the noise of classical ones.
 inline void expect_right_and_quieter(const Scene& scene, RenderSettings settings, int resolution, double expected,
                                      double largest_noise) {
-    const RepeatedRenders classical(scene, settings, resolution);
+    // For its noise alone.
+    const RepeatedRenders classical(scene, settings, resolution, {4, 4});
     for (const char* sampling : {"direction", "full"}) {
         SCOPED_TRACE(sampling);
         settings.preset = parse_preset(sampling);

@@ -115,35 +115,48 @@ TEST(ReflectionLog, KeepsWhatIsFoundAfterItIsFull) {
 
 constexpr int resolution = 6;
 
-class DarkGlass : public testing::TestWithParam<float> {};
+struct Glass {
+    float roughness;
+    /// By 192 classical renders of 4096 samples a pixel each with the seeds from 100000 on: 28 million samples.
+    test::KnownMean mean;
+};
 
-// Three ways, sixteen renders of 6 x 6 pixels by 4096 samples each, or more: 7 million samples.
+void PrintTo(const Glass& glass, std::ostream* out) {
+    *out << glass.roughness;
+}
+
+class DarkGlass : public testing::TestWithParam<Glass> {};
+
+// Eight classical renders of 6 x 6 pixels by 2304 samples each, and two ways of guiding by sixteen or more: 3 million
+// samples. The guided means have standard errors of 0.15 % at most, the known ones of 0.06 %.
 TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
     SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, resolution);
     const MediumId murk = test::add_homogeneous(s, Rgb(6.0f), Rgb(10.0f), 0.3f);
-    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam()), murk);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam().roughness), murk);
     test::add_environment(s, Rgb(1.0f));
     const Scene scene(std::move(s));
     RenderSettings settings;
-    settings.samples = 4096;
+    settings.samples = 2304;
     settings.max_depth = 200;
     // What a choice adds to the noise of one sample, not how well samples are spread over it.
     settings.sampler = SamplerKind::independent;
     settings.seed = 1000;
-    const test::RepeatedRenders classical(scene, settings, resolution);
+    // Its noise alone: its mean is known.
+    const test::RepeatedRenders classical(scene, settings, resolution, {8, 8});
     settings.seed = 2000;
     for (const auto& [sampling, subsurface] : {std::pair("direction", "classical"), {"full", "auto"}}) {
         SCOPED_TRACE(testing::Message() << sampling << ", " << subsurface);
         settings.preset = parse_preset(sampling);
         settings.subsurface = parse_subsurface(subsurface);
         const test::RepeatedRenders guided(scene, settings, resolution);
-        test::expect_same_mean(classical, guided);
+        test::expect_mean(guided, GetParam().mean);
         EXPECT_LT(guided.noise, 0.7 * classical.noise) << classical.noise;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SlowRoughness, DarkGlass, testing::Values(0.0f, 0.2f));
+INSTANTIATE_TEST_SUITE_P(SlowRoughness, DarkGlass,
+                         testing::Values(Glass{0, {0.09796447, 0.0000588}}, Glass{0.2f, {0.09625471, 0.0000453}}));
 
 }  // namespace
 }  // namespace wend

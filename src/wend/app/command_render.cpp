@@ -277,64 +277,74 @@ void render(RenderOptions options, const Streams& streams, bool has_frames) {
     }
 }
 
+/// What is rendered, and what is written of it.
+void add_output_options(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("scene", options.scenes, "scene file, or several to render in turn: pbrt-v4, or Mitsuba 3 (.xml)")
+        ->required();
+    options.scene.add_choices_to(command);
+    CLI::Option* output = command.add_option(
+        "-o,--output", options.output,
+        "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name); of several "
+        "scenes a folder, where the pictures have the scenes' names");
+    command
+        .add_flag("--half", options.half,
+                  "write the colours alone, in half floats, as references are kept (to an .exr file)")
+        ->needs(output);
+    options.picture.add_to(command);
+    command.add_option("--layers", options.layers,
+                       "more layers of the picture, separated by commas: " + extra_layer_names());
+    for (const char* name : {"--layer-names", "--exr", "--alpha", "--layers"}) {
+        command.get_option("--half")->excludes(command.get_option(name));
+    }
+    command.add_flag("--record-time", options.record_time,
+                     "write into an .exr how many seconds the render took: the same picture is then another file");
+    CLI::Option* denoise =
+        command.add_flag("--denoise", options.denoise,
+                         "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");
+    command
+        .add_option("--oidn", options.denoiser,
+                    "the library's file or folder (default: what WEND_OIDN names, the system's, or that of the Python "
+                    "package pyoidn)")
+        ->needs(denoise);
+}
+
+/// How many samples there are, and how they are drawn.
+void add_sampling_options(CLI::App& command, RenderOptions& options) {
+    CLI::Option* samples = command.add_option("--spp", options.samples, "samples per pixel (default: the scene's)");
+    CLI::Option* seconds = command.add_option("--time", options.seconds, "seconds to spend, training included");
+    command
+        .add_option("--noise", options.noise,
+                    "render until the relative noise is estimated to be no more than this in every square of 16x16 "
+                    "pixels, such as 0.02 for 2 %: the standard error over the brightness, of dark pixels over a tenth "
+                    "of the picture's, as a root mean square; --spp and --time end it earlier")
+        ->check(CLI::PositiveNumber);
+    CLI::Option* passes = command.add_option("--passes", options.passes,
+                                             "repeat these passes of an earlier run (settings.passes of its --json)");
+    samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
+    seconds->check(seconds_problem)->excludes(passes);
+    command.add_option(
+        "--sampling", options.sampling,
+        "classical; full: whatever pays, where it pays; or decisions, guided everywhere, joined by '+': " +
+            guidable_decisions_text() + " (default: full)");
+    command
+        .add_option("--adaptive", options.adaptive,
+                    "on: pixels get samples by their noise; off: all get as many (default: as --sampling says, on with "
+                    "full)")
+        ->check(CLI::IsMember({"on", "off"}));
+    command
+        .add_option("--subsurface", options.subsurface,
+                    "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")
+        ->capture_default_str();
+}
+
 }  // namespace
 
 Action add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App& command = *program.add_subcommand("render", "render a scene");
-    command
-        .add_option("scene", options->scenes, "scene file, or several to render in turn: pbrt-v4, or Mitsuba 3 (.xml)")
-        ->required();
-    options->scene.add_choices_to(command);
-    CLI::Option* output = command.add_option(
-        "-o,--output", options->output,
-        "picture to write: .exr with layers and metadata, .png or .jpg (default: the scene's file name); of several "
-        "scenes a folder, where the pictures have the scenes' names");
-    command
-        .add_flag("--half", options->half,
-                  "write the colours alone, in half floats, as references are kept (to an .exr file)")
-        ->needs(output);
-    options->picture.add_to(command);
-    command.add_option("--layers", options->layers,
-                       "more layers of the picture, separated by commas: " + extra_layer_names());
-    for (const char* name : {"--layer-names", "--exr", "--alpha", "--layers"}) {
-        command.get_option("--half")->excludes(command.get_option(name));
-    }
-    command.add_flag("--record-time", options->record_time,
-                     "write into an .exr how many seconds the render took: the same picture is then another file");
-    CLI::Option* denoise =
-        command.add_flag("--denoise", options->denoise,
-                         "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");
-    command
-        .add_option("--oidn", options->denoiser,
-                    "the library's file or folder (default: what WEND_OIDN names, the system's, or that of the Python "
-                    "package pyoidn)")
-        ->needs(denoise);
-    CLI::Option* samples = command.add_option("--spp", options->samples, "samples per pixel (default: the scene's)");
-    CLI::Option* seconds = command.add_option("--time", options->seconds, "seconds to spend, training included");
-    command
-        .add_option("--noise", options->noise,
-                    "render until the relative noise is estimated to be no more than this in every square of 16x16 "
-                    "pixels, such as 0.02 for 2 %: the standard error over the brightness, of dark pixels over a tenth "
-                    "of the picture's, as a root mean square; --spp and --time end it earlier")
-        ->check(CLI::PositiveNumber);
-    CLI::Option* passes = command.add_option("--passes", options->passes,
-                                             "repeat these passes of an earlier run (settings.passes of its --json)");
-    samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
-    seconds->check(seconds_problem)->excludes(passes);
-    command.add_option(
-        "--sampling", options->sampling,
-        "classical; full: whatever pays, where it pays; or decisions, guided everywhere, joined by '+': " +
-            guidable_decisions_text() + " (default: full)");
-    command
-        .add_option("--adaptive", options->adaptive,
-                    "on: pixels get samples by their noise; off: all get as many (default: as --sampling says, on with "
-                    "full)")
-        ->check(CLI::IsMember({"on", "off"}));
-    command
-        .add_option("--subsurface", options->subsurface,
-                    "walks inside dense homogeneous media: " + subsurface_names() + "; default: auto")
-        ->capture_default_str();
+    add_output_options(command, *options);
+    add_sampling_options(command, *options);
     command.add_option("--save-field", options->save_field, "write what was learned to this file (see 'wend field')");
     CLI::Option* save_records =
         command.add_option("--save-records", options->save_records,
