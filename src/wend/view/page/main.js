@@ -12,7 +12,8 @@ let state = null;
 let held = { left: null, right: null }; // the layers on the stage
 let chosen = null; // pixel and distance that the guide is asked at
 const connection = new Connection((isOpen) => {
-  byId("status").textContent = isOpen ? "" : "The program has ended, or cannot be reached.";
+  byId("status").textContent = isOpen ? "" : "The program has ended, or cannot be reached. What is here stays; a new start says a new address.";
+  for (const control of byId("run").querySelectorAll("button, select")) control.disabled = !isOpen;
 });
 const guide = new GuideView((distance) => inspect({ ...chosen, distance }));
 const view = new PictureView(byId("stage"), byId("canvas"), { onPixel: showValues, onChoose: ([x, y]) => inspect({ x, y }) });
@@ -77,6 +78,7 @@ function showActions(can, pictures) {
   byId("save").hidden = !can.includes("save");
   byId("stop").hidden = !can.includes("stop") || isDone;
   byId("restart").hidden = !can.includes("restart");
+  byId("restart-of-label").hidden = pictures.length < 2;
   fill(byId("restart-of"), pictures.map(({ name }, i) => [i, name]));
   fill(byId("restart-sampling"), state.samplings.map((name) => [name, name]));
 }
@@ -107,6 +109,7 @@ async function fetchSide(side) {
 
 function showPictures() {
   byId("empty").hidden = held.left !== null;
+  byId("empty").textContent = controls.layer.value === "beauty" ? "The first picture is on its way." : `The layer ${controls.layer.value} is on its way.`;
   view.tones.isColour = (held.left?.layer ?? "beauty") === "beauty" || held.left?.layer === "noisy";
   view.set(held.left, held.right);
   const range = view.range;
