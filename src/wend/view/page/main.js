@@ -40,8 +40,10 @@ function showState() {
   if (wasSingle && many) controls.right.value = 1;
   byId("right-label").hidden = !many;
   const hasRight = many && controls.right.value !== NONE;
-  byId("mode-label").hidden = byId("split-label").hidden = !hasRight;
+  byId("mode-label").hidden = !hasRight;
+  byId("split-label").hidden = !hasRight || controls.mode.value === "difference";
   fill(controls.layer, pictures[controls.left.value || 0].layers.map((layer) => [layer, layer]));
+  byId("run-title").textContent = pictures.every(({ phase }) => phase === "file") ? "Pictures" : "Render";
   showBars(pictures);
   showActions(can, pictures);
   byId("note").textContent = state.note;
@@ -174,6 +176,7 @@ controls.split.addEventListener("input", () => {
 });
 controls.mode.addEventListener("change", () => {
   view.mode = controls.mode.value;
+  byId("split-label").hidden = view.mode === "difference";
   showPictures();
 });
 byId("zoom-in").addEventListener("click", () => view.zoomBy(2));

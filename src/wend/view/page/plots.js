@@ -40,8 +40,9 @@ export function plotNoise(parent, pictures) {
   lines.forEach((line, i) => {
     if (line.length === 0) return;
     element(svg, "path", { class: `line-${i % 4}`, d: line.map(([s, , n], k) => `${k ? "L" : "M"}${toX(s).toFixed(1)},${toY(n).toFixed(1)}`).join("") });
-    const last = line.at(-1);
-    element(svg, "text", { x: Math.min(toX(last[0]), width - right) - 4, y: toY(last[2]) - 5, "text-anchor": "end" }, pictures[i].name);
+    const last = line.at(-1), [atX, atY] = [toX(last[0]), toY(last[2])], isLeft = atX < width / 2;
+    element(svg, "circle", { class: `point-${i % 2}`, cx: atX, cy: atY, r: 2.5 });
+    element(svg, "text", { x: isLeft ? atX + 6 : atX - 4, y: atY - 5, "text-anchor": isLeft ? "start" : "end" }, pictures[i].name);
   });
   return true;
 }
