@@ -108,6 +108,7 @@ def test_presets_have_equal_time_and_more_of_it(browser, tmp_path):
         assert len(seconds) == 2 and max(seconds) - min(seconds) < 1
         page.select_option("#mode", "difference")
         wait_for_text(page, "#scale", "Relative difference")
+        assert page.is_hidden("#split"), "a difference has no divider"
         page.click("#more")
         wait_for_text(page, "#bars", "learning|rendering")
         page.select_option("#restart-of", "1")
@@ -169,6 +170,7 @@ def test_finished_pictures_are_looked_at_the_same_way(browser, tmp_path):
     with View(tmp_path, "a.exr", "b.exr") as view:
         page = open_page(browser, view.url)
         assert page.inner_text("#title") == "a.exr"
+        assert page.inner_text("#run-title") == "Pictures"
         page.select_option("#mode", "difference")
         wait_for_text(page, "#scale", "Relative difference")
         page.select_option("#layer", "depth")
@@ -189,5 +191,6 @@ def test_a_render_of_the_command_line_is_watched_and_ended(browser, tmp_path):
         assert process.wait(timeout=60) == 128 + signal.SIGINT
         assert (tmp_path / "x.exr").exists()
         wait_for_text(page, "#status", "has ended")
+        assert page.is_disabled("#save"), "there is nobody to save it"
     finally:
         process.kill()

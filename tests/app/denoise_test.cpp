@@ -151,5 +151,30 @@ TEST(Denoise, LightOfMediaIsDenoisedApartToo) {
     EXPECT_TRUE(denoiser->filter(picture).pixels == together.pixels) << "and is not where no medium shows";
 }
 
+TEST(Denoise, LightOfMediaIsNotTakenApartWhereAMediumHasASharpEdge) {
+    const std::optional<Denoiser> denoiser = installed_denoiser();
+    if (!denoiser) {
+        GTEST_SKIP() << "Open Image Denoise is not installed";
+    }
+    Picture picture = noisy_wall();
+    const int side = picture.image.width, edge = side / 2;
+    std::vector<float>& opacity = picture.layers.back().values;
+    Layer volume{"volume", {"R", "G", "B"}, {}};
+    for (std::size_t i = 0; i < opacity.size(); ++i) {
+        const bool is_medium = static_cast<int>(i) % side >= edge;
+        opacity[i] = is_medium ? 1.0f : 0.0f;
+        volume.values.insert(volume.values.end(), 3, is_medium ? picture.image.pixels[i].g : 0.0f);
+    }
+    const Image together = denoiser->filter(picture);
+    picture.layers.push_back(volume);
+    const Image result = denoiser->filter(picture);
+    for (int y = 0; y < side; ++y) {
+        for (const int x : {edge - 2, edge - 1, edge, edge + 1}) {
+            ASSERT_EQ(result.at(x, y).g, together.at(x, y).g) << x << ", " << y;
+        }
+    }
+    EXPECT_NE(result.at(edge + 4, edge).g, together.at(edge + 4, edge).g) << "elsewhere it is";
+}
+
 }  // namespace
 }  // namespace wend

@@ -1,6 +1,8 @@
 // `wend render --layers`: what it adds, what it leaves as it is, and what goes with it.
 #include "program_support.h"
 
+#include <wend/app/denoiser.h>
+#include <wend/core/error.h>
 #include <wend/film/cryptomatte.h>
 #include <wend/io/image_file.h>
 
@@ -182,6 +184,46 @@ TEST_F(LayersOption, WhatThereIsNotIsRefused) {
         EXPECT_EQ(bad.status, 2) << name;
         EXPECT_NE(bad.err.find("bad.pbrt:26:"), std::string::npos) << bad.err;
     }
+}
+
+/// `render --denoise`, and how it goes on; skipped where the library is not.
+class DenoisedLayers : public LayersOption {
+protected:
+    void SetUp() override {
+        try {
+            const Denoiser denoiser;
+        } catch (const InputError&) {
+            GTEST_SKIP() << "Open Image Denoise is not installed";
+        }
+    }
+};
+
+TEST_F(DenoisedLayers, LightOfMediaIsRecordedWhereThereAreMedia) {
+    const Picture automatic = rendered("automatic.exr", {"--denoise"}), raw = rendered("raw.exr", {});
+    const Picture asked = rendered("asked.exr", {"--denoise", "--layers", "volume"});
+    ASSERT_NE(find(automatic, "volume"), nullptr);
+    EXPECT_TRUE(automatic.image.pixels == asked.image.pixels);
+    EXPECT_EQ(find(raw, "volume"), nullptr);
+    const Layer* const noisy = find(automatic, "noisy");
+    ASSERT_NE(noisy, nullptr);
+    for (std::size_t i = 0; i < raw.image.pixels.size(); ++i) {
+        ASSERT_EQ(noisy->values[3 * i], raw.image.pixels[i].r) << "what was is the picture without --denoise";
+    }
+}
+
+TEST_F(DenoisedLayers, ARenderGoesOnWithTheLayersItBeganWith) {
+    const std::string with = folder_.file("with.checkpoint"), without = folder_.file("without.checkpoint");
+    rendered("begun.exr", {"--denoise", "--checkpoint", with});
+    rendered("raw.exr", {"--checkpoint", without});
+    EXPECT_NE(find(rendered("again.exr", {"--denoise", "--resume", with}), "volume"), nullptr);
+    EXPECT_EQ(render("raw_again.exr", {"--resume", with}).status, 2) << "nobody asks for the layer";
+    EXPECT_NE(find(rendered("asked.exr", {"--layers", "volume", "--resume", with}), "volume"), nullptr);
+    const Picture late = rendered("late.exr", {"--denoise", "--resume", without});
+    EXPECT_EQ(find(late, "volume"), nullptr);
+    EXPECT_NE(find(late, "noisy"), nullptr);
+    const auto other = render("other.exr", {"--denoise", "--layers", "halves", "--resume", with});
+    EXPECT_EQ(other.status, 2) << "other layers than it began with";
+    EXPECT_NE(other.err.find("layers"), std::string::npos) << other.err;
 }
 
 }  // namespace

@@ -49,6 +49,16 @@ std::vector<std::string> differences(const json& before, const json& now, const 
     return found;
 }
 
+/// Throws InputError where the checkpoint does not say what it is of.
+json description_of(const Checkpoint& checkpoint, const Place& place) {
+    json description = json::parse(checkpoint.description, nullptr, false);
+    const auto is_object = [&](const char* key) { return description.contains(key) && description[key].is_object(); };
+    if (!description.is_object() || !is_object("files") || !is_object("settings")) {
+        throw InputError(place, "the checkpoint does not say what it is of");
+    }
+    return description;
+}
+
 }  // namespace
 
 void save_checkpoint(const std::filesystem::path& file, const Render& render, const Session& session,
@@ -62,11 +72,7 @@ void resume_from(const std::filesystem::path& file, Render& render, const Sessio
                  const RenderSettings& settings) {
     const Place place{file.string()};
     const Checkpoint checkpoint = read_checkpoint(file);
-    const json before = json::parse(checkpoint.description, nullptr, false);
-    const auto is_object = [&](const char* key) { return before.contains(key) && before[key].is_object(); };
-    if (!before.is_object() || !is_object("files") || !is_object("settings")) {
-        throw InputError(place, "the checkpoint does not say what it is of");
-    }
+    const json before = description_of(checkpoint, place);
     const json now = describe(session, settings);
     std::vector<std::string> different = differences(before["files"], now["files"], "{0} has changed");
     for (std::string& setting : differences(before["settings"], now["settings"], "{0} was {1} and is {2}")) {
@@ -81,6 +87,19 @@ void resume_from(const std::filesystem::path& file, Render& render, const Sessio
     } catch (const InputError& error) {
         throw InputError(place, error.what());
     }
+}
+
+std::vector<std::string> layers_in_checkpoint(const std::filesystem::path& file) {
+    const Place place{file.string()};
+    const json settings = description_of(read_checkpoint(file), place)["settings"];
+    std::vector<std::string> names;
+    for (const json& name : settings.value("layers", json::array())) {
+        if (!name.is_string()) {
+            throw InputError(place, "the checkpoint does not say which layers it has");
+        }
+        names.push_back(name.get<std::string>());
+    }
+    return names;
 }
 
 }  // namespace wend

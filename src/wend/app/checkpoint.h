@@ -5,6 +5,8 @@
 #include <wend/render/render.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace wend {
 
@@ -17,5 +19,9 @@ void save_checkpoint(const std::filesystem::path& file, const Render& render, co
 /// differ.
 void resume_from(const std::filesystem::path& file, Render& render, const Session& session,
                  const RenderSettings& settings);
+
+/// The names of the layers that a checkpoint's render was asked for. Throws InputError for a file that is no checkpoint
+/// or does not say.
+std::vector<std::string> layers_in_checkpoint(const std::filesystem::path& file);
 
 }  // namespace wend

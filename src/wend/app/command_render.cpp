@@ -1,3 +1,4 @@
+#include <wend/app/checkpoint.h>
 #include <wend/app/commands.h>
 #include <wend/app/comparison_data.h>
 #include <wend/app/denoiser.h>
@@ -54,8 +55,25 @@ std::vector<int> parse_passes(const std::string& text) {
     return passes;
 }
 
-std::vector<std::string> layers_of(const RenderOptions& options) {
+std::vector<std::string> asked_layers(const RenderOptions& options) {
     return options.layers.empty() ? std::vector<std::string>() : split_list(options.layers);
+}
+
+/// Those that are asked for, and what the picture is denoised best with. A render that goes on has the latter if it
+/// began with it.
+std::vector<std::string> layers_of(const RenderOptions& options, const Scene& scene) {
+    std::vector<std::string> names = asked_layers(options);
+    if (!options.denoise || scene.media().empty()) {
+        return names;
+    }
+    if (!options.watch.resume.empty()) {
+        const std::vector<std::string> before = layers_in_checkpoint(options.watch.resume);
+        if (std::find(before.begin(), before.end(), layer_of_media) == before.end()) {
+            return names;
+        }
+    }
+    names.emplace_back(layer_of_media);
+    return names;
 }
 
 /// Throws InputError for what is wrong whatever the scene.
@@ -98,7 +116,7 @@ void check(const RenderOptions& options, const Preset& preset) {
             require_writable(file);
         }
     }
-    check_extra_layers(layers_of(options));
+    check_extra_layers(asked_layers(options));
     options.watch.check();
 }
 
@@ -182,7 +200,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     RenderSettings settings = session.settings();
     settings.preset = plan.preset;
     settings.subsurface = plan.subsurface;
-    ask_for_layers(layers_of(options), session.scene(), settings);
+    ask_for_layers(layers_of(options, session.scene()), session.scene(), settings);
     settings.fields = std::move(fields);
     if (options.samples > 0) {
         settings.samples = options.samples;
@@ -299,9 +317,10 @@ void add_output_options(CLI::App& command, RenderOptions& options) {
     }
     command.add_flag("--record-time", options.record_time,
                      "write into an .exr how many seconds the render took: the same picture is then another file");
-    CLI::Option* denoise =
-        command.add_flag("--denoise", options.denoise,
-                         "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy'");
+    CLI::Option* denoise = command.add_flag(
+        "--denoise", options.denoise,
+        "take the noise out by Open Image Denoise; an .exr keeps what was as the layer 'noisy', and of scenes "
+        "with media it has the layer 'volume', which helps");
     command
         .add_option("--oidn", options.denoiser,
                     "the library's file or folder (default: what WEND_OIDN names, the system's, or that of the Python "

@@ -79,6 +79,30 @@ Image mirrored(const Image& image, int way) {
     return result;
 }
 
+/// How much, from 0 to 1, light of media may be taken apart in each pixel: not where a medium begins at once, since the
+/// network blurs that edge in both parts, and each in its own way.
+std::vector<float> trust_in_parts(const Layer& opacity, int width, int height) {
+    constexpr int reach = 2;
+    constexpr float lowest_jump = 0.8f, highest_jump = 1.0f;
+    std::vector<float> trust;
+    trust.reserve(opacity.values.size());
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            float least = 1, most = 0;
+            for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v) {
+                for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) {
+                    const float here = opacity.values[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                                                      static_cast<std::size_t>(u)];
+                    least = std::min(least, here);
+                    most = std::max(most, here);
+                }
+            }
+            trust.push_back(std::clamp((highest_jump - (most - least)) / (highest_jump - lowest_jump), 0.0f, 1.0f));
+        }
+    }
+    return trust;
+}
+
 /// Adds the second image, times a factor.
 void add(Image& sum, const Image& image, float factor) {
     for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
@@ -173,7 +197,7 @@ Image Denoiser::filter(const Picture& picture) const {
     const Guides surfaces = guides_of_surfaces(picture);
     const Layer* const opacity = find_layer(picture, "scatter", 1);
     Image together = device_->filter_all_ways(picture.image, opacity ? faded(surfaces, *opacity) : surfaces);
-    const Layer* const volume = find_layer(picture, "volume", 3);
+    const Layer* const volume = find_layer(picture, layer_of_media, 3);
     const bool has_media =
         volume && std::any_of(volume->values.begin(), volume->values.end(), [](float v) { return v > 0; });
     if (!opacity || !has_media) {
@@ -186,11 +210,14 @@ Image Denoiser::filter(const Picture& picture) const {
             of_surfaces.pixels[i][c] = std::max(0.0f, of_surfaces.pixels[i][c] - of_media.pixels[i][c]);
         }
     }
-    Image mean(picture.image.width, picture.image.height);
-    add(mean, together, 0.5f);
-    add(mean, device_->filter_all_ways(of_surfaces, surfaces), 0.5f);
-    add(mean, device_->filter_all_ways(of_media, guides_of_media(*opacity, picture.image)), 0.5f);
-    return mean;
+    Image apart = device_->filter_all_ways(of_surfaces, surfaces);
+    add(apart, device_->filter_all_ways(of_media, guides_of_media(*opacity, picture.image)), 1);
+    const std::vector<float> trust = trust_in_parts(*opacity, picture.image.width, picture.image.height);
+    for (std::size_t i = 0; i < together.pixels.size(); ++i) {
+        const float share = 0.5f * trust[i];
+        together.pixels[i] = together.pixels[i] * (1 - share) + apart.pixels[i] * share;
+    }
+    return together;
 }
 
 Picture denoised(const Picture& picture, const Denoiser& denoiser) {

@@ -9,6 +9,9 @@
 
 namespace wend {
 
+/// The layer of light from media, which Denoiser takes apart (--layers).
+inline constexpr const char* layer_of_media = "volume";
+
 class Denoiser {
 public:
     /// Loads the library: of a file, or in a folder; if the path is empty, of what the environment's WEND_OIDN names,
@@ -21,8 +24,8 @@ public:
 
     /// The picture's colours without noise, by its layers `albedo`, `normal`, `scatter` and `volume` as far as there
     /// are any. What media hide is faded from the first two: these leave media out. With `volume`, the result is the
-    /// mean of what comes of all light together, and of light from media and from surfaces apart. Throws
-    /// std::runtime_error where the library fails.
+    /// mean of what comes of all light together, and of light from media and from surfaces apart; the first alone where
+    /// a medium has a sharp edge. Throws std::runtime_error where the library fails.
     Image filter(const Picture& picture) const;
     /// "2.3.1", say.
     std::string version() const;

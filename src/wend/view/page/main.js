@@ -12,7 +12,8 @@ let state = null;
 let held = { left: null, right: null }; // the layers on the stage
 let chosen = null; // pixel and distance that the guide is asked at
 const connection = new Connection((isOpen) => {
-  byId("status").textContent = isOpen ? "" : "The program has ended, or cannot be reached.";
+  byId("status").textContent = isOpen ? "" : "The program has ended, or cannot be reached. What is here stays; a new start says a new address.";
+  for (const control of byId("run").querySelectorAll("button, select")) control.disabled = !isOpen;
 });
 const guide = new GuideView((distance) => inspect({ ...chosen, distance }));
 const view = new PictureView(byId("stage"), byId("canvas"), { onPixel: showValues, onChoose: ([x, y]) => inspect({ x, y }) });
@@ -39,8 +40,10 @@ function showState() {
   if (wasSingle && many) controls.right.value = 1;
   byId("right-label").hidden = !many;
   const hasRight = many && controls.right.value !== NONE;
-  byId("mode-label").hidden = byId("split-label").hidden = !hasRight;
+  byId("mode-label").hidden = !hasRight;
+  byId("split-label").hidden = !hasRight || controls.mode.value === "difference";
   fill(controls.layer, pictures[controls.left.value || 0].layers.map((layer) => [layer, layer]));
+  byId("run-title").textContent = pictures.every(({ phase }) => phase === "file") ? "Pictures" : "Render";
   showBars(pictures);
   showActions(can, pictures);
   byId("note").textContent = state.note;
@@ -77,6 +80,7 @@ function showActions(can, pictures) {
   byId("save").hidden = !can.includes("save");
   byId("stop").hidden = !can.includes("stop") || isDone;
   byId("restart").hidden = !can.includes("restart");
+  byId("restart-of-label").hidden = pictures.length < 2;
   fill(byId("restart-of"), pictures.map(({ name }, i) => [i, name]));
   fill(byId("restart-sampling"), state.samplings.map((name) => [name, name]));
 }
@@ -107,6 +111,7 @@ async function fetchSide(side) {
 
 function showPictures() {
   byId("empty").hidden = held.left !== null;
+  byId("empty").textContent = controls.layer.value === "beauty" ? "The first picture is on its way." : `The layer ${controls.layer.value} is on its way.`;
   view.tones.isColour = (held.left?.layer ?? "beauty") === "beauty" || held.left?.layer === "noisy";
   view.set(held.left, held.right);
   const range = view.range;
@@ -171,6 +176,7 @@ controls.split.addEventListener("input", () => {
 });
 controls.mode.addEventListener("change", () => {
   view.mode = controls.mode.value;
+  byId("split-label").hidden = view.mode === "difference";
   showPictures();
 });
 byId("zoom-in").addEventListener("click", () => view.zoomBy(2));

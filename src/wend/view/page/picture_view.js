@@ -10,6 +10,14 @@ const mean = ({ halves, channels }, i) => {
   return sum / channels;
 };
 
+const valuesOf = ({ halves, channels }, i) => Array.from(halves.subarray(i * channels, (i + 1) * channels), decode);
+
+/** Of a pixel's mean over channels, relative to both. */
+function differenceOf(left, right, i) {
+  const a = mean(left, i), b = mean(right, i);
+  return Math.abs(a - b) / Math.max(1e-6, 0.5 * (Math.abs(a) + Math.abs(b)));
+}
+
 export class PictureView {
   constructor(stage, canvas, { onPixel, onChoose }) {
     this.stage = stage;
@@ -70,10 +78,7 @@ export class PictureView {
     const { left, right } = this;
     return this.surface("difference", left.width, left.height, (bytes) => {
       const range = [0, 1];
-      paintNumbers(bytes, (i) => {
-        const a = mean(left, i), b = mean(right, i);
-        return Math.abs(a - b) / Math.max(1e-6, 0.5 * (Math.abs(a) + Math.abs(b)));
-      }, range);
+      paintNumbers(bytes, (i) => differenceOf(left, right, i), range);
       return range;
     });
   }
@@ -110,7 +115,7 @@ export class PictureView {
     drawSurface(shown);
     this.shownRange = shown.range;
     if (this.right && !differs) this.drawRight(drawSurface, x, scale);
-    if (scale >= LARGE) this.drawValues(scale, x, y);
+    if (scale >= LARGE) this.drawValues(scale, x, y, differs);
     if (this.cross) this.drawCross(scale, x, y);
   }
 
@@ -127,22 +132,31 @@ export class PictureView {
     context.fillRect(edge - 1, 0, 2, clientHeight);
   }
 
-  drawValues(scale, x, y) {
+  /** What is written into a pixel: of the picture that its middle shows. */
+  valuesAt(px, py, differs) {
+    const { left, right } = this, i = py * left.width + px;
+    if (differs) return [differenceOf(left, right, i)];
+    if (!right || px + 0.5 < this.split * left.width) return valuesOf(left, i);
+    const onRight = Math.floor(((py + 0.5) / left.height) * right.height) * right.width + Math.floor(((px + 0.5) / left.width) * right.width);
+    return valuesOf(right, onRight);
+  }
+
+  drawValues(scale, x, y, differs) {
     const { context, left } = this;
+    context.lineJoin = "round";
     context.font = `${Math.min(13, scale / 6)}px system-ui, sans-serif`;
     const first = [Math.max(0, Math.floor(-x / scale)), Math.max(0, Math.floor(-y / scale))];
     const last = [Math.min(left.width, Math.ceil((this.stage.clientWidth - x) / scale)), Math.min(left.height, Math.ceil((this.stage.clientHeight - y) / scale))];
     for (let py = first[1]; py < last[1]; ++py) {
       for (let px = first[0]; px < last[0]; ++px) {
-        for (let c = 0; c < left.channels; ++c) {
-          const text = decode(left.halves[(py * left.width + px) * left.channels + c]).toPrecision(3);
-          const at = [x + (px + 0.08) * scale, y + (py + 0.3 + 0.25 * c) * scale];
+        this.valuesAt(px, py, differs).forEach((value, c) => {
+          const text = value.toPrecision(3), at = [x + (px + 0.08) * scale, y + (py + 0.3 + 0.25 * c) * scale];
           context.lineWidth = 3;
           context.strokeStyle = "#000";
           context.strokeText(text, ...at);
           context.fillStyle = "#fff";
           context.fillText(text, ...at);
-        }
+        });
       }
     }
   }

@@ -40,24 +40,33 @@ export function plotNoise(parent, pictures) {
   lines.forEach((line, i) => {
     if (line.length === 0) return;
     element(svg, "path", { class: `line-${i % 4}`, d: line.map(([s, , n], k) => `${k ? "L" : "M"}${toX(s).toFixed(1)},${toY(n).toFixed(1)}`).join("") });
-    const last = line.at(-1);
-    element(svg, "text", { x: Math.min(toX(last[0]), width - right) - 4, y: toY(last[2]) - 5, "text-anchor": "end" }, pictures[i].name);
+    const last = line.at(-1), [atX, atY] = [toX(last[0]), toY(last[2])], isLeft = atX < width / 2;
+    element(svg, "circle", { class: `point-${i % 2}`, cx: atX, cy: atY, r: 2.5 });
+    element(svg, "text", { x: isLeft ? atX + 6 : atX - 4, y: atY - 5, "text-anchor": isLeft ? "start" : "end" }, pictures[i].name);
   });
   return true;
 }
 
+// How much taller than the tallest classical bin a guided bar is drawn; what is higher is cut, with its count.
+const TALLEST = 3;
+
 /** Where flights of a pixel end: guided as bars, classical as a line. */
 export function plotFlight(parent, flight, distance) {
-  const width = 370, height = 120, left = 4, right = 4, top = 6, bottom = 18, bins = flight.classical.bins.length;
+  const width = 370, height = 120, left = 4, right = 4, top = 16, bottom = 18, bins = flight.classical.bins.length;
   const guided = flight.guided?.bins;
-  const most = Math.max(1, ...flight.classical.bins, ...(guided ?? []));
+  const most = Math.max(1, Math.min(Math.max(...flight.classical.bins) * TALLEST, Math.max(...flight.classical.bins, ...(guided ?? []))));
   const toX = (bin) => left + (bin / bins) * (width - left - right);
-  const toY = (count) => top + (1 - count / most) * (height - top - bottom);
+  const toY = (count) => top + (1 - Math.min(count, most) / most) * (height - top - bottom);
   const percent = (ends) => `${(100 * ends.scatters).toFixed(0)} %`;
   const svg = canvasOf(parent, width, height,
     `Of classical flights ${percent(flight.classical)} scatter${flight.guided ? `, of guided ones ${percent(flight.guided)}` : ""}`);
   element(svg, "path", { class: "axis", d: `M${left},${height - bottom}H${width - right}` });
   guided?.forEach((count, i) => element(svg, "rect", { class: "guided", x: toX(i), y: toY(count), width: toX(1) - toX(0) - 0.5, height: height - bottom - toY(count) }));
+  const highest = guided ? guided.indexOf(Math.max(...guided)) : -1;
+  if (guided && guided[highest] > most) {
+    const isRight = highest > bins / 2;
+    element(svg, "text", { x: toX(highest + (isRight ? 1 : 0)), y: top - 5, "text-anchor": isRight ? "end" : "start" }, `${(guided[highest] / most).toFixed(1)} times as high`);
+  }
   element(svg, "path", { class: "classical", d: flight.classical.bins.map((count, i) => `${i ? "L" : "M"}${toX(i)},${toY(count)}H${toX(i + 1)}`).join("") });
   if (distance !== null && distance <= flight.length) {
     const at = toX((distance / flight.length) * bins);
