@@ -1,10 +1,17 @@
-// Feeds arbitrary bytes to what restores a render: the state in a checkpoint whose checksum fits.
+// Feeds changed bytes to what restores a render: the state in a checkpoint whose checksum fits.
+//
+// An input says how far a render of this very build is whose state is changed, and how: so no seed has an old layout.
+// Its first byte is how many passes have been rendered; 255 is none of these, what follows are the bytes themselves.
+// Then come changes: where (four bytes), the new byte, and whether all behind it is cut off.
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
 #include <wend/render/render.h>
 
 #include <cstdint>
-#include <string_view>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -37,14 +44,55 @@ wend::RenderSettings settings() {
     return settings;
 }
 
+constexpr std::size_t most_passes = 3;
+
+std::string state_after(const wend::Scene& scene, std::size_t passes) {
+    wend::Film film({4, 4}, {{0, 0}, {4, 4}});
+    wend::Render render(scene, film, settings());
+    for (std::size_t pass = 0; pass < passes; ++pass) {
+        render.step();
+    }
+    wend::ArchiveWriter bytes;
+    render.save(bytes);
+    return bytes.take();
+}
+
+/// What the fuzzer asks for.
+std::string state_of(std::span<const std::uint8_t> input, const std::vector<std::string>& states) {
+    constexpr std::uint8_t raw = 255;
+    if (input.empty() || input[0] == raw) {
+        return std::string(input.begin() + (input.empty() ? 0 : 1), input.end());
+    }
+    std::string state = states[input[0] % states.size()];
+    constexpr std::size_t size_of_change = 6;
+    for (std::size_t i = 1; i + size_of_change <= input.size() && !state.empty(); i += size_of_change) {
+        std::uint32_t place = 0;
+        std::memcpy(&place, input.data() + i, sizeof place);
+        const std::size_t at = place % state.size();
+        state[at] = static_cast<char>(input[i + 4]);
+        if (input[i + 5] == 1) {
+            state.resize(at + 1);
+        }
+    }
+    return state;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const wend::Scene scene(lit_floor());
+    static const std::vector<std::string> states = [] {
+        std::vector<std::string> all;
+        for (std::size_t passes = 0; passes <= most_passes; ++passes) {
+            all.push_back(state_after(scene, passes));
+        }
+        return all;
+    }();
+    const std::string state = state_of({data, size}, states);
     wend::Film film({4, 4}, {{0, 0}, {4, 4}});
     wend::Render render(scene, film, settings());
     try {
-        wend::ArchiveReader bytes({reinterpret_cast<const char*>(data), size});
+        wend::ArchiveReader bytes(state);
         render.restore(bytes);
         render.progress();
         film.picture();

@@ -85,6 +85,13 @@ RenderPlan plan_of(const RenderOptions& options) {
             options.passes ? parse_passes(*options.passes) : std::vector<int>()};
 }
 
+/// What is wrong with --noise; empty: nothing. CLI::PositiveNumber would let NaN pass, which asks for nothing.
+std::string noise_problem(const std::string& text) {
+    double noise = 0;
+    const bool fits = CLI::detail::lexical_cast(text, noise) && noise > 0 && noise <= 1e9;
+    return fits ? "" : "'" + text + "' is not a relative noise, such as 0.02";
+}
+
 /// Where the picture goes if nobody says: the scene's own file name, in the current folder. Throws InputError where
 /// that cannot be written.
 std::filesystem::path default_output(const Session& session) {
@@ -337,7 +344,7 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
                     "render until the relative noise is estimated to be no more than this in every square of 16x16 "
                     "pixels, such as 0.02 for 2 %: the standard error over the brightness, of dark pixels over a tenth "
                     "of the picture's, as a root mean square; --spp and --time end it earlier")
-        ->check(CLI::PositiveNumber);
+        ->check(noise_problem);
     CLI::Option* passes = command.add_option("--passes", options.passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
     samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);

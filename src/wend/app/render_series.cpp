@@ -123,7 +123,7 @@ RenderSeries scenes_of(const RenderOptions& options) {
     if (!options.output.empty() && !is_folder(options.output)) {
         throw InputError(Place{options.output},
                          "is no folder, and several scenes have several pictures: name a folder "
-                         "(a new one with a / at its end), or none for this one");
+                         "that is there, or none for this one");
     }
     RenderOptions others = options;
     others.output.clear();
