@@ -74,7 +74,7 @@ def volume_of(scene, file, size=(1, 1, 1), **inputs):
     return made
 
 
-def between(values, parts=6):
+def between(values, parts=12):
     """The middles of small cells of a grid, interpolated."""
     at = np.arange(0, SIDE - 1, 1 / parts) + 0.5 / parts
     cell = at.astype(int)

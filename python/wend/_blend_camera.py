@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 
 from ._blend_motion import Motion
+from ._blend_panorama import panorama_of
 from ._errors import InputError
 from ._scene_reader import SceneReader
 
 #: Of Blender's camera, which looks along -z, to pbrt's.
 _CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
-#: The same of panoramas, whose middle is -x there, and whose left is z.
-_PANORAMA = np.array([[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1.0]])
 
 
 def add_view(
@@ -56,43 +55,36 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
         raise InputError(f"{scene.name}: error: the scene has no camera")
     camera = eye.data
     place = f"camera '{eye.name}'"
-    matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64).T
-    is_around = camera.type == "PANO" and _is_equirectangular(reader, place, camera)
-    space = _PANORAMA if is_around else _CAMERA
-    reader.put(np.asarray(np.linalg.inv(space @ motion.of_camera(eye)), dtype=np.float64))
-    if is_around:
-        reader.builder.add("Camera", "spherical", {"string mapping": "equirectangular"})
+    reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
+    parameters = _lens_of(reader, place, eye)
+    if camera.type == "PANO":
+        reader.builder.add("Camera", "panorama", parameters | panorama_of(reader, place, scene, camera, resolution))
         return
-    window = _window_of(scene, camera, resolution)
-    parameters: dict[str, Any] = {"float screenwindow": window}
-    dof = camera.dof
-    if dof.use_dof:
-        if dof.aperture_blades > 2:
-            reader.tell(place, "the aperture is round")
-        distance = float(dof.focus_distance)
-        if dof.focus_object is not None:
-            offset = np.array(dof.focus_object.matrix_world.translation) - np.array(eye.matrix_world.translation)
-            distance = abs(float(offset @ matrix[2, :3]))
-        size = camera.lens * 1e-3 if camera.type == "PERSP" else 1.0
-        parameters["float lensradius"] = size / (2 * max(dof.aperture_fstop, 1e-5))
-        parameters["float focaldistance"] = max(distance, 1e-5)
+    parameters["float screenwindow"] = _window_of(scene, camera, resolution)
     if camera.type == "ORTHO":
         reader.builder.add("Camera", "orthographic", parameters)
     else:
         reader.builder.add("Camera", "perspective", parameters | {"float fov": 90})
 
 
-def _is_equirectangular(reader: SceneReader, place: str, camera: Any) -> bool:
-    """Whether a panoramic camera is; others are named, and taken as cameras with a lens."""
-    # Until Blender 5 these are settings of Cycles.
-    settings = camera if hasattr(camera, "panorama_type") else camera.cycles
-    if settings.panorama_type != "EQUIRECTANGULAR":
-        reader.tell(place, f"a panoramic camera of the kind {settings.panorama_type} is taken as one with a lens")
-        return False
-    limits = [getattr(settings, f"{name}_{end}") for name in ("latitude", "longitude") for end in ("min", "max")]
-    if not np.allclose(limits, [-np.pi / 2, np.pi / 2, -np.pi, np.pi], atol=1e-4):
-        reader.tell(place, "a panorama is of all directions")
-    return True
+def _lens_of(reader: SceneReader, place: str, eye: Any) -> dict[str, Any]:
+    """Of the depth of field."""
+    camera = eye.data
+    dof = camera.dof
+    if not dof.use_dof:
+        return {}
+    if dof.aperture_blades > 2:
+        reader.tell(place, "the aperture is round")
+    distance = float(dof.focus_distance)
+    if dof.focus_object is not None:
+        matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64)
+        offset = np.array(dof.focus_object.matrix_world.translation) - np.array(eye.matrix_world.translation)
+        distance = abs(float(offset @ matrix[:3, 2]))
+    size = 1.0 if camera.type == "ORTHO" else camera.lens * 1e-3
+    return {
+        "float lensradius": size / (2 * max(dof.aperture_fstop, 1e-5)),
+        "float focaldistance": max(distance, 1e-5),
+    }
 
 
 def _window_of(scene: Any, camera: Any, resolution: tuple[int, int]) -> Any:

@@ -161,7 +161,7 @@ def _segments(points: npt.NDArray[np.float32], radii: npt.NDArray[np.float32]) -
         )
         yield {
             "point3 P": pieces,
-            "string type": "cylinder",
+            "string type": "round",
             "float width0": 2 * float(radii[i]),
             "float width1": 2 * float(radii[i + 1]),
         }

@@ -110,7 +110,7 @@ def _pieces(beziers: Matrix, widths: Matrix) -> Iterator[Parameters]:
     if np.ptp(widths) == 0:
         # Pieces share their ends.
         points = np.concatenate([beziers[:, :3].reshape(-1, 3), beziers[-1:, 3]])
-        yield {"string type": "cylinder", "point3 P": points, "float width": widths[0, 0]}
+        yield {"string type": "round", "point3 P": points, "float width": widths[0, 0]}
         return
     for points, (width0, width1) in zip(beziers, widths):
-        yield {"string type": "cylinder", "point3 P": points, "float width0": width0, "float width1": width1}
+        yield {"string type": "round", "point3 P": points, "float width0": width0, "float width1": width1}

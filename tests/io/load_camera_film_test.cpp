@@ -3,6 +3,7 @@
 
 #include <wend/io/spectrum/white_balance.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -99,6 +100,39 @@ TEST(LoadCamera, SphericalMappings) {
     const LoadedScene square =
         load_text("", "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 Camera \"spherical\"");
     expect_near(direction_at(square, 4, 4), {0, 1, 0});
+}
+
+TEST(LoadCamera, Panoramas) {
+    const auto load = [](const std::string& parameters) {
+        return load_text("", small_film + "Camera \"panorama\" " + parameters);
+    };
+    // The whole sphere, its middle ahead.
+    const LoadedScene sphere = load("");
+    expect_near(direction_at(sphere, 100, 50), {0, 0, 1});
+    expect_near(direction_at(sphere, 150, 50), {1, 0, 0});
+    // The field of view is that of the shorter side.
+    for (const char* mapping : {"equidistant", "equisolid"}) {
+        const LoadedScene fisheye = load(fmt::format("\"string mapping\" \"{}\" \"float fov\" 120", mapping));
+        expect_near(direction_at(fisheye, 100, 0), normalize(Vec3(0, std::sin(pi / 3), std::cos(pi / 3))));
+        EXPECT_EQ(fisheye.scene.camera.ray({151, 50}, {0.5f, 0.5f}).weight, 0);
+    }
+    const LoadedScene polynomial = load(
+        "\"string mapping\" \"polynomial\" \"float coefficients\" [ 0 0.1 ] \"float screenwindow\" [ -10 10 -5 5 ]");
+    expect_near(direction_at(polynomial, 150, 50), {std::sin(0.5f), 0, std::cos(0.5f)});
+}
+
+TEST(LoadCamera, RefusesPanoramasWithoutAMeaning) {
+    const auto message = [](const std::string& parameters) {
+        return message_of([&] { load_text("", "Camera \"panorama\" \"string mapping\" " + parameters); });
+    };
+    EXPECT_PRED2(contains, message("\"mercator\""), "mapping \"mercator\" is unknown; known are cubeface");
+    EXPECT_PRED2(contains, message("\"equidistant\" \"float fov\" 0"), "\"fov\" must lie above 0");
+    EXPECT_PRED2(contains, message("\"equidistant\" \"float fov\" 1e30"), "\"fov\" must lie above 0");
+    EXPECT_PRED2(contains, message("\"equisolid\" \"float fov\" 361"), "at most 360 degrees");
+    EXPECT_PRED2(contains, message("\"polynomial\""), "one to five finite \"coefficients\"");
+    EXPECT_PRED2(contains, message("\"polynomial\" \"float coefficients\" [ 0 1 ]"), "needs a \"screenwindow\"");
+    EXPECT_PRED2(contains, message("\"cubeface\" \"float screenwindow\" [ -2 1 -1 1 ]"), "ends before pi / 2");
+    EXPECT_PRED2(contains, message("\"mirrorball\" \"float lensradius\" -1"), "lensradius");
 }
 
 TEST(LoadCamera, StartsInItsMedium) {

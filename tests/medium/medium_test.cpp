@@ -64,5 +64,42 @@ TEST(GridEmission, InterpolatesTheBlackBodyTable) {
     EXPECT_EQ(emission.at(p), Rgb(0));
 }
 
+std::shared_ptr<GridEmission> glow_of_temperatures(float kelvin) {
+    auto glow = std::make_shared<GridEmission>();
+    glow->is_apart = true;
+    glow->radiance = Rgb(1);
+    glow->field = constant_grid(kelvin);
+    glow->field_from_world = AffineMap(Transform());
+    glow->black_body = {Rgb(0.25f), Rgb(1, 2, 3), Rgb(5, 6, 7)};
+    glow->black_body_step = 1000;
+    return glow;
+}
+
+TEST(GridEmission, WhatShinesApartDoesSoWhereNothingIsHotOrDense) {
+    const Vec3 inside(1, 1, 1), outside(9, 9, 9);
+    const auto cold = glow_of_temperatures(50), hot = glow_of_temperatures(1500);
+    EXPECT_EQ(cold->at(inside), Rgb(0.25f)) << "its table begins below 100 K";
+    EXPECT_EQ(hot->at(outside), Rgb(0.25f));
+    EXPECT_LT(max_value(hot->at(inside) - Rgb(3, 4, 5)), 1e-5f);
+    EXPECT_GT(min_value(hot->at(inside) - Rgb(3, 4, 5)), -1e-5f);
+
+    // Neither absorption nor density is in what is emitted; of a medium that shines by absorbing, both are.
+    const auto plain = std::make_shared<GridEmission>(*hot);
+    plain->is_apart = false;
+    const Box3 box(Vec3(0), Vec3(3));
+    const auto medium = [&](std::shared_ptr<const GridEmission> emission) {
+        return GridMedium(constant_grid(0.5f), Transform(), box, Rgb(0.2f), Rgb(1), PhaseFunction(),
+                          std::move(emission));
+    };
+    EXPECT_EQ(medium(hot).emitted_at(inside), hot->at(inside));
+    EXPECT_EQ(medium(plain).emitted_at(inside), Rgb(0.2f) * plain->at(inside) * 0.5f);
+    // Only what absorbs is dark where there is nothing to absorb.
+    const auto clear = [&](std::shared_ptr<const GridEmission> emission) {
+        return GridMedium(constant_grid(0.5f), Transform(), box, Rgb(0), Rgb(1), PhaseFunction(), std::move(emission));
+    };
+    EXPECT_NE(clear(hot).glow(), nullptr);
+    EXPECT_EQ(clear(plain).glow(), nullptr);
+}
+
 }  // namespace
 }  // namespace wend

@@ -80,6 +80,30 @@ TEST(Curve, CylindersHaveRoundNormals) {
     }
 }
 
+TEST(Curve, TubesAreMetWhereTheyAre) {
+    const Scene scene = scene_of(straight(CurveSet::Kind::round));
+    Pcg32 random(4);
+    int hits = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 from = to_sphere(random.uniform2()) * 3.0f, to = to_sphere(random.uniform2()) * 0.5f;
+        const Vec3 w = normalize(to - from);
+        // Those along the axis come in by an end; exact down to 30 degrees.
+        if (std::hypot(w.y, w.z) < 0.501f) {
+            continue;
+        }
+        if (const auto hit = scene.intersect({from, w})) {
+            ++hits;
+            const Vec3 p = hit->position;
+            EXPECT_NEAR(std::hypot(p.y, p.z), 0.25f, 1e-4f);
+            // Inside, as of all curves.
+            EXPECT_LT(length(hit->normal + Vec3(0, p.y, p.z) / 0.25f), 1e-2f);
+            EXPECT_FALSE(scene.is_occluded({p, -hit->normal}, 10))
+                << "a tube does not shadow what it turns to the light";
+        }
+    }
+    EXPECT_GT(hits, 1000);
+}
+
 TEST(Curve, RibbonsLieInTheirPlane) {
     const Scene scene = scene_of(straight(CurveSet::Kind::ribbon));
     Pcg32 random(2);
@@ -101,7 +125,8 @@ TEST(Curve, RibbonsLieInTheirPlane) {
 }
 
 TEST(Curve, IsNotMetAgainWhereARayLeavesIt) {
-    for (const auto kind : {CurveSet::Kind::flat, CurveSet::Kind::cylinder, CurveSet::Kind::ribbon}) {
+    for (const auto kind :
+         {CurveSet::Kind::flat, CurveSet::Kind::cylinder, CurveSet::Kind::ribbon, CurveSet::Kind::round}) {
         const Scene scene = scene_of(bent(kind));
         Pcg32 random(3);
         int hits = 0, at_once = 0, later = 0;

@@ -1,3 +1,4 @@
+#include <wend/core/frame.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>
@@ -7,10 +8,6 @@
 
 namespace wend {
 namespace {
-
-Vec2 on_screen(const ScreenWindow& s, const Vec2& p) {
-    return {s.x_min + p.x * (s.x_max - s.x_min), s.y_max - p.y * (s.y_max - s.y_min)};
-}
 
 /// Through a lens of the given radius, focused on the plane z = focal distance.
 Ray through_lens(const Ray& pinhole, float lens_radius, float focal_distance, const Vec2& u) {
@@ -24,12 +21,12 @@ Ray through_lens(const Ray& pinhole, float lens_radius, float focal_distance, co
 }
 
 CameraRay local_ray(const PerspectiveCamera& c, const Vec2& p, const Vec2& lens) {
-    const Vec2 s = on_screen(c.screen, p);
+    const Vec2 s = c.screen.at(p);
     return {through_lens({{0, 0, 0}, normalize(Vec3(s.x, s.y, 1))}, c.lens_radius, c.focal_distance, lens)};
 }
 
 CameraRay local_ray(const OrthographicCamera& c, const Vec2& p, const Vec2& lens) {
-    const Vec2 s = on_screen(c.screen, p);
+    const Vec2 s = c.screen.at(p);
     return {through_lens({{s.x, s.y, 0}, {0, 0, 1}}, c.lens_radius, c.focal_distance, lens)};
 }
 
@@ -50,6 +47,22 @@ CameraRay local_ray(const SphericalCamera& c, const Vec2& p, const Vec2&) {
     }
     // The mappings have z up, the camera y.
     return {{{0, 0, 0}, {d.x, d.z, d.y}}};
+}
+
+/// With a lens across the ray, so that what is in focus is on a sphere.
+CameraRay local_ray(const PanoramicCamera& camera, const Vec2& p, const Vec2& lens) {
+    const Panorama& c = *camera.panorama;
+    const std::optional<Vec3> direction = c.direction(p);
+    if (!direction) {
+        return {{{0, 0, 0}, {0, 0, 1}}, 0};
+    }
+    if (!(c.lens_radius > 0)) {
+        return {{{0, 0, 0}, *direction}};
+    }
+    const Frame across = Frame::from_z(*direction);
+    const Vec2 at = to_disk(lens) * c.lens_radius;
+    const Vec3 origin = across.to_world({at.x, at.y, 0});
+    return {{origin, normalize(*direction * c.focal_distance - origin)}};
 }
 
 CameraRay local_ray(const RealisticCamera& c, const Vec2& p, const Vec2& lens) {

@@ -6,17 +6,13 @@
 #include <wend/core/ray.h>
 #include <wend/core/view_matrices.h>
 #include <wend/scene/lens_system.h>
+#include <wend/scene/panorama.h>
 
 #include <memory>
 #include <optional>
 #include <variant>
 
 namespace wend {
-
-/// A rectangle in the camera's image plane.
-struct ScreenWindow {
-    float x_min = -1, x_max = 1, y_min = -1, y_max = 1;
-};
 
 /// A thin lens; a pinhole where the radius is 0. The camera looks along +z.
 struct PerspectiveCamera {
@@ -44,6 +40,11 @@ struct RealisticCamera {
     Vec2 film_size;  ///< in metres
 };
 
+/// A film that sees around.
+struct PanoramicCamera {
+    std::shared_ptr<const Panorama> panorama;
+};
+
 /// A ray with what its radiance counts for.
 struct CameraRay : Ray {
     float weight = 1;  ///< 0: nothing gets to the film, and the ray is any
@@ -64,7 +65,7 @@ struct Shutter {
 
 class Camera {
 public:
-    using Kind = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, RealisticCamera>;
+    using Kind = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, RealisticCamera, PanoramicCamera>;
 
     Camera() = default;
     /// `width` and `height` are the full picture's in pixels.

@@ -46,6 +46,10 @@ struct Range {
     float at(float w) const { return begin + (end - begin) * w; }
 };
 
+/// The least sine of the angle between a ray and the axis of a tube at which it is met where it is; rays along the axis
+/// come in by an end, or are inside for long.
+constexpr float steepest = 0.5f;
+
 float largest_width(const CurveSegment& segment, const Range& range) {
     return std::max(segment.width_at(range.begin), segment.width_at(range.end));
 }
@@ -119,11 +123,13 @@ private:
     }
 
     bool is_missed(const Bezier& c, float margin) const {
-        const auto apart = [&](int axis, float low, float high) {
+        const auto apart = [&](int axis, float low, float high, float room) {
             const auto [least, most] = std::minmax({c[0][axis], c[1][axis], c[2][axis], c[3][axis]});
-            return least - margin > high || most + margin < low;
+            return least - room > high || most + room < low;
         };
-        return apart(0, 0, 0) || apart(1, 0, 0) || apart(2, t_min_ * length_, t_max_ * length_);
+        // A slanted ray is in a tube long before it is at the axis.
+        const float before = curves_.kind == CurveSet::Kind::round ? margin / steepest : margin;
+        return apart(0, 0, 0, margin) || apart(1, 0, 0, margin) || apart(2, t_min_ * length_, t_max_ * length_, before);
     }
 
     /// A part that is as good as straight.
@@ -141,14 +147,24 @@ private:
         const float width = seen_width(u);
         const Vec3 middle = value(c, w);
         const float distance = std::hypot(middle.x, middle.y);
-        const float t = middle.z / length_;
-        if (!(distance <= 0.5f * width) || !(t > t_min_ && t < t_max_) || !accepted_(t)) {
+        if (!(distance <= 0.5f * width)) {
             return;
         }
         const Vec3 along = derivative(c, w);
+        const float before = curves_.kind == CurveSet::Kind::round ? depth_of_tube(along, distance, 0.5f * width) : 0;
+        const float t = (middle.z - before) / length_;
+        if (!(t > t_min_ && t < t_max_) || !accepted_(t)) {
+            return;
+        }
         const float side = along.y * middle.x > along.x * middle.y ? 1.0f : -1.0f;
         t_max_ = t;
         found_ = CurveCrossing{t, u, width > 0 ? std::clamp(0.5f + side * distance / width, 0.0f, 1.0f) : 0.5f};
+    }
+
+    /// How far before the axis a ray enters a tube whose axis it misses by a distance.
+    static float depth_of_tube(const Vec3& along, float distance, float radius) {
+        const float sine = std::hypot(along.x, along.y) / length(along);
+        return std::sqrt(std::max(radius * radius - distance * distance, 0.0f)) / std::max(sine, steepest);
     }
 
     float seen_width(float u) const {
@@ -210,8 +226,10 @@ CurvePoint curve_point(const CurveSet& curves, std::uint32_t primitive, float u,
         point.normal = n - tangent * dot(n, tangent);
     } else {
         point.normal = normalize(way - tangent * dot(way, tangent));
-        if (curves.kind == CurveSet::Kind::cylinder) {
-            const float angle = (v - 0.5f) * pi;
+        if (curves.kind != CurveSet::Kind::flat) {
+            const bool is_tube = curves.kind == CurveSet::Kind::round;
+            // All of a tube's point inside, as in its middle.
+            const float angle = is_tube ? std::asin(std::clamp(1 - 2 * v, -1.0f, 1.0f)) : (v - 0.5f) * pi;
             point.normal = point.normal * std::cos(angle) + normalize(cross(way, tangent)) * std::sin(angle);
         }
     }
@@ -228,7 +246,9 @@ Box3 bounds(const CurveSet& curves, std::uint32_t primitive) {
     for (const Vec3& p : part(segment.points, range.begin, range.end)) {
         box.extendBy(p);
     }
-    const Vec3 margin(0.5f * largest_width(segment, range));
+    const float radius = 0.5f * largest_width(segment, range);
+    // Where a tube is met is that far from the point of its axis that tells.
+    const Vec3 margin(curves.kind == CurveSet::Kind::round ? radius / steepest : radius);
     return {box.min - margin, box.max + margin};
 }
 

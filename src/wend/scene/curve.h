@@ -30,7 +30,8 @@ struct CurveSet {
     enum class Kind {
         flat,      ///< ribbons that face whatever ray meets them
         cylinder,  ///< the same, with the normals of a cylinder
-        ribbon     ///< ribbons with normals of their own
+        ribbon,    ///< ribbons with normals of their own
+        round      ///< tubes
     };
 
     Kind kind = Kind::flat;

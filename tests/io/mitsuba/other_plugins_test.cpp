@@ -37,7 +37,7 @@ std::vector<Plugin> plugins() {
     };
     add("bsdf", {"circular", "hair", "measured", "measured_polarized", "polarizer", "principledthin", "retarder"},
         [&](const std::string& type) { return on_a_sphere(plain("bsdf", type)); });
-    add("shape", {"bsplinecurve", "linearcurve", "ellipsoids", "ellipsoidsmesh", "sdfgrid"},
+    add("shape", {"ellipsoids", "ellipsoidsmesh", "sdfgrid"},
         [&](const std::string& type) { return plain("shape", type); });
     add("emitter", {"sunsky", "timed_sunsky", "volume"},
         [&](const std::string& type) { return plain("emitter", type); });

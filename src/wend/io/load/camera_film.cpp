@@ -1,5 +1,6 @@
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/lenses.h>
+#include <wend/io/load/panoramas.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/spectrum/colour_space.h>
 #include <wend/io/spectrum/white_balance.h>
@@ -61,20 +62,29 @@ PixelRect load_crop_window(const pbrt::ParameterSet& parameters, const std::vect
     return rect;
 }
 
-ScreenWindow load_screen_window(const pbrt::ParameterSet& parameters, const Vec2i& resolution) {
+float load_aspect(const pbrt::ParameterSet& parameters, const Vec2i& resolution) {
+    return positive_float(parameters, "frameaspectratio",
+                          static_cast<float>(resolution.x) / static_cast<float>(resolution.y));
+}
+
+/// The file's own, if there is one.
+std::optional<ScreenWindow> load_screen_window(const pbrt::ParameterSet& parameters) {
     const std::vector<float> window = exactly(parameters, "screenwindow", parameters.get_floats("screenwindow"), 4);
-    const float aspect = positive_float(parameters, "frameaspectratio",
-                                        static_cast<float>(resolution.x) / static_cast<float>(resolution.y));
     if (window.empty()) {
-        const float x = std::max(aspect, 1.0f);
-        const float y = std::max(1 / aspect, 1.0f);
-        return {-x, x, -y, y};
+        return std::nullopt;
     }
     const bool finite = std::all_of(window.begin(), window.end(), [](float v) { return std::isfinite(v); });
     if (!finite || window[0] == window[1] || window[2] == window[3]) {
         throw InputError(parameters.place_of("screenwindow"), "\"screenwindow\" is empty");
     }
-    return {window[0], window[1], window[2], window[3]};
+    return ScreenWindow{window[0], window[1], window[2], window[3]};
+}
+
+/// The shorter side is from -1 to 1.
+ScreenWindow screen_window_of(float aspect) {
+    const float x = std::max(aspect, 1.0f);
+    const float y = std::max(1 / aspect, 1.0f);
+    return {-x, x, -y, y};
 }
 
 PerspectiveCamera load_perspective(const pbrt::ParameterSet& parameters, const ScreenWindow& screen) {
@@ -196,7 +206,9 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
                    const FilmSettings& film) {
     const pbrt::ParameterSet& p = camera.parameters;
     const Vec2i resolution = film.resolution;
-    const ScreenWindow screen = load_screen_window(p, resolution);
+    const float aspect = load_aspect(p, resolution);
+    const std::optional<ScreenWindow> window = load_screen_window(p);
+    const ScreenWindow screen = window.value_or(screen_window_of(aspect));
     Camera::Kind kind;
     if (camera.type == "perspective") {
         kind = load_perspective(p, screen);
@@ -205,11 +217,13 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
                                   positive_float(p, "focaldistance", 1e6f)};
     } else if (camera.type == "spherical") {
         kind = load_spherical(p);
+    } else if (camera.type == "panorama") {
+        kind = PanoramicCamera{std::make_shared<const Panorama>(load_panorama(p, window, aspect))};
     } else if (camera.type == "realistic") {
         const float width = static_cast<float>(resolution.x), height = static_cast<float>(resolution.y);
         kind = load_realistic(context, camera, Vec2(width, height) * (film.diagonal / std::hypot(width, height)));
     } else {
-        refuse_type("Camera", camera, {"perspective", "orthographic", "spherical", "realistic"});
+        refuse_type("Camera", camera, {"perspective", "orthographic", "panorama", "spherical", "realistic"});
     }
     static_cast<void>(shutter_time(camera));
     context.warnings.add_unused("Camera", camera);

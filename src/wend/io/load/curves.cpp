@@ -66,11 +66,20 @@ Points bezier_points(const Layout& layout, const std::vector<Vec3>& points, std:
 
 CurveSet::Kind load_kind(const pbrt::ParameterSet& p) {
     const std::string type = p.get_string("type", "flat");
-    if (type != "flat" && type != "cylinder" && type != "ribbon") {
-        throw InputError(p.place_of("type"),
-                         fmt::format("the type of curve \"{}\" is unknown; known are flat, cylinder, ribbon", type));
+    if (type == "flat") {
+        return CurveSet::Kind::flat;
     }
-    return type == "flat" ? CurveSet::Kind::flat : type == "ribbon" ? CurveSet::Kind::ribbon : CurveSet::Kind::cylinder;
+    if (type == "cylinder") {
+        return CurveSet::Kind::cylinder;
+    }
+    if (type == "ribbon") {
+        return CurveSet::Kind::ribbon;
+    }
+    if (type == "round") {
+        return CurveSet::Kind::round;
+    }
+    throw InputError(p.place_of("type"),
+                     fmt::format("the type of curve \"{}\" is unknown; known are flat, cylinder, ribbon, round", type));
 }
 
 /// Of ribbons, one at each end of a segment.

@@ -1,5 +1,6 @@
 #include <wend/core/error.h>
 #include <wend/core/frame.h>
+#include <wend/io/mitsuba/curves.h>
 #include <wend/io/mitsuba/emitters.h>
 #include <wend/io/mitsuba/meshes.h>
 #include <wend/io/mitsuba/shapes.h>
@@ -30,6 +31,10 @@ bool has_texture(const Object& object, int depth = 0) {
 bool is_mesh(const Object& shape) {
     return is_one_of(shape.type(), {"cube", "obj", "ply", "rectangle", "serialized"}) ||
            (shape.type() == "disk" && has_texture(shape));
+}
+
+bool is_curve(const Object& shape) {
+    return is_one_of(shape.type(), {"bsplinecurve", "linearcurve"});
 }
 
 /// Of the map from the unit sphere, disk or cylinder, whose axis is z.
@@ -70,6 +75,16 @@ Quadric quadric_of(const Object& shape, Parameters& p) {
                                         : Quadric{"disk", shape.transform("to_world")};
 }
 
+/// Null for curves, too: they never shine.
+const Element* emitter_of(const Object& shape) {
+    const Element* emitter = shape.nested_one("emitter");
+    if (emitter && is_curve(shape)) {
+        shape.context().warn(emitter->place, fmt::format("{} does not shine: it is dark", shape.title()));
+        return nullptr;
+    }
+    return emitter;
+}
+
 }  // namespace
 
 void Shapes::add(const Element& element) {
@@ -80,7 +95,7 @@ void Shapes::add(const Element& element) {
     ++depth_;
     const Object shape(context_, element);
     const std::string_view type = shape.type();
-    if (is_mesh(shape) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
+    if (is_mesh(shape) || is_curve(shape) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
         add_object(shape);
     } else if (type == "instance") {
         add_instance(shape);
@@ -90,13 +105,15 @@ void Shapes::add(const Element& element) {
         for (const Element* inner : shape.nested("shape")) {
             add(*inner);
         }
-    } else if (is_one_of(type, {"bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"})) {
+    } else if (is_one_of(type, {"ellipsoids", "ellipsoidsmesh", "sdfgrid"})) {
         context_.warn(shape.place(), fmt::format("{} is not implemented: it is left out", shape.title()));
         --depth_;
         return;
     } else {
-        refuse_type(shape,
-                    "cube, cylinder, disk, instance, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
+        refuse_type(
+            shape,
+            "bsplinecurve, cube, cylinder, disk, instance, linearcurve, merge, obj, ply, rectangle, serialized, "
+            "shapegroup, sphere");
     }
     shape.warn_of_unused();
     --depth_;
@@ -113,12 +130,14 @@ void Shapes::add_object(const Object& shape) {
             return;
         }
         set_mesh(mesh, p);
+    } else if (is_curve(shape)) {
+        type = "curve";
     } else {
         Quadric quadric = quadric_of(shape, p);
         type = std::move(quadric.type);
         to_world = quadric.to_world;
     }
-    const Element* emitter = shape.nested_one("emitter");
+    const Element* emitter = emitter_of(shape);
     const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr);
     if (shape.element().has("id")) {
         p.text("name", std::string(shape.element().attribute("id")));
@@ -135,9 +154,13 @@ void Shapes::add_object(const Object& shape) {
         return element ? media_.name_of(*element) : std::string();
     };
     const std::string interior = medium("interior"), exterior = medium("exterior");
-    // pbrt turns normals where a transform mirrors; Mitsuba's stay outside.
-    const bool is_turned = shape.flag("flip_normals", false) != to_world.swaps_handedness();
+    // pbrt turns normals where a transform mirrors, and has those of curves inside; Mitsuba's stay outside.
+    const bool is_turned = is_curve(shape) || shape.flag("flip_normals", false) != to_world.swaps_handedness();
     shape.ignore("silhouette_sampling_weight");
+    std::vector<pbrt::ParameterSet> pieces{p.take()};
+    if (is_curve(shape)) {
+        pieces = curves_of(shape, pieces.front());
+    }
     in_block(context_, to_world, shape.place(), [&] {
         pbrt::DescriptionBuilder& builder = context_.builder;
         builder.named_material(look.material, shape.place());
@@ -148,7 +171,9 @@ void Shapes::add_object(const Object& shape) {
         if (is_turned) {
             builder.reverse_orientation(shape.place());
         }
-        builder.shape(type, p.take(), shape.place());
+        for (pbrt::ParameterSet& piece : pieces) {
+            builder.shape(type, std::move(piece), shape.place());
+        }
     });
 }
 
