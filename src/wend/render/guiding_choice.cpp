@@ -35,22 +35,6 @@ constexpr double watched_share = 1.0 / 64;
 /// What an older field has shown counts so much less with each pass.
 constexpr double age = 1.0 / 16;
 
-/// What all of so many cells have shown over what was expected of them; `cell` gives both for each.
-template <class Cell>
-double factor_of(std::size_t cells, const Cell& cell, double where_nothing_is_expected) {
-    double shown = 0, expected = 0;
-    for (std::size_t i = 0; i < cells; ++i) {
-        const auto [more_shown, more_expected] = cell(i);
-        shown += more_shown;
-        expected += more_expected;
-    }
-    return expected > 0 ? shown / expected : where_nothing_is_expected;
-}
-
-/// Each factor in turn from the other ones. That would not settle if the few walks of a trial were nothing beside the
-/// many of the tile's best kind.
-constexpr double most_walks = 256;
-
 WalkShares all_of(std::size_t kind) {
     WalkShares shares{};
     shares[kind] = 1;
@@ -58,35 +42,6 @@ WalkShares all_of(std::size_t kind) {
 }
 
 }  // namespace
-
-WalkTally PixelWalks::tally() const {
-    if (count_ < 2) {
-        return {};
-    }
-    const double variance = std::max(0.0, squares_ - sum_ * sum_ / count_) / (count_ - 1);
-    const double squared_mean = (sum_ * sum_ - squares_) / (count_ * (count_ - 1));
-    const double walks = weight_ * count_;
-    return {walks,
-            weight_ * sum_,
-            walks * variance,
-            walks * scale_ * scale_ * variance,
-            weight_ * work_,
-            walks * scale_ * scale_ * (unguided_ / count_ - squared_mean)};
-}
-
-WalkTally& WalkTally::operator+=(const WalkTally& o) {
-    walks += o.walks;
-    value += o.value;
-    spread += o.spread;
-    square += o.square;
-    work += o.work;
-    unguided += o.unguided;
-    return *this;
-}
-
-WalkTally WalkTally::scaled(double factor) const {
-    return {factor * walks, factor * value, factor * spread, factor * square, factor * work, factor * unguided};
-}
 
 GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles,
                              double pixels)
@@ -136,35 +91,7 @@ double GuidingChoice::cost_of_segment(const WalkKind& kind) {
            (guided.guides_distance() ? 0.2 : 0.0);
 }
 
-GuidingChoice::Products GuidingChoice::products_of(const std::vector<WalkTallies>& tallies, std::size_t kinds,
-                                                   double WalkTally::*what) {
-    constexpr int rounds = 50;
-    Products p;
-    p.tile.assign(tallies.size(), 1);
-    // Shown, and expected by the other factor.
-    const auto cell = [&](std::size_t tile, std::size_t kind, double other) {
-        const WalkTally& tally = tallies[tile][kind];
-        const double weight = std::min(tally.walks, most_walks);
-        return std::pair(tally.walks > 0 ? tally.*what * (weight / tally.walks) : 0.0, weight * other);
-    };
-    for (int round = 0; round < rounds; ++round) {
-        for (std::size_t kind = 0; kind < kinds; ++kind) {
-            p.kind[kind] = factor_of(
-                p.tile.size(), [&](std::size_t tile) { return cell(tile, kind, p.tile[tile]); }, 0);
-        }
-        for (std::size_t tile = 0; tile < p.tile.size(); ++tile) {
-            p.tile[tile] = factor_of(
-                kinds, [&](std::size_t kind) { return cell(tile, kind, p.kind[kind]); }, 1);
-        }
-    }
-    return p;
-}
-
-GuidingChoice::Products GuidingChoice::products(double WalkTally::*what) const {
-    return products_of(tallies_, kinds_.size(), what);
-}
-
-GuidingChoice::Products GuidingChoice::unguided_squares() const {
+TallyProducts GuidingChoice::unguided_squares() const {
     std::vector<WalkTallies> by_base(tallies_.size());
     for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
@@ -177,39 +104,20 @@ GuidingChoice::Products GuidingChoice::unguided_squares() const {
             base.unguided = std::max(base.unguided, 0.0);
         }
     }
-    Products p = products_of(by_base, most_walk_kinds, &WalkTally::unguided);
+    TallyProducts p(by_base, most_walk_kinds, &WalkTally::unguided);
     // Guides of dense media do not make walks noisier. Few walks without them may have met less of what all have.
     p.kind[0] = std::max(p.kind[0], p.kind[base_of(kinds_.size() - 1)]);
     return p;
 }
 
-std::array<double, most_walk_kinds> GuidingChoice::ratios() const {
-    std::array<double, most_walk_kinds> ratios{};
+TallyProducts GuidingChoice::squared_errors(const TallyProducts& unguided) const {
+    TallyProducts squares = unguided;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        ratios[kind] = std::max(
-            0.0, factor_of(
-                     tallies_.size(),
-                     [&](std::size_t tile) {
-                         const WalkTally& tally = tallies_[tile][kind];
-                         const double weight = tally.walks > 0 ? std::min(tally.walks, most_walks) / tally.walks : 0.0;
-                         return std::pair(weight * tally.square, weight * tally.unguided);
-                     },
-                     1));
+        // By its own walks, which share most of their noise.
+        squares.kind[kind] =
+            unguided.kind[base_of(kind)] * tally_ratio(tallies_, kind, &WalkTally::square, &WalkTally::unguided);
     }
-    return ratios;
-}
-
-double GuidingChoice::Products::mean_of_tiles() const {
-    return std::accumulate(tile.begin(), tile.end(), 0.0) / static_cast<double>(tile.size());
-}
-
-GuidingChoice::Products GuidingChoice::squared_errors(const Products& unguided) const {
-    Products squares = unguided;
-    const std::array<double, most_walk_kinds> ratios = this->ratios();
-    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        squares.kind[kind] = unguided.kind[base_of(kind)] * ratios[kind];
-    }
-    const Products values = products(&WalkTally::value), spreads = products(&WalkTally::spread);
+    const TallyProducts values = products(&WalkTally::value), spreads = products(&WalkTally::spread);
     const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles(), spread = spreads.mean_of_tiles();
     std::array<double, most_walk_kinds> walks{};
     for (const WalkTallies& tile : tallies_) {
@@ -222,7 +130,7 @@ GuidingChoice::Products GuidingChoice::squared_errors(const Products& unguided) 
     }
     // All kinds bring the same in the mean. What one lacks of another, beyond chance, it finds in less than one of its
     // walks, and then all of it at once.
-    const Products shown = squares;
+    const TallyProducts shown = squares;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
         for (std::size_t other = 0; other < kinds_.size(); ++other) {
             if (walks[kind] == 0 || walks[other] == 0) {
@@ -242,7 +150,7 @@ GuidingChoice::Products GuidingChoice::squared_errors(const Products& unguided) 
 }
 
 std::array<GuidingChoice::Means, most_walk_kinds> GuidingChoice::means() const {
-    const Products squares = squared_errors(unguided_squares()), work = products(&WalkTally::work);
+    const TallyProducts squares = squared_errors(unguided_squares()), work = products(&WalkTally::work);
     double value = 0, walks = 0;
     for (const WalkTallies& tile : tallies_) {
         for (const WalkTally& tally : tile) {
@@ -305,54 +213,36 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         return false;
     }
     remember(pass, learns);
-    for (std::size_t k = 0; k < kinds_.size(); ++k) {
-        WalkTally a, b;
-        for (auto& t : pass)
-            a += t[k];
-        for (auto& t : tallies_)
-            b += t[k];
-        std::fprintf(stderr,
-                     "%d kind %zu pass walks %.0f value %.4g square %.4g unguided %.4g work %.3g | all walks %.0f "
-                     "square %.4g unguided %.4g\n",
-                     samples, k, a.walks, a.value / a.walks, a.square / a.walks, a.unguided / a.walks, a.work / a.walks,
-                     b.walks, b.square / b.walks, b.unguided / b.walks);
+    if (state_ == State::classical) {
+        state_ = State::probe;
+        return true;
     }
-}
-if (state_ == State::classical) {
-    state_ = State::probe;
-    return true;
-}
-const bool shows_directed = this->shows_directed(pass);
-const bool is_open = state_ == State::probe && samples < warm_up_samples;
-if ((state_ == State::trial || is_open) && !shows_directed) {
-    return false;
-}
-const Products unguided = unguided_squares(), squares = squared_errors(unguided), work = products(&WalkTally::work);
-const auto price = [&](std::size_t kind) { return squares.kind[kind] * work.kind[kind]; };
-gain_ = 0;
-for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
-    gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
-}
-if (state_ == State::probe) {
-    const bool is_plain = shows_directed && gain_ > plain;
-    if (is_open && !is_plain) {
+    const bool shows_directed = this->shows_directed(pass);
+    const bool is_open = state_ == State::probe && samples < warm_up_samples;
+    if ((state_ == State::trial || is_open) && !shows_directed) {
         return false;
     }
-    begin_trial(!is_plain);
-    return true;
-}
-auto r = ratios();
-for (std::size_t k = 0; k < kinds_.size(); ++k)
-    std::fprintf(stderr, "  kind %zu ratio %.3g square %.3g work %.3g price %.3g\n", k, r[k], squares.kind[k],
-                 work.kind[k], price(k));
-std::fprintf(stderr, "gain %.3g state %d\n", gain_, (int)state_);
-}
-const std::vector<WalkShares> before = shares_;
-state_ = State::chosen;
-for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
-    shares_[tile] = chosen_for(tile, unguided, squares, work, learns);
-}
-return shares_ != before;
+    const TallyProducts unguided = unguided_squares(), squares = squared_errors(unguided),
+                        work = products(&WalkTally::work);
+    const auto price = [&](std::size_t kind) { return squares.kind[kind] * work.kind[kind]; };
+    gain_ = 0;
+    for (std::size_t kind = 1; kind < kinds_.size(); ++kind) {
+        gain_ = std::max(gain_, price(kind) > 0 ? price(0) / price(kind) : 0.0);
+    }
+    if (state_ == State::probe) {
+        const bool is_plain = shows_directed && gain_ > plain;
+        if (is_open && !is_plain) {
+            return false;
+        }
+        begin_trial(!is_plain);
+        return true;
+    }
+    const std::vector<WalkShares> before = shares_;
+    state_ = State::chosen;
+    for (std::size_t tile = 0; tile < shares_.size(); ++tile) {
+        shares_[tile] = chosen_for(tile, unguided, squares, work, learns);
+    }
+    return shares_ != before;
 }
 
 bool GuidingChoice::guides(int samples) const {
@@ -414,7 +304,7 @@ double GuidingChoice::directed_share(int samples) const {
     return directed / static_cast<double>(shares_.size());
 }
 
-double GuidingChoice::unguided_square(std::size_t tile, std::size_t base, const Products& unguided) const {
+double GuidingChoice::unguided_square(std::size_t tile, std::size_t base, const TallyProducts& unguided) const {
     WalkTally shown;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
         if (base_of(kind) == base) {
@@ -423,11 +313,12 @@ double GuidingChoice::unguided_square(std::size_t tile, std::size_t base, const 
     }
     const double square =
         (std::max(shown.unguided, 0.0) + walks_of_picture * unguided.at(tile, base)) / (shown.walks + walks_of_picture);
-    return base == 0 && base_of(1) == 1 ? std::max(square, unguided_square(tile, 1, unguided)) : square;
+    const bool has_guided_media = base_of(kinds_.size() - 1) == 1;
+    return base == 0 && has_guided_media ? std::max(square, unguided_square(tile, 1, unguided)) : square;
 }
 
-WalkShares GuidingChoice::chosen_for(std::size_t tile, const Products& unguided, const Products& squares,
-                                     const Products& work, bool learns) const {
+WalkShares GuidingChoice::chosen_for(std::size_t tile, const TallyProducts& unguided, const TallyProducts& squares,
+                                     const TallyProducts& work, bool learns) const {
     std::array<double, most_walk_kinds> variance{}, price{};
     std::size_t best = 0;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/render/preset.h>
+#include <wend/render/walk_tally.h>
 
 #include <array>
 #include <cstddef>
@@ -11,47 +12,6 @@
 
 namespace wend {
 
-/// What walks of one kind have shown in a tile.
-struct WalkTally {
-    double walks = 0;
-    double value = 0;   ///< sum of what they brought
-    double spread = 0;  ///< sum over the walks of the variance of what one brings
-    double square = 0;  ///< the same, as PixelWalks weighs it
-    double work = 0;    ///< counted: segments, each by what one costs (GuidingChoice::cost_of_segment)
-    /// What `square` would be, had they gone the same ways unguided but inside dense media
-    /// (WalkResult::unguided_square).
-    double unguided = 0;
-
-    WalkTally& operator+=(const WalkTally& o);
-    /// As if there had been fewer walks.
-    WalkTally scaled(double factor) const;
-};
-
-/// The walks of one kind that a pixel has in a pass.
-class PixelWalks {
-public:
-    /// Their errors are multiplied by `scale`: the picture's mean over what is expected of the pixel, since errors
-    /// count relative to their pixel. A walk counts for `weight` walks, the less the more the pixel has in a pass:
-    /// kinds that have walks in different passes are to be compared in the same pixels.
-    explicit PixelWalks(double scale = 1, double weight = 1) : scale_(scale), weight_(weight) {}
-
-    /// A walk that brought so much, by so much counted work; see WalkResult::unguided_square.
-    void add(float brought, double work, double unguided_square) {
-        const double x = static_cast<double>(brought);
-        ++count_;
-        sum_ += x;
-        squares_ += x * x;
-        work_ += work;
-        unguided_ += unguided_square;
-    }
-    /// Empty where one walk alone shows no variance.
-    WalkTally tally() const;
-
-private:
-    double scale_, weight_;
-    double count_ = 0, sum_ = 0, squares_ = 0, work_ = 0, unguided_ = 0;
-};
-
 /// Walks that are guided in the same way.
 struct WalkKind {
     Preset preset;
@@ -60,10 +20,8 @@ struct WalkKind {
     bool is_classical() const { return preset.is_classical() && !guides_dense_media; }
     friend bool operator==(const WalkKind&, const WalkKind&) = default;
 };
-inline constexpr std::size_t most_walk_kinds = 5;
 /// What a segment of a guided interior walk costs beyond others.
 inline constexpr double cost_of_interior_segment = 0.7;
-using WalkTallies = std::array<WalkTally, most_walk_kinds>;
 /// Of the walks of a tile, those of each kind; they add up to 1.
 using WalkShares = std::array<float, most_walk_kinds>;
 
@@ -133,15 +91,6 @@ public:
     }
 
 private:
-    /// What a kind shows in a tile, as a product of what is hard in the tile for all kinds and hard for the kind in all
-    /// tiles: kinds have walks in different tiles.
-    struct Products {
-        std::vector<double> tile;
-        std::array<double, most_walk_kinds> kind{};
-
-        double at(std::size_t t, std::size_t k) const { return tile[t] * kind[k]; }
-        double mean_of_tiles() const;
-    };
     void remember(std::span<const WalkTallies> pass, bool learns);
     /// Of the first walks of other kinds, the share of each in a pass of so many samples of each pixel; 0 where they
     /// would be too few.
@@ -150,20 +99,17 @@ private:
     void begin_trial(bool of_all);
     /// Whether each kind that takes directions from the fields has walks in a pass.
     bool shows_directed(std::span<const WalkTallies> pass) const;
-    static Products products_of(const std::vector<WalkTallies>& tallies, std::size_t kinds, double WalkTally::*what);
-    Products products(double WalkTally::*what) const;
+    TallyProducts products(double WalkTally::*what) const { return TallyProducts(tallies_, kinds_.size(), what); }
     /// The kind that guides the same dense media, and nothing else.
     std::size_t base_of(std::size_t kind) const { return kind > 0 && kinds_[1].guides_dense_media ? 1 : 0; }
     /// Of unguided walks, as those of every kind show it that has the same base.
-    Products unguided_squares() const;
-    /// Squared errors of each kind, over those of its base, as its own walks show both.
-    std::array<double, most_walk_kinds> ratios() const;
+    TallyProducts unguided_squares() const;
     /// Of squared errors, with those of light that a kind has not found yet.
-    Products squared_errors(const Products& unguided) const;
+    TallyProducts squared_errors(const TallyProducts& unguided) const;
     /// Of walks of a kind that is its own base, in a tile.
-    double unguided_square(std::size_t tile, std::size_t base, const Products& unguided) const;
-    WalkShares chosen_for(std::size_t tile, const Products& unguided, const Products& squares, const Products& work,
-                          bool learns) const;
+    double unguided_square(std::size_t tile, std::size_t base, const TallyProducts& unguided) const;
+    WalkShares chosen_for(std::size_t tile, const TallyProducts& unguided, const TallyProducts& squares,
+                          const TallyProducts& work, bool learns) const;
 
     double pixels_;
     std::vector<WalkKind> kinds_;
