@@ -2,6 +2,7 @@
 #include <tests/support/scenes.h>
 
 #include <wend/view/page.h>
+#include <wend/view/pixel_flight.h>
 #include <wend/view/pixel_report.h>
 #include <wend/view/questions.h>
 #include <wend/view/render_view.h>
@@ -160,6 +161,37 @@ TEST(Questions, ThePageNamesFilesThatThereAre) {
     }
 }
 
+TEST(Board, LayersAreWantedAsLongAsSomebodyLooksAtThem) {
+    Board board;
+    ShownPicture shown = small_picture();
+    board.show(0, shown);
+    const auto show_next = [&] {
+        ++shown.version;
+        board.show(0, shown);
+    };
+    board.want(0, shown.version, false);
+    EXPECT_FALSE(board.wants_layers(0));
+    board.want(0, shown.version, true);
+    for (int i = 0; i < 100; ++i) {
+        board.show(0, shown);
+        EXPECT_TRUE(board.wants_layers(0)) << "the same version answers nobody";
+    }
+    for (int i = 0; i < 10; ++i) {
+        show_next();
+        EXPECT_TRUE(board.wants_layers(0)) << "a slow viewer asks for every second version";
+        show_next();
+        EXPECT_TRUE(board.wants_layers(0));
+        board.want(0, shown.version, true);
+    }
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(board.wants_layers(0));
+        show_next();
+        board.want(0, shown.version, false);
+    }
+    EXPECT_FALSE(board.wants_layers(0)) << "who still looks looks at the beauty";
+    EXPECT_TRUE(board.is_wanted(0, shown.version));
+}
+
 TEST(PixelReport, ClassicalFlightsEndAsTheMediumSays) {
     constexpr float extinction = 2;
     const Scene scene(foggy(extinction));
@@ -220,6 +252,50 @@ TEST(PixelReport, TellsWhatARenderHasLearned) {
         here += cell["is_here"].get<bool>() ? 1 : 0;
     }
     EXPECT_EQ(here, 1);
+
+    // It is the flight of `wend field --pixel`.
+    Pcg32 random(0);
+    const std::optional<PixelFlight> flight = pixel_flight(scene, question.pixel, question.fields, random);
+    ASSERT_TRUE(flight);
+    ASSERT_TRUE(flight->is_guided);
+    double guided = 0, collides = 0;
+    for (const FlightPiece& piece : flight->pieces) {
+        guided += piece.guided;
+        collides += piece.collides;
+    }
+    EXPECT_NEAR(inside["flight"]["guided"]["scatters"], guided, 1e-12);
+    EXPECT_NEAR(inside["flight"]["classical"]["scatters"], collides, 1e-12);
+    EXPECT_NEAR(collides, 1 - flight->reaches_end, 1e-6);
+    EXPECT_NEAR(flight->length, 8, 1e-2) << "camera to wall";
+    EXPECT_GT(std::abs(guided - collides), 0.01) << "the guide knows where the light is";
+}
+
+TEST(PixelFlight, GoesOnBehindAnInterface) {
+    SceneDescription description = foggy(1);
+    const MediumId thick = test::add_homogeneous(description, Rgb(0.0f), Rgb(2.0f));
+    test::add_box(description, Box3(Vec3(-100, -100, 1.5f), Vec3(100, 100, 2)), test::add_interface(description),
+                  thick);
+    const Scene scene(description);
+    Pcg32 random(0);
+    const std::optional<PixelFlight> flight = pixel_flight(scene, {resolution / 2, resolution / 2}, nullptr, random);
+    ASSERT_TRUE(flight);
+    EXPECT_FALSE(flight->is_guided);
+    EXPECT_NEAR(flight->reaches_end, std::exp(-1 - 0.5 * 2), 1e-2);
+    std::vector<double> reached;
+    for (const FlightPart& part : flight->parts) {
+        double collides = 0;
+        for (const FlightPiece& piece : flight->pieces_of(part)) {
+            EXPECT_EQ(piece.medium, part.medium);
+            collides += piece.collides;
+        }
+        if (part.pieces > 0) {
+            reached.push_back(part.reached);
+            EXPECT_NEAR(collides / part.reached, -std::expm1(-1.0), 1e-2) << "both are as thick";
+        }
+    }
+    ASSERT_EQ(reached.size(), 2u);
+    EXPECT_EQ(reached[0], 1);
+    EXPECT_NEAR(reached[1], std::exp(-1.0), 1e-2);
 }
 
 TEST(RenderView, MakesPicturesForThoseWhoLook) {

@@ -2,7 +2,6 @@
 #include <wend/app/direction_picture.h>
 #include <wend/app/field_place.h>
 #include <wend/app/lobe_page.h>
-#include <wend/app/pixel_flight.h>
 #include <wend/app/session.h>
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>
@@ -10,6 +9,7 @@
 #include <wend/io/field_file.h>
 #include <wend/io/image_file.h>
 #include <wend/io/records_file.h>
+#include <wend/view/pixel_flight.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -185,6 +185,7 @@ nlohmann::json flight_json(const PixelFlight& flight) {
                           {"end", piece.end},
                           {"medium", piece.medium},
                           {"collides", piece.collides},
+                          {"guided", flight.is_guided ? nlohmann::json(piece.guided) : nlohmann::json(nullptr)},
                           {"in_scattered", piece.in_scattered},
                           {"brings", piece.brings}});
     }
@@ -224,7 +225,11 @@ Look look_along_pixel(const FieldOptions& options, const Parts& parts, const gui
     const Session session(options.scene, options.common, streams);
     const Vec2i pixel = parse_pixel(options.pixel, session.resolution());
     Pcg32 random(session.settings().seed);
-    PixelFlight flight = pixel_flight(session.scene(), pixel, fields, random);
+    std::optional<PixelFlight> found = pixel_flight(session.scene(), pixel, &fields, random);
+    if (!found) {
+        throw InputError(fmt::format("--pixel {}: the camera lets no light through to its middle", options.pixel));
+    }
+    PixelFlight& flight = *found;
     Look look;
     look.json = flight_json(flight);
     look.json["pixel"] = {pixel.x, pixel.y};

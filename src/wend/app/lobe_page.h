@@ -3,8 +3,8 @@
 
 #include <wend/app/direction_picture.h>
 #include <wend/app/field_place.h>
-#include <wend/app/pixel_flight.h>
 #include <wend/film/false_colour.h>
+#include <wend/view/pixel_flight.h>
 
 #include <optional>
 #include <string>

@@ -22,6 +22,10 @@ void Board::show(std::size_t index, ShownPicture shown) {
         pictures_.resize(index + 1);
         wanted_.resize(index + 1);
     }
+    Wanted& wanted = wanted_[index];
+    if (shown.version != pictures_[index].version && wanted.versions_with_layers > 0) {
+        --wanted.versions_with_layers;
+    }
     pictures_[index] = std::move(shown);
 }
 
@@ -39,10 +43,11 @@ ShownPicture Board::picture(std::size_t index) const {
 }
 
 void Board::want(std::size_t index, std::uint64_t version, bool layers) {
+    constexpr int patience = 3;
     const std::lock_guard lock(mutex_);
     if (index < wanted_.size()) {
         Wanted& wanted = wanted_[index];
-        wanted = {true, wanted.layers || layers, std::max(wanted.beyond, version)};
+        wanted = {true, layers ? patience : wanted.versions_with_layers, std::max(wanted.beyond, version)};
     }
 }
 
@@ -53,7 +58,7 @@ bool Board::is_wanted(std::size_t index, std::uint64_t version) const {
 
 bool Board::wants_layers(std::size_t index) const {
     const std::lock_guard lock(mutex_);
-    return index < wanted_.size() && wanted_[index].layers;
+    return index < wanted_.size() && wanted_[index].versions_with_layers > 0;
 }
 
 void Board::post(ViewCommand command) {

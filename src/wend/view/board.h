@@ -54,7 +54,8 @@ struct ViewCommand {
 /// Safe to be used from any thread.
 class Board {
 public:
-    /// Of the picture at an index; the first time at the end of the list.
+    /// Of the picture at an index; the first time at the end of the list. Of another version than the last it is the
+    /// answer to what was wanted.
     void show(std::size_t index, ShownPicture shown);
     std::vector<ShownPicture> pictures() const;
     /// Throws InputError where there is none of that index.
@@ -62,8 +63,10 @@ public:
 
     /// Asks for a newer picture than that of `version`, with or without layers.
     void want(std::size_t index, std::uint64_t version, bool layers);
-    /// Whether a newer one than that of `version` is asked for, and whether with layers.
+    /// Whether a newer one than that of `version` is asked for.
     bool is_wanted(std::size_t index, std::uint64_t version) const;
+    /// Whether layers were asked for since the third last version: whoever looks at one asks for each version, and one
+    /// that is slow for a later one.
     bool wants_layers(std::size_t index) const;
 
     /// Asks; beyond a number that nobody can mean to wait for nothing is kept.
@@ -77,7 +80,8 @@ public:
 
 private:
     struct Wanted {
-        bool any = false, layers = false;
+        bool any = false;
+        int versions_with_layers = 0;  ///< that are still to have them
         std::uint64_t beyond = 0;
     };
 

@@ -1,17 +1,14 @@
 #include <wend/core/random.h>
-#include <wend/decision/guided_distance.h>
 #include <wend/io/json_text.h>
-#include <wend/light/beams.h>
-#include <wend/render/preset.h>
 #include <wend/view/direction_bins.h>
-#include <wend/view/pixel_ray.h>
+#include <wend/view/pixel_flight.h>
 #include <wend/view/pixel_report.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -22,119 +19,68 @@ using Json = nlohmann::json;
 
 // Of the plots.
 constexpr std::size_t flight_bins = 64;
-constexpr int flights = 4096;
 constexpr DirectionBins bins_of_records{64, 32};
 constexpr std::size_t most_cells = 160;
 
-/// The first flight of a pixel: from the camera to the first surface or interface.
-struct Segment : RayPart {
-    float length = longest_segment;
-    float shown = 0;  ///< of the length, what is worth showing
-};
-
-/// How far a ray goes before it leaves a box, or 0.
-float way_through(const Box3& box, const Ray& ray) {
-    float t_in = 0, t_out = infinity;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float a = (box.min[axis] - ray.origin[axis]) / ray.direction[axis];
-        const float b = (box.max[axis] - ray.origin[axis]) / ray.direction[axis];
-        t_in = std::max(t_in, std::min(a, b));
-        t_out = std::min(t_out, std::max(a, b));
-    }
-    return t_in < t_out && std::isfinite(t_out) ? t_out : 0.0f;
-}
-
-/// None where the camera lets no light through. Through vacuum nothing happens: what counts is the flight that begins
-/// at the first boundary. There a ray may meet two triangles in their edge.
-std::optional<Segment> first_segment(const Scene& scene, const Vec2i& pixel) {
-    const std::vector<RayPart> parts = pixel_ray(scene, pixel);
-    if (parts.empty()) {
-        return std::nullopt;
-    }
-    const auto counts = [](const RayPart& part) {
+/// The part of the flight that a pixel's walks begin with. Through vacuum nothing happens: what counts is the flight
+/// that begins at the first boundary. There a ray may meet two triangles in their edge.
+const FlightPart& first_segment(const PixelFlight& flight) {
+    const auto counts = [](const FlightPart& part) {
         return !part.ends_at_interface || (part.medium != vacuum && part.hit->distance > part.hit->clearance);
     };
-    const auto found = std::find_if(parts.begin(), parts.end(), counts);
-    const RayPart& part = found == parts.end() ? parts.back() : *found;
-    Segment segment{part, longest_segment, 0};
-    if (part.hit) {
-        segment.length = segment.shown = part.hit->distance;
-    } else {
-        segment.shown = way_through(scene.bounds(), part.ray);
-    }
-    return segment;
+    const auto found = std::find_if(flight.parts.begin(), flight.parts.end(), counts);
+    return found == flight.parts.end() ? flight.parts.back() : *found;
 }
 
-Json segment_json(const Segment& segment) {
+Json segment_json(const FlightPart& segment) {
     const char* end = !segment.hit ? "nothing" : segment.ends_at_interface ? "interface" : "surface";
     return {{"origin", json_vector(segment.ray.origin)},
             {"direction", json_vector(segment.ray.direction)},
-            {"length", segment.hit ? json_number(segment.length) : Json(nullptr)},
+            {"length", segment.hit ? json_number(segment.hit->distance) : Json(nullptr)},
             {"end", end},
             {"in_medium", segment.medium != vacuum}};
 }
 
-/// Where flights end, as drawn with evenly spread random numbers.
+/// Where flights that begin at a segment end, by the length of its pieces.
 struct Ends {
-    std::vector<float> distances;  ///< of collisions
-    std::array<int, flight_bins> bins{};
-
-    double share() const { return static_cast<double>(distances.size()) / flights; }
-    Json json() const { return {{"scatters", share()}, {"bins", bins}}; }
+    std::vector<double> shares;
+    double scatters = 0;  ///< their sum
 };
 
-template <class Distance>
-Ends draw(const Distance& distance, const Medium& medium, const FlightStart& start, float shown) {
+Ends ends_of(const PixelFlight& flight, const FlightPart& segment, double FlightPiece::*probability, double reached) {
     Ends ends;
-    Pcg32 random(0);
-    for (int i = 0; i < flights; ++i) {
-        const Flight flight =
-            distance.sample(medium, start, (static_cast<float>(i) + 0.5f) / static_cast<float>(flights), random);
-        if (flight.scatters) {
-            ends.distances.push_back(flight.distance);
-            const auto bin = static_cast<std::size_t>(flight.distance / shown * static_cast<float>(flight_bins));
-            if (bin < flight_bins) {
-                ++ends.bins[bin];
-            }
-        }
+    for (const FlightPiece& piece : flight.pieces_of(segment)) {
+        ends.shares.push_back(reached > 0 ? piece.*probability / reached : 0.0);
+        ends.scatters += ends.shares.back();
     }
     return ends;
 }
 
-struct FlightEnds {
-    Ends classical;
-    std::optional<Ends> guided;
-};
-
-FlightEnds ends_of_flights(const Scene& scene, const Segment& segment, const guide::Fields* fields) {
-    const Medium& medium = scene.medium(segment.medium);
-    FlightStart start;
-    start.ray = segment.ray;
-    start.length = segment.length;
-    if (segment.hit) {
-        const Vec3 normal = segment.hit->normal;
-        start.end = {segment.ends_at_interface ? FlightEnd::Kind::interface : FlightEnd::Kind::surface,
-                     segment.hit->position, dot(normal, segment.ray.direction) < 0 ? normal : -normal, 0};
+Json ends_json(const Ends& ends) {
+    const std::size_t joined = std::max<std::size_t>(1, ends.shares.size() / flight_bins);
+    std::vector<double> sums(ends.shares.size() / joined);
+    for (std::size_t i = 0; i < ends.shares.size(); ++i) {
+        sums[i / joined] += ends.shares[i];
     }
-    FlightEnds ends{draw(ClassicalDistance(), medium, start, segment.shown), std::nullopt};
-    if (fields && fields->volume.is_trained()) {
-        const std::vector<Beam> beams = beams_of(scene.lights());
-        ends.guided = draw(GuidedDistance(&fields->surface, &fields->volume, classical_flights,
-                                          DistanceGuiding::scatter_and_distance, std::span<const Beam>(beams)),
-                           medium, start, segment.shown);
-    }
-    return ends;
+    std::vector<int> bins;
+    std::transform(sums.begin(), sums.end(), std::back_inserter(bins),
+                   [](double share) { return static_cast<int>(std::lround(guided_flights * share)); });
+    return {{"scatters", json_number(ends.scatters)}, {"bins", bins}};
 }
 
 /// Where a flight of these most likely ends: in the middle of its collisions, or at the surface.
-std::optional<float> likely_end(const FlightEnds& ends) {
-    std::vector<float> distances = (ends.guided ? *ends.guided : ends.classical).distances;
-    if (2 * distances.size() < flights) {
+std::optional<float> likely_end(const Ends& ends, double length) {
+    if (ends.scatters < 0.5) {
         return std::nullopt;
     }
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return *middle;
+    const double half = 0.5 * ends.scatters, pieces = static_cast<double>(ends.shares.size());
+    double sum = 0;
+    std::size_t i = 0;
+    while (i + 1 < ends.shares.size() && sum + ends.shares[i] < half) {
+        sum += ends.shares[i++];
+    }
+    const double within = std::clamp((half - sum) / ends.shares[i], 0.0, 1.0);
+    return static_cast<float>(length * (static_cast<double>(i) + within) / pieces);
 }
 
 Json radiance_of_records(const guide::Records& records) {
@@ -222,31 +168,35 @@ guide::Records SharedRecords::in(const guide::Field& field, const guide::Region*
 }
 
 Json pixel_report(const Scene& scene, const PixelQuestion& question) {
-    const std::optional<Segment> first = first_segment(scene, question.pixel);
-    if (!first) {
+    Pcg32 random(0);
+    const std::optional<PixelFlight> flight = pixel_flight(scene, question.pixel, question.fields, random);
+    if (!flight) {
         return nullptr;
     }
-    const Segment& segment = *first;
+    const FlightPart& segment = first_segment(*flight);
     Json report = {{"segment", segment_json(segment)},
                    {"flight", nullptr},
                    {"at", nullptr},
                    {"guide", nullptr},
                    {"cells", nullptr}};
     std::optional<float> distance = question.distance;
-    const bool has_flight = segment.medium != vacuum && segment.shown > 0;
+    const bool has_flight = segment.pieces > 0;
     if (has_flight) {
-        const FlightEnds ends = ends_of_flights(scene, segment, question.fields);
-        report["flight"] = {{"length", json_number(segment.shown)},
-                            {"flights", flights},
-                            {"classical", ends.classical.json()},
-                            {"guided", ends.guided ? ends.guided->json() : Json(nullptr)}};
-        distance = distance ? distance : likely_end(ends);
+        const Ends classical = ends_of(*flight, segment, &FlightPiece::collides, segment.reached);
+        const Ends guided = ends_of(*flight, segment, &FlightPiece::guided, segment.guided_reached);
+        const double shown = segment.end - segment.begin;
+        report["flight"] = {{"length", json_number(shown)},
+                            {"flights", guided_flights},
+                            {"classical", ends_json(classical)},
+                            {"guided", flight->is_guided ? ends_json(guided) : Json(nullptr)}};
+        distance = distance ? distance : likely_end(flight->is_guided ? guided : classical, shown);
     }
-    const bool is_surface = !has_flight || !distance || *distance >= segment.length;
+    const float length = segment.hit ? segment.hit->distance : longest_segment;
+    const bool is_surface = !has_flight || !distance || *distance >= length;
     if (is_surface && !segment.hit) {
         return report;
     }
-    const float at = is_surface ? segment.length : std::max(*distance, 0.0f);
+    const float at = is_surface ? length : std::max(*distance, 0.0f);
     const Vec3 position = is_surface ? segment.hit->position : segment.ray.origin + segment.ray.direction * at;
     report["at"] = {{"distance", json_number(at)},
                     {"position", json_vector(position)},
