@@ -10,7 +10,7 @@ from .options import SPECIAL
 PICTURES = "docs/site/gallery"
 HEAD = """# Gallery
 
-Below each picture are two renders of the same scene in the same time: on the left by classical path tracing, on the right by the default, `full`, which guides every decision where that pays. Training counts. Both converge to the picture above them; only their noise differs.
+Below each picture are two renders of the same scene in the same time: on the left by classical path tracing, on the right by the default, `full`, which guides every decision where that pays. Training counts. Both converge to the same image; only their noise differs. Above them is the reference, of many more samples. It has some noise of its own where light is hard to find, as in the caustics of `liquid`.
 
 Times are those of the processors, summed over threads; the machine had other work to do as well. The scenes are files of this repository, and the commands are those that made the pictures: `docs/site/make_gallery.py` runs both of a pair at once. [Scenes](project/scenes.md) has the measured errors.
 """
@@ -37,7 +37,7 @@ def figure(layout: Layout, name: str, caption: str) -> list[str]:
 
 
 def section(layout: Layout, scene: str, pair: dict) -> str:
-    lines = [f"## {scene}", "", about(layout, scene), "", *figure(layout, f"{scene}-reference", "converged"), ""]
+    lines = [f"## {scene}", "", about(layout, scene), "", *figure(layout, f"{scene}-reference", "the reference"), ""]
     lines += ["::::{grid} 1 2 2 2", ":gutter: 1", ""]
     for preset, what in pair.items():
         label = "guided" if preset == "full" else "classical"

@@ -256,8 +256,11 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     if (!options.save_records.empty()) {
         write_records(options.save_records, records);
     }
+    // Whoever gave a time and did not stop it need not wonder.
+    const bool is_time = settings.seconds > 0 && interrupt.signal() == 0;
+    const char* early = !statistics.interrupted ? "" : is_time ? " (time was up within a pass)" : " (interrupted)";
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
-                                             statistics.seconds, statistics.interrupted ? " (interrupted)" : ""));
+                                             statistics.seconds, early));
     warn_of_lacks(statistics, streams.err);
     options.common.write_json(streams, report(session, settings, statistics, output, memory_of_rank));
     if (interrupt.signal() != 0) {
