@@ -171,6 +171,12 @@ void show(const CompareOptions& options, const ComparisonReport& report, const S
         streams.out << last.scene << '\n';
     }
     streams.out << comparison_table(last.rows) << std::flush;
+    if (std::none_of(last.rows.begin(), last.rows.end(),
+                     [](const ComparisonRow& row) { return row.way.is_classical(); })) {
+        options.common.note(streams,
+                            "no ratio: it is to --sampling classical with --subsurface classical, which was not among "
+                            "them");
+    }
 }
 
 /// One scene after the other; throws what is wrong with a lone one, and says at the end how many have failed of many.
