@@ -112,15 +112,17 @@ void draw_guided(const Scene& scene, const guide::Fields& fields, PixelFlight& f
         }
         const FlightStart start = start_of(part);
         const double each = reached / count, in_length = static_cast<double>(part.pieces) / (part.end - part.begin);
+        // In a part without end some go beyond what is looked at.
+        const auto longest = static_cast<float>(part.end - part.begin);
         for (int i = 0; i < count; ++i) {
             const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
             const Flight drawn = distance.sample(scene.medium(part.medium), start, u, random);
-            const auto piece = static_cast<std::size_t>(static_cast<double>(drawn.distance) * in_length);
-            // In a part without end some go beyond what is looked at.
-            if (drawn.scatters && piece < part.pieces) {
-                flight.pieces[part.first_piece + piece].guided += each;
-                reached -= each;
+            if (!drawn.scatters || (!part.hit && drawn.distance >= longest)) {
+                continue;
             }
+            const auto piece = static_cast<std::size_t>(static_cast<double>(drawn.distance) * in_length);
+            flight.pieces[part.first_piece + std::min(piece, part.pieces - 1)].guided += each;
+            reached = std::max(0.0, reached - each);
         }
         count = std::max(fewest, count / 2);
     }
