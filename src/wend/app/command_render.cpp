@@ -185,6 +185,15 @@ bool is_first_of(const Ranks* ranks) {
     return !ranks || ranks->rank() == 0;
 }
 
+/// What there is to say of a render that ended before its last pass did. Whoever gave a time and did not stop it need
+/// not think of an interruption.
+const char* early_end(const RenderSettings& settings, const RenderStatistics& statistics, int signal) {
+    if (!statistics.interrupted) {
+        return "";
+    }
+    return settings.seconds > 0 && signal == 0 ? " (time was up within a pass)" : " (interrupted)";
+}
+
 /// Renders one picture; what was learned comes back. `fields` is what is known before, if not null; `ranks` are the
 /// processes that render it together, null for one alone.
 FieldsPointer render_scene(const RenderOptions& options, const Streams& streams, Ranks* ranks,
@@ -256,11 +265,8 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     if (!options.save_records.empty()) {
         write_records(options.save_records, records);
     }
-    // Whoever gave a time and did not stop it need not wonder.
-    const bool is_time = settings.seconds > 0 && interrupt.signal() == 0;
-    const char* early = !statistics.interrupted ? "" : is_time ? " (time was up within a pass)" : " (interrupted)";
     options.common.note(streams, fmt::format("{}: {} spp in {:.2f} s{}", output.string(), statistics.samples,
-                                             statistics.seconds, early));
+                                             statistics.seconds, early_end(settings, statistics, interrupt.signal())));
     warn_of_lacks(statistics, streams.err);
     options.common.write_json(streams, report(session, settings, statistics, output, memory_of_rank));
     if (interrupt.signal() != 0) {
