@@ -241,7 +241,8 @@ TEST(GuidingChoice, KindsAreComparedInTheSameTiles) {
 TEST(GuidingChoice, WhatHasFoundNothingIsNotTakenToBeExact) {
     WalkTally blind = walks(1000, 0, 1);
     blind.value = 0;
-    const GuidingChoice choice = tried(1, {{blind, blind, walks(1000, 5, 8)}});
+    GuidingChoice choice = untried(1);
+    choice.learn(std::vector<WalkTallies>{{blind, blind, walks(1000, 5, 8, 5)}}, 15, false);
     EXPECT_EQ(choice.shares(0, 8)[directions], 1);
     // What lacks no more than a few bright walks may bring keeps its variance.
     WalkTally dim = walks(1000, 1, 1);

@@ -1,6 +1,7 @@
 // Whether a path goes on.
 #pragma once
 
+#include <wend/decision/roulette_splitting.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 #include <wend/transport/branching_path.h>
