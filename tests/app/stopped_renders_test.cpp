@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -160,27 +159,6 @@ TEST_F(SlowStoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
         EXPECT_EQ(result.status, 2) << place;
         EXPECT_NE(result.err.find("room.checkpoint: error"), std::string::npos) << result.err;
     }
-}
-
-// As on a full disk: a limit of 200 KiB for files, which a checkpoint of this picture exceeds.
-TEST_F(SlowStoppedRender, AFileBeyondTheLimitOfSizesIsAnErrorAndTheRenderGoesOn) {
-    const auto render = [&](const std::string& more) {
-        const std::string command = "bash -c \"ulimit -f 200; exec '" + test::wend_program() + "' render '" + scene_ +
-                                    "' -o '" + folder_.file("room.exr") + "' --quiet " + more + "\" 2> '" +
-                                    folder_.file("errors.txt") + "'";
-        return WEXITSTATUS(std::system(command.c_str()));
-    };
-    EXPECT_EQ(render("--resolution 48x36 --spp 20 --checkpoint '" + folder_.file("room.checkpoint") +
-                     "' --checkpoint-every 0.01"),
-              0);
-    EXPECT_NE(bytes("errors.txt").find("File too large; the render goes on"), std::string::npos) << bytes("errors.txt");
-    EXPECT_TRUE(std::filesystem::exists(folder_.file("room.exr")));
-    EXPECT_FALSE(std::filesystem::exists(folder_.file("room.checkpoint")));
-    // A picture that is too large is a failure, and the one that was there stays.
-    const std::string before = bytes("room.exr");
-    EXPECT_EQ(render("--resolution 480x360 --spp 1"), 1);
-    EXPECT_NE(bytes("errors.txt").find("cannot write"), std::string::npos) << bytes("errors.txt");
-    EXPECT_TRUE(bytes("room.exr") == before);
 }
 
 TEST_F(SlowStoppedRender, ProgressForProgramsIsALineOfJsonEach) {

@@ -101,9 +101,9 @@ public:
 private:
     static constexpr int max_pending = 64;
 
-    /// An unguided path has no branches. Had it gone as this one has, it would have brought unguided_ratio() times as much,
-    /// and that would have been less often by as much. So the square of what it brings, which is the sum of what each
-    /// light on the way adds to it, is a mean over the branches of guided ones.
+    /// An unguided path has no branches. Had it gone as this one has, it would have brought unguided_ratio() times as
+    /// much, and that would have been less often by as much. So the square of what it brings, which is the sum of what
+    /// each light on the way adds to it, is a mean over the branches of guided ones.
     void count_unguided(float brought) {
         if (brought == 0) {
             return;

@@ -81,7 +81,11 @@ public:
 private:
     /// Whether walks end by the technique at hand, guided or not.
     bool technique_judges() const {
-        return path_.ask_technique([](auto& technique) { return requires { technique.survival(0.0f); }; });
+        return path_.ask_technique([](auto& technique) {
+            return requires {
+                technique.survival(0.0f);
+            };
+        });
     }
 
     float probability(bool in_volume, bool is_judged_elsewhere) {
