@@ -123,8 +123,10 @@ def _values(declared: str, value: Any) -> Any:
         return list(value)
     try:
         array = np.asarray(value)
-        if kind in _INTEGERS and not (array.dtype.kind in "iub" and np.array_equal(array, array.astype(np.int32))):
-            raise ValueError
+        # Those of the right type are all whole: a comparison would be copies of them.
+        if kind in _INTEGERS and array.dtype != np.int32:
+            if not (array.dtype.kind in "iub" and np.array_equal(array, array.astype(np.int32))):
+                raise ValueError
         return np.ascontiguousarray(array, dtype=np.int32 if kind in _INTEGERS else np.float32).reshape(-1)
     except (TypeError, ValueError, OverflowError):
         wanted = "whole numbers" if kind in _INTEGERS else "numbers"

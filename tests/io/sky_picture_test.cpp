@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wend {
@@ -33,6 +34,17 @@ TEST(SkyPicture, ShowsWhatIsInADirection) {
             EXPECT_LT(length(Vec3(shown.r, shown.g, shown.b) - d), 0.03f) << d;
         }
     }
+}
+
+TEST(SkyPicture, SmallOnesAreNotBlurred) {
+    Image dot(32, 16);
+    dot.at(9, 5) = Rgb(1.0f);
+    const Image sky = equal_area_sky(dot, SkyRows::in_strips);
+    float brightest = 0;
+    for (const Rgb& pixel : sky.pixels) {
+        brightest = std::max(brightest, pixel.r);
+    }
+    EXPECT_GT(brightest, 0.85f);
 }
 
 TEST(SkyPicture, RowsMayBeginAtThePole) {

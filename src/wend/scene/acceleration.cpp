@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -38,19 +37,14 @@ float largest_image(const Transform& map) {
     return static_cast<float>(largest);
 }
 
-template <class T>
-T* new_buffer(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFormat format, std::size_t count) {
-    void* data = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(T), count);
-    if (!data) {
-        throw std::bad_alloc();
-    }
-    return static_cast<T*>(data);
-}
-
 /// Of a mesh at a step of time.
 void copy_vertices(RTCGeometry geometry, unsigned step, const std::vector<Vec3>& positions) {
-    auto* vertices = new_buffer<Vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, positions.size());
-    std::copy(positions.begin(), positions.end(), vertices);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, sizeof(Vec3),
+                                             positions.size());
+    if (!vertices) {
+        throw std::bad_alloc();
+    }
+    std::copy(positions.begin(), positions.end(), static_cast<Vec3*>(vertices));
 }
 
 struct Triangle {
@@ -147,8 +141,9 @@ RTCGeometry AccelerationStructure::new_mesh(const TriangleMesh& mesh) const {
     if (mesh.is_moving()) {
         copy_vertices(geometry, 1, mesh.end_positions);
     }
-    auto* indices = new_buffer<Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangle_count());
-    std::memcpy(indices, mesh.indices.data(), mesh.triangle_count() * sizeof(Triangle));
+    // Those of the mesh itself, which `shapes_` keeps. Vertices are copies: Embree reads past the last of them.
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                               sizeof(Triangle), mesh.triangle_count());
     rtcSetGeometryIntersectFilterFunction(geometry, callbacks_.filter);
     rtcSetGeometryOccludedFilterFunction(geometry, callbacks_.filter);
     return geometry;

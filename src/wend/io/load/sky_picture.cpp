@@ -23,7 +23,7 @@ Rgb towards(const Image& by_longitude, SkyRows rows, const Vec3& d) {
 
 Image equal_area_sky(const Image& by_longitude, SkyRows rows) {
     constexpr int samples = 4;
-    constexpr double finer = 1.25, least = 16, most = 4096;
+    constexpr double finer = 1.25, least = 128, most = 4096;  // small ones must not be blurred
     const double pixels = static_cast<double>(by_longitude.width) * by_longitude.height;
     const int side = static_cast<int>(std::clamp(std::ceil(finer * std::sqrt(pixels)), least, most));
     Image sky(side, side);

@@ -119,6 +119,40 @@ struct Kind {
 constexpr Kind kinds[] = {{"constant", add_constant}, {"directional", add_directional}, {"envmap", add_environment},
                           {"point", add_point},       {"projector", add_projector},     {"spot", add_spot}};
 
+/// The picture of an area light, or its colour.
+void set_radiance(const Object& emitter, Parameters& p) {
+    const Element* radiance = emitter.find("radiance");
+    if (!radiance || !is_texture(*radiance)) {
+        p.colour("L", light_of(emitter, "radiance"));
+        return;
+    }
+    const Object bitmap(emitter.context(), *radiance);
+    if (bitmap.type() != "bitmap") {
+        throw InputError(bitmap.place(), "the \"radiance\" of an area light may vary by a <texture type=\"bitmap\">");
+    }
+    p.text("filename", bitmap.file("filename").string()).text("origin", "top");
+    for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
+        bitmap.ignore(name);
+    }
+    bitmap.warn_of_unused();
+}
+
+/// Of Mitsuba's own tables, which only Mitsuba can read.
+void warn_of_sky(const Object& emitter) {
+    const std::string file = emitter.place().file ? emitter.place().file->name : "SCENE.xml";
+    emitter.context().warn(
+        emitter.place(),
+        fmt::format(
+            "{} is not implemented: it is left out. {}", emitter.title(),
+            emitter.type() == "sunsky"
+                ? fmt::format("\"python -m wend.mitsuba_sky {} -o sky.exr\" (pip install wend mitsuba) writes it "
+                              "as a picture, and says which <emitter type=\"envmap\"> and <emitter "
+                              "type=\"directional\"> take its place",
+                              file)
+                : "An <emitter type=\"sunsky\"> of one hour can be made a picture: see \"python -m "
+                  "wend.mitsuba_sky\""));
+}
+
 }  // namespace
 
 void add_emitter(Context& context, const Element& element) {
@@ -129,7 +163,7 @@ void add_emitter(Context& context, const Element& element) {
         if (emitter.type() != "sunsky" && emitter.type() != "timed_sunsky") {
             refuse_type(emitter, "constant, directional, envmap, point, projector, spot; on shapes: area");
         }
-        context.warn(emitter.place(), fmt::format("{} is not implemented: it is left out", emitter.title()));
+        warn_of_sky(emitter);
         return;
     }
     // What it stands in is where it is.
@@ -139,36 +173,24 @@ void add_emitter(Context& context, const Element& element) {
     emitter.warn_of_unused();
 }
 
-bool add_area_emitter(Context& context, const Element& element) {
+void add_area_emitter(Context& context, const Element& element) {
     const Object emitter(context, element);
-    if (emitter.type() != "area") {
-        if (emitter.type() != "directionalarea") {
-            refuse_type(emitter, "area");
-        }
-        context.warn(emitter.place(), fmt::format("{} is not implemented: the shape does not shine", emitter.title()));
-        return false;
+    if (emitter.type() != "area" && emitter.type() != "directionalarea") {
+        refuse_type(emitter, "area, directionalarea");
     }
     Parameters p(emitter.place());
-    const Element* radiance = emitter.find("radiance");
-    if (radiance && is_texture(*radiance)) {
-        const Object bitmap(context, *radiance);
-        if (bitmap.type() != "bitmap") {
-            throw InputError(bitmap.place(),
-                             "the \"radiance\" of an area light may vary by a <texture type=\"bitmap\">");
-        }
-        p.text("filename", bitmap.file("filename").string()).text("origin", "top");
-        for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
-            bitmap.ignore(name);
-        }
-        bitmap.warn_of_unused();
-    } else {
-        p.colour("L", light_of(emitter, "radiance"));
+    set_radiance(emitter, p);
+    if (emitter.type() == "directionalarea") {
+        // Its "radiance" is the power of a unit of area. Connections to a narrower beam are all but dark.
+        constexpr double degrees = 2;
+        p.real("spread", degrees).real("scale", 1 / double{pi});
+        context.warn(emitter.place(), fmt::format("{} shines along its normals alone: it fans out by {} degrees",
+                                                  emitter.title(), degrees));
     }
     emitter.ignore("sampling_weight");
     static_cast<void>(emitter.nested("medium"));
     emitter.warn_of_unused();
     context.builder.area_light_source("diffuse", p.take(), emitter.place());
-    return true;
 }
 
 }  // namespace wend::mitsuba

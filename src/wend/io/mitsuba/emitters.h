@@ -9,7 +9,7 @@ namespace wend::mitsuba {
 /// a warning.
 void add_emitter(Context& context, const Element& emitter);
 
-/// Adds the light that a shape's next directive shines by. Returns false, with a warning, where Wend lacks it.
-bool add_area_emitter(Context& context, const Element& emitter);
+/// Adds the light that a shape's next directive shines by. Throws InputError for one that there is not.
+void add_area_emitter(Context& context, const Element& emitter);
 
 }  // namespace wend::mitsuba

@@ -12,7 +12,8 @@ namespace wend::mitsuba {
 namespace {
 
 constexpr std::string_view known_types =
-    "blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, normalmap, null, plastic, principled, roughconductor, "
+    "blendbsdf, bumpmap, conductor, dielectric, diffuse, hair, mask, normalmap, null, plastic, principled, "
+    "roughconductor, "
     "roughdielectric, roughplastic, thindielectric, twosided";
 
 bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
@@ -214,6 +215,12 @@ Materials::Leaf Materials::leaf_of(const Object& bsdf) {
     if (type == "principled") {
         return principled(bsdf);
     }
+    if (type == "hair") {
+        return hair(bsdf);
+    }
+    if (type == "principledthin") {
+        return thin(bsdf);
+    }
     if (type == "null") {
         return {"interface", Parameters(bsdf.place()), false};
     }
@@ -338,9 +345,56 @@ Materials::Leaf Materials::principled(const Object& bsdf) {
     return {"burley", std::move(p), !transmits};
 }
 
+/// The same model as pbrt's, for a fibre of radius 1.
+Materials::Leaf Materials::hair(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.real("eta", index_of(bsdf, "int_ior", "amber") / index_of(bsdf, "ext_ior", "air"))
+        .real("beta_m", bsdf.non_negative("longitudinal_roughness", 0.3))
+        .real("beta_n", bsdf.non_negative("azimuthal_roughness", 0.3))
+        .real("alpha", bsdf.number("scale_tilt", 2));
+    if (!bsdf.has("sigma_a")) {
+        p.real("eumelanin", bsdf.non_negative("eumelanin", 1.3))
+            .real("pheomelanin", bsdf.non_negative("pheomelanin", 0.2));
+        bsdf.ignore("scale");
+        return {"hair", std::move(p), false};
+    }
+    if (bsdf.has("eumelanin") || bsdf.has("pheomelanin")) {
+        throw InputError(bsdf.place_of("sigma_a"), "hair takes either pigments or \"sigma_a\"");
+    }
+    const auto scale = static_cast<float>(bsdf.non_negative("scale", 1));
+    p.colour("sigma_a", colour_of(bsdf, "sigma_a", SpectrumUse::unbounded, Rgb(0.0f)) * scale);
+    return {"hair", std::move(p), false};
+}
+
+/// `principledthin` without what its surface reflects.
+Materials::Leaf Materials::thin(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    const ColourOrTexture base = textures_.colour(bsdf, "base_color", Rgb(0.5f));
+    const Element* through = bsdf.find("diff_trans");
+    const double passes = through && !is_texture(*through) ? bsdf.number("diff_trans", 0) / 2 : 0;
+    if (!(passes >= 0 && passes <= 1)) {
+        throw InputError(bsdf.place_of("diff_trans"), "\"diff_trans\" must lie between 0 and 2");
+    }
+    const bool transmits = passes > 0 && std::holds_alternative<Rgb>(base);
+    context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse sheet of its \"base_color\"{} takes its "
+                                            "place, without reflections",
+                                            bsdf.title(), transmits ? " and \"diff_trans\"" : ""));
+    for (const char* name : {"spec_trans", "anisotropic", "roughness", "sheen", "sheen_tint", "flatness", "eta",
+                             "spec_tint", "specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
+                             "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"}) {
+        bsdf.ignore(name);
+    }
+    if (!transmits) {
+        p.colour("reflectance", base);
+        return {"diffuse", std::move(p), false};
+    }
+    const auto share = static_cast<float>(passes);
+    p.colour("reflectance", std::get<Rgb>(base) * (1 - share)).colour("transmittance", std::get<Rgb>(base) * share);
+    return {"diffusetransmission", std::move(p), false};
+}
+
 Materials::Leaf Materials::replaced(const Object& bsdf) {
-    if (!is_one_of(bsdf.type(),
-                   {"circular", "hair", "measured", "measured_polarized", "polarizer", "principledthin", "retarder"})) {
+    if (!is_one_of(bsdf.type(), {"circular", "measured", "measured_polarized", "polarizer", "retarder"})) {
         refuse_type(bsdf, std::string(known_types));
     }
     context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse one takes its place", bsdf.title()));

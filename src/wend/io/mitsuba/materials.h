@@ -57,6 +57,8 @@ private:
     Leaf conductor(const Object& bsdf);
     Leaf plastic(const Object& bsdf);
     Leaf principled(const Object& bsdf);
+    Leaf hair(const Object& bsdf);
+    Leaf thin(const Object& bsdf);
     Leaf replaced(const Object& bsdf);
     void set_detail(const Element& detail, Parameters& p);
     void set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p);

@@ -11,6 +11,17 @@
 namespace wend::mitsuba {
 namespace {
 
+/// In place of "no sensor".
+void refuse_sensors_of_shapes(const Object& scene) {
+    for (const Element* shape : scene.nested("shape")) {
+        for (const Element* sensor : Object(scene.context(), *shape).nested("sensor")) {
+            throw InputError(sensor->place,
+                             "a sensor on a shape is not implemented: put a <sensor> into the scene, such "
+                             "as a \"radiancemeter\" for one ray");
+        }
+    }
+}
+
 pbrt::Description translate(const Document& document, const std::string& name) {
     pbrt::DescriptionBuilder builder(document.base_directory);
     Context context{document, builder};
@@ -21,6 +32,7 @@ pbrt::Description translate(const Document& document, const std::string& name) {
     const Object scene(context, *document.root);
     const std::vector<const Element*> sensors = scene.nested("sensor");
     if (sensors.empty()) {
+        refuse_sensors_of_shapes(scene);
         throw InputError(scene.place(), "the scene has no <sensor>");
     }
     if (sensors.size() > 1) {

@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/core/frame.h>
 #include <wend/core/vector.h>
 #include <wend/io/mitsuba/directive.h>
 #include <wend/io/mitsuba/media.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace wend::mitsuba {
 namespace {
@@ -88,15 +90,59 @@ void set_perspective(const Object& sensor, const FilmSize& film, Parameters& p) 
     }
 }
 
+/// A single ray, as the narrowest of views.
+Transform set_radiancemeter(const Object& sensor, const FilmSize& film, Parameters& p) {
+    if (film.width != 1 || film.height != 1) {
+        throw InputError(sensor.place(), fmt::format("{} needs a film of 1 by 1 pixels", sensor.title()));
+    }
+    constexpr double narrow = 1e-3;
+    p.real("fov", narrow);
+    const std::optional<Vec3> origin = sensor.vector("origin"), direction = sensor.vector("direction");
+    if (origin.has_value() != direction.has_value()) {
+        throw InputError(sensor.place(),
+                         fmt::format("{} takes both an \"origin\" and a \"direction\", or none", sensor.title()));
+    }
+    if (sensor.has("to_world") || !origin) {
+        return sensor.transform("to_world");
+    }
+    if (!(length_squared(*direction) > 0)) {
+        throw InputError(sensor.place_of("direction"), "a \"direction\" must not be 0");
+    }
+    const Frame frame = Frame::from_z(normalize(*direction));
+    const Transform::Matrix turned = {{frame.s.x, frame.t.x, frame.n.x, origin->x},
+                                      {frame.s.y, frame.t.y, frame.n.y, origin->y},
+                                      {frame.s.z, frame.t.z, frame.n.z, origin->z},
+                                      {0, 0, 0, 1}};
+    return Transform(turned);
+}
+
+/// Those that measure what no camera of ours sees.
+[[noreturn]] void refuse_sensor(const Object& sensor) {
+    const std::string_view instead = sensor.type() == "distant" ? "an \"orthographic\" one looks along a direction"
+                                     : sensor.type() == "irradiancemeter" ? "a \"radiancemeter\" measures one ray"
+                                     : sensor.type() == "batch"           ? "give one of its sensors"
+                                                                          : "";
+    if (!instead.empty()) {
+        throw InputError(sensor.place(), fmt::format("{} is not implemented: {}", sensor.title(), instead));
+    }
+    refuse_type(sensor, "orthographic, perspective, radiancemeter, thinlens");
+}
+
 void add_camera(Context& context, Media& media, const Object& sensor, const FilmSize& film) {
     const std::string_view type = sensor.type();
     Parameters p(sensor.place());
+    Transform to_world;
+    if (type == "radiancemeter") {
+        to_world = set_radiancemeter(sensor, film, p);
+    } else {
+        to_world = sensor.transform("to_world");
+    }
     if (type == "perspective" || type == "thinlens") {
         set_perspective(sensor, film, p);
     } else if (type == "orthographic") {
         add_screen_window(p, 1, 1 / film.aspect(), 0, 0);
-    } else {
-        refuse_type(sensor, "orthographic, perspective, thinlens");
+    } else if (type != "radiancemeter") {
+        refuse_sensor(sensor);
     }
     for (const char* name : {"near_clip", "far_clip"}) {
         if (sensor.has(name)) {
@@ -109,7 +155,7 @@ void add_camera(Context& context, Media& media, const Object& sensor, const Film
     const Element* medium = sensor.nested_one("medium");
     const std::string around = medium ? media.name_of(*medium) : std::string();
     // The sensor's x axis points to the left.
-    const Transform world_from_camera = sensor.transform("to_world") * Transform::scale(-1, 1, 1);
+    const Transform world_from_camera = to_world * Transform::scale(-1, 1, 1);
     in_block(context, world_from_camera.inverse(), sensor.place(), [&] {
         context.builder.medium_interface("", around, sensor.place());
         context.builder.camera(type == "orthographic" ? "orthographic" : "perspective", p.take(), sensor.place());
@@ -153,8 +199,12 @@ FilmSize add_film(Context& context, const Object& sensor, const std::string& pic
     const Element* filter = nullptr;
     if (element) {
         const Object film(context, *element);
-        if (film.type() != "hdrfilm" && film.type() != "ldrfilm" && film.type() != "mfilm") {
-            refuse_type(film, "hdrfilm");
+        if (film.type() == "specfilm") {
+            context.warn(film.place(), fmt::format("{} is for Mitsuba's spectral variants: \"hdrfilm\" takes its place",
+                                                   film.title()));
+            static_cast<void>(film.nested("spectrum"));
+        } else if (film.type() != "hdrfilm" && film.type() != "ldrfilm" && film.type() != "mfilm") {
+            refuse_type(film, "hdrfilm, specfilm");
         }
         size = {positive_integer(film, "width", size.width), positive_integer(film, "height", size.height)};
         const int left = film.integer("crop_offset_x", 0), top = film.integer("crop_offset_y", 0);

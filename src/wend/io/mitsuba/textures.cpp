@@ -22,7 +22,13 @@ void set_mapping(const Object& texture, double repeats, bool is_picture, Paramet
 }
 
 void refuse_texture(const Object& texture) {
-    refuse_type(texture, "bitmap, checkerboard");
+    if (texture.type() == "mesh_attribute") {
+        throw InputError(texture.place(),
+                         fmt::format("{} is not implemented: meshes have no colours of their own. Bake "
+                                     "them into a <texture type=\"bitmap\">",
+                                     texture.title()));
+    }
+    refuse_type(texture, "bitmap, checkerboard, volume");
 }
 
 }  // namespace
@@ -93,6 +99,9 @@ TextureRef Textures::add(const Element& element, const std::string& kind) {
     } else if (texture.type() == "checkerboard") {
         type = "checkerboard";
         set_checkerboard(texture, kind, p);
+    } else if (texture.type() == "volume") {
+        type = "constant";
+        set_volume(texture, kind, p);
     } else {
         refuse_texture(texture);
     }
@@ -139,6 +148,23 @@ void Textures::set_checkerboard(const Object& texture, const std::string& kind, 
             .colour("tex2", colour(texture, "color1", Rgb(static_cast<float>(second))));
     }
     set_mapping(texture, 2, false, p);
+}
+
+/// One that is the same everywhere.
+void Textures::set_volume(const Object& texture, const std::string& kind, Parameters& p) {
+    const Element* element = texture.nested_one("volume");
+    if (!element || element->attribute("type") != "constvolume") {
+        throw InputError(texture.place(), fmt::format("{} of anything but a <volume type=\"constvolume\"> is not "
+                                                      "implemented: bake it into a <texture type=\"bitmap\">",
+                                                      texture.title()));
+    }
+    const Object volume(context_, *element);
+    if (kind == "float") {
+        p.real("value", number(volume, "value", 1));
+    } else {
+        p.colour("value", colour(volume, "value", Rgb(1.0f)));
+    }
+    volume.warn_of_unused();
 }
 
 }  // namespace wend::mitsuba

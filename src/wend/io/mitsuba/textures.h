@@ -35,6 +35,7 @@ private:
     TextureRef add_made(const std::string& type, Parameters& p);
     void set_bitmap(const Object& texture, const std::string& kind, Parameters& p);
     void set_checkerboard(const Object& texture, const std::string& kind, Parameters& p);
+    void set_volume(const Object& texture, const std::string& kind, Parameters& p);
 
     Context& context_;
     std::map<std::pair<const Element*, std::string>, TextureRef> known_;

@@ -54,6 +54,30 @@ def write_pictures() -> None:
         bitmap.write(str(HERE / name), quality=100 if name.endswith("jpg") else -1)
 
 
+def write_lump(name: str) -> None:
+    """A lumpy ball with texture coordinates, as .ply and as .obj."""
+    rings = 12
+    i, j = np.mgrid[0 : rings + 1, 0 : 2 * rings + 1]
+    down, around = np.pi * i / rings, np.pi * j / rings
+    r = 1 + 0.12 * np.sin(3 * down) * np.cos(4 * around)
+    across = r * np.sin(down)
+    places = np.stack([across * np.cos(around), across * np.sin(around), r * np.cos(down)], axis=-1).reshape(-1, 3)
+    uvs = np.stack([j / (2 * rings), 1 - i / rings], axis=-1).reshape(-1, 2)
+    first = (i[:-1, :-1] * (2 * rings + 1) + j[:-1, :-1]).reshape(-1, 1)
+    below = first + 2 * rings + 1
+    faces = np.concatenate([np.hstack([first, below, below + 1]), np.hstack([first, below + 1, first + 1])])
+    header = "ply\nformat ascii 1.0\nelement vertex {}\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n"
+    properties = "".join(f"property float {axis}\n" for axis in "xyzst")
+    with (HERE / f"{name}.ply").open("w") as file:
+        file.write(header.format(len(places), properties, len(faces)))
+        file.writelines("{:g} {:g} {:g} {:g} {:g}\n".format(*p, *uv) for p, uv in zip(places, uvs, strict=True))
+        file.writelines("3 {} {} {}\n".format(*face) for face in faces)
+    with (HERE / f"{name}.obj").open("w") as file:
+        file.writelines("v {:g} {:g} {:g}\n".format(*p) for p in places)
+        file.writelines("vt {:g} {:g}\n".format(*uv) for uv in uvs)
+        file.writelines("f {0}/{0} {1}/{1} {2}/{2}\n".format(*face) for face in faces + 1)
+
+
 def main() -> None:
     random = np.random.default_rng(1)
     write_volume("density.vol", random.uniform(0.2, 2, (3, 4, 5, 1)), (-0.5, -0.5, 0), (1, 0.5, 1))
@@ -61,6 +85,7 @@ def main() -> None:
     write_sky("sky.pfm")
     write_serialized("meshes.serialized")
     write_pictures()
+    write_lump("lump")
 
 
 if __name__ == "__main__":
