@@ -58,6 +58,10 @@ Run run_once(const Session& session, const RenderSettings& settings, const Refer
     RenderStatistics statistics;
     std::vector<Snapshot> snapshots = render_with_snapshots(session, film, settings, watch, statistics);
     const double work = static_cast<double>(statistics.counts.segments);
+    // Its time may have been up before another walk.
+    if (!snapshots.empty() && snapshots.back().work == work) {
+        snapshots.pop_back();
+    }
     snapshots.push_back({statistics.seconds, static_cast<double>(statistics.samples), work, film.beauty()});
 
     Run run;
