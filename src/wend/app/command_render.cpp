@@ -72,7 +72,9 @@ std::vector<std::string> layers_of(const RenderOptions& options, const Scene& sc
             return names;
         }
     }
-    names.emplace_back(layer_of_media);
+    if (std::find(names.begin(), names.end(), layer_of_media) == names.end()) {
+        names.emplace_back(layer_of_media);
+    }
     return names;
 }
 

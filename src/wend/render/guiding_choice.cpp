@@ -95,8 +95,7 @@ TallyProducts GuidingChoice::unguided_squares() const {
     std::vector<WalkTallies> by_base(tallies_.size());
     for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            WalkTally& base = by_base[tile][base_of(kind)];
-            base += tallies_[tile][kind];
+            by_base[tile][base_of(kind)] += tallies_[tile][kind];
         }
     }
     for (WalkTallies& tile : by_base) {

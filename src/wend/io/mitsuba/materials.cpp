@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::string_view known_types =
     "blendbsdf, bumpmap, conductor, dielectric, diffuse, hair, mask, normalmap, null, plastic, principled, "
-    "roughconductor, "
-    "roughdielectric, roughplastic, thindielectric, twosided";
+    "roughconductor, roughdielectric, roughplastic, thindielectric, twosided";
 
 bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), type) != names.end();
