@@ -56,10 +56,10 @@ TEST(MessageLength, ControlCharactersAreNotPrinted) {
 TEST(MessageLength, NamesOfAnyLengthGetReadableErrors) {
     const std::string name(100'000, 'x');
     for (const std::string& world :
-         {"Shape \"" + name + "\"", "Material \"" + name + "\"", "NamedMaterial \"" + name + "\"",
+         {"Shape \"" + name + "\"", "Material \"" + name + "\"", "NamedMaterial \"" + name + "\" Shape \"sphere\"",
           "LightSource \"" + name + "\"", "Include \"" + name + "\"", "ObjectInstance \"" + name + "\"",
           "Texture \"a\" \"spectrum\" \"" + name + "\"", "MakeNamedMedium \"a\" \"string type\" \"" + name + "\"",
-          "LightSource \"infinite\" \"spectrum L\" \"" + name + "\"", "ColorSpace \"" + name + "\"",
+          "LightSource \"infinite\" \"spectrum L\" \"" + name + "\"",
           "Shape \"plymesh\" \"string filename\" \"" + name + "\""}) {
         const std::string message = message_of(world);
         EXPECT_TRUE(message.starts_with("test.pbrt:2:")) << world.substr(0, 60);
@@ -68,8 +68,11 @@ TEST(MessageLength, NamesOfAnyLengthGetReadableErrors) {
 }
 
 TEST(MessageLength, NamesOfAnyLengthGetReadableWarnings) {
-    const LoadedScene loaded = test::load_text("Shape \"sphere\" \"float " + std::string(100'000, 'x') + "\" 1");
+    const std::string name(100'000, 'x');
+    const LoadedScene loaded = test::load_text("Shape \"sphere\" \"float " + name + "\" 1 ColorSpace \"" + name +
+                                               "\" CoordSysTransform \"" + name + "\"");
     ASSERT_EQ(test::warnings_with(loaded, "is not used"), 1);
+    ASSERT_EQ(loaded.warnings.size(), 3u);
     for (const std::string& warning : loaded.warnings) {
         EXPECT_LT(warning.size(), longest);
     }

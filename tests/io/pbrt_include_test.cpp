@@ -101,14 +101,22 @@ TEST_F(PbrtInclude, ImportKeepsTheStateOutside) {
     EXPECT_EQ(d.shapes[1].world_from_object, Transform::translate(0, 1, 0));
     EXPECT_EQ(d.shapes[1].material, 0u);
     EXPECT_EQ(d.materials[d.shapes[2].material].name, "shared");
-    EXPECT_PRED2(contains, error_of("WorldBegin Import \"a.pbrt\" CoordSysTransform \"inside\""), "is not defined");
+    const Description outside = parse("WorldBegin Import \"a.pbrt\" CoordSysTransform \"inside\" Shape \"b\"");
+    EXPECT_EQ(outside.shapes[1].world_from_object, Transform());
+    ASSERT_EQ(outside.warnings.size(), 1u);
+    EXPECT_PRED2(contains, outside.warnings[0], "\"inside\" is not defined");
 }
 
 TEST_F(PbrtInclude, ImportedBlocksStayWithinTheirFile) {
     write("open.pbrt", "AttributeBegin");
     write("close.pbrt", "AttributeEnd");
     EXPECT_PRED2(contains, error_of("WorldBegin Import \"open.pbrt\""), "the end of the imported file, but");
-    EXPECT_PRED2(contains, error_of("WorldBegin AttributeBegin Import \"close.pbrt\" AttributeEnd"), "is still open");
+    const Description closed =
+        parse("WorldBegin AttributeBegin Translate 1 0 0 Import \"close.pbrt\" Shape \"a\" AttributeEnd Shape \"b\"");
+    EXPECT_EQ(closed.shapes[0].world_from_object, Transform::translate(1, 0, 0));
+    EXPECT_EQ(closed.shapes[1].world_from_object, Transform());
+    ASSERT_EQ(closed.warnings.size(), 1u);
+    EXPECT_PRED2(contains, closed.warnings[0], "AttributeEnd without AttributeBegin");
     EXPECT_EQ(parse("WorldBegin Include \"open.pbrt\" Include \"close.pbrt\" Shape \"a\"").shapes.size(), 1u);
 }
 

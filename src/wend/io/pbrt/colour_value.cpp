@@ -1,6 +1,8 @@
 #include <wend/io/pbrt/colour_value.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 namespace wend::pbrt {
@@ -18,8 +20,9 @@ std::string_view to_string(ColourSpace space) {
 }
 
 std::optional<ColourSpace> colour_space_named(std::string_view name) {
+    const auto is_same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
     for (const auto& [space, known] : names) {
-        if (known == name) {
+        if (std::equal(known.begin(), known.end(), name.begin(), name.end(), is_same)) {
             return space;
         }
     }

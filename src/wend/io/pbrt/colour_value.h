@@ -15,7 +15,7 @@ namespace wend::pbrt {
 enum class ColourSpace { srgb, dci_p3, rec2020, aces2065_1 };
 
 std::string_view to_string(ColourSpace space);
-/// None for an unknown name.
+/// In any case ("sRGB"), as in pbrt; none for an unknown name.
 std::optional<ColourSpace> colour_space_named(std::string_view name);
 
 /// Linear RGB in its space.

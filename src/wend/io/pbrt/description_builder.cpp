@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <stdexcept>
 #include <utility>
 
@@ -26,6 +27,17 @@ void place_at(std::vector<E>& entities, std::size_t index, E entity) {
         entities.resize(index + 1);
     }
     entities[index] = std::move(entity);
+}
+
+// What pbrt makes of the names of options: "force-diffuse" and "forceDiffuse" are "forcediffuse".
+std::string without_case_and_dashes(std::string_view name) {
+    std::string result;
+    for (const char c : name) {
+        if (c != '-' && c != '_') {
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }
+    }
+    return result;
 }
 
 std::string type_parameter(const ParameterSet& parameters, const Location& place) {
@@ -77,8 +89,13 @@ std::shared_ptr<const Motion> DescriptionBuilder::motion(const Location& place, 
     return last_motion_;
 }
 
-std::optional<std::size_t> DescriptionBuilder::medium_named(const std::string& name, const Location& place) {
-    return name.empty() ? std::nullopt : std::optional(media_.use(name, place));
+std::optional<std::size_t> DescriptionBuilder::use_medium(const std::shared_ptr<const UsedName>& medium) {
+    return medium ? std::optional(media_.use(medium->name, medium->place)) : std::nullopt;
+}
+
+std::size_t DescriptionBuilder::use_material() {
+    const auto& named = state().named_material;
+    return named ? materials_.use(named->name, named->place) : state().material;
 }
 
 void DescriptionBuilder::require_textures(const ParameterSet& parameters) const {
@@ -123,7 +140,7 @@ void DescriptionBuilder::camera(std::string type, ParameterSet parameters, const
     states_.coordinate_systems()["camera"] = {ctm.start.inverse(), ctm.end.inverse()};
     description_.camera = {{std::move(type), std::move(parameters), place},
                            motion_between(ctm.start.inverse(), ctm.end.inverse(), place),
-                           state().exterior};
+                           use_medium(state().exterior)};
 }
 
 void DescriptionBuilder::film(std::string type, ParameterSet parameters, const Location& place) {
@@ -137,6 +154,7 @@ void DescriptionBuilder::integrator(std::string type, ParameterSet parameters, c
 }
 
 void DescriptionBuilder::option(Parameter parameter) {
+    parameter.name = without_case_and_dashes(parameter.name);
     const Parameter last{parameter.type, parameter.name, parameter.place, parameter.colour_space, {}};
     if (const auto earlier = description_.options.add(std::move(parameter))) {
         warn_of_repeated(last, *earlier);
@@ -175,7 +193,8 @@ void DescriptionBuilder::coordinate_system(const std::string& name, const Locati
 void DescriptionBuilder::coord_sys_transform(const std::string& name, const Location& place) {
     const auto system = states_.coordinate_systems().find(name);
     if (system == states_.coordinate_systems().end()) {
-        throw InputError(place, fmt::format("the coordinate system \"{}\" is not defined", name));
+        warn(place, fmt::format("the coordinate system \"{}\" is not defined: nothing changes, as in pbrt", name));
+        return;
     }
     state().ctm = system->second;
 }
@@ -239,6 +258,10 @@ void DescriptionBuilder::attribute_begin(const Location& place) {
 }
 
 void DescriptionBuilder::attribute_end(const Location& place) {
+    if (const auto open = states_.innermost(); !open || *open == StateStack::Block::import) {
+        warn(place, "AttributeEnd without AttributeBegin is left out, as by pbrt");
+        return;
+    }
     states_.close(StateStack::Block::attribute, place);
 }
 
@@ -253,8 +276,10 @@ void DescriptionBuilder::end_import(const Location& place) {
 void DescriptionBuilder::colour_space(const std::string& name, const Location& place) {
     const auto space = colour_space_named(name);
     if (!space) {
-        throw InputError(place,
-                         fmt::format("\"{}\": expected the colour space srgb, dci-p3, rec2020 or aces2065-1", name));
+        warn(place, fmt::format("the colour space \"{}\" is unknown, and nothing changes, as in pbrt; known are srgb, "
+                                "dci-p3, rec2020 and aces2065-1",
+                                name));
+        return;
     }
     state().colour_space = *space;
 }
@@ -263,17 +288,21 @@ void DescriptionBuilder::material(std::string type, ParameterSet parameters, con
     version3_.material(type, parameters, place);
     parameters.set_defaults(state().defaults.material);
     state().material = materials_.define_anonymous(place);
+    state().named_material.reset();
     place_at(description_.materials, state().material, {{std::move(type), std::move(parameters), place}, ""});
 }
 
 void DescriptionBuilder::medium_interface(const std::string& interior, const std::string& exterior,
                                           const Location& place) {
-    state().interior = medium_named(interior, place);
-    state().exterior = medium_named(exterior, place);
+    const auto medium = [&](const std::string& name) {
+        return name.empty() ? nullptr : std::make_shared<const UsedName>(UsedName{name, place});
+    };
+    state().interior = medium(interior);
+    state().exterior = medium(exterior);
 }
 
 void DescriptionBuilder::named_material(const std::string& name, const Location& place) {
-    state().material = materials_.use(name, place);
+    state().named_material = std::make_shared<const UsedName>(UsedName{name, place});
 }
 
 void DescriptionBuilder::object_begin(const std::string& name, const Location& place) {
@@ -318,7 +347,7 @@ void DescriptionBuilder::light_source(std::string type, ParameterSet parameters,
     if (const Transform* world_from_light =
             still_transform(place, fmt::format("LightSource \"{}\" is left out", type))) {
         description_.lights.push_back(
-            {{std::move(type), std::move(parameters), place}, *world_from_light, state().exterior});
+            {{std::move(type), std::move(parameters), place}, *world_from_light, use_medium(state().exterior)});
     }
 }
 
@@ -370,9 +399,9 @@ void DescriptionBuilder::shape(std::string type, ParameterSet parameters, const 
                                    moves ? Transform() : moved->start(),
                                    moves ? moved : nullptr,
                                    state().reverse_orientation,
-                                   state().material,
-                                   state().interior,
-                                   state().exterior,
+                                   use_material(),
+                                   use_medium(state().interior),
+                                   use_medium(state().exterior),
                                    area_light,
                                    open_object_});
 }

@@ -91,7 +91,9 @@ private:
     std::shared_ptr<const Motion> motion(const Location& place, const std::string& what);
     /// At rest, with a warning, where one of the two mirrors and the other does not.
     Motion motion_between(const Transform& start, const Transform& end, const Location& place);
-    std::optional<std::size_t> medium_named(const std::string& name, const Location& place);
+    /// What the graphics state names, from then on to be defined.
+    std::optional<std::size_t> use_medium(const std::shared_ptr<const UsedName>& medium);
+    std::size_t use_material();
     void require_textures(const ParameterSet& parameters) const;
 
     Version3 version3_{[this](const Location& place, const std::string& text) { warn(place, text); }};

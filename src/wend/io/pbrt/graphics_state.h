@@ -38,14 +38,21 @@ struct AttributeDefaults {
     std::shared_ptr<const ParameterSet> shape, light, material, medium, texture;
 };
 
+/// A name that a directive gives to what follows: it must be defined if anything uses it.
+struct UsedName {
+    std::string name;
+    Location place;
+};
+
 struct GraphicsState {
     MovingTransform ctm;
     ActiveTransform active = ActiveTransform::all;
     ColourSpace colour_space = ColourSpace::srgb;
     bool reverse_orientation = false;
     std::size_t material = 0;
-    std::optional<std::size_t> interior;
-    std::optional<std::size_t> exterior;
+    std::shared_ptr<const UsedName> named_material;  ///< in place of `material`
+    std::shared_ptr<const UsedName> interior;        ///< media; null: vacuum
+    std::shared_ptr<const UsedName> exterior;
     std::optional<std::size_t> area_light;
     AttributeDefaults defaults;
 
@@ -71,6 +78,10 @@ public:
     /// Brings the saved state back. Throws InputError where the innermost open block is of another kind, or none is
     /// open.
     void close(Block block, const Location& place);
+    /// The innermost open block.
+    std::optional<Block> innermost() const {
+        return saved_.empty() ? std::nullopt : std::optional(saved_.back().block);
+    }
     /// Throws InputError at the place of the innermost block still open, if any.
     void require_all_closed() const;
 

@@ -98,7 +98,7 @@ void Lexer::skip_blanks_and_comments() {
         } else if (is_blank(*position_)) {
             ++position_;
         } else if (*position_ == '#') {
-            while (position_ != end_ && *position_ != '\n') {
+            while (position_ != end_ && *position_ != '\n' && *position_ != '\r') {
                 ++position_;
             }
         } else {
