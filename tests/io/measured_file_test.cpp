@@ -2,6 +2,7 @@
 #include "tests/support/measured_tables.h"
 
 #include <wend/core/error.h>
+#include <wend/io/gzip.h>
 #include <wend/io/load/measured.h>
 #include <wend/io/tensor_file.h>
 
@@ -151,6 +152,22 @@ TEST_F(MeasuredFile, FaultsAreNamed) {
     EXPECT_PRED2(holds, message_of([&] { read_measured(file_); }), "the measured reflection has no array \"sigma\"");
     std::ofstream(file_) << "tensor";
     EXPECT_PRED2(holds, message_of([&] { read_measured(file_); }), "this is no tensor file");
+}
+
+TEST_F(MeasuredFile, ArraysThatShareTheirBytesAreRefused) {
+    constexpr std::size_t count = 512;
+    const Tensor tensor{{count}, std::vector<float>(count)};
+    write_tensors(file_, {{"zz0", tensor}, {"zz1", tensor}, {"zz2", tensor}});
+    std::string bytes = read_file(file_);
+    // Behind a name there are the number of dimensions and the type.
+    const auto offset_of = [&](const char* name) { return bytes.data() + bytes.find(name) + 3 + 2 + 1; };
+    for (const char* name : {"zz1", "zz2"}) {
+        std::memcpy(offset_of(name), offset_of("zz0"), sizeof(std::uint64_t));
+    }
+    bytes.resize(bytes.size() - 2 * count * sizeof(float));
+    std::ofstream(file_, std::ios::binary) << bytes;
+    EXPECT_NE(message_of([&] { read_tensors(file_); }).find("the array \"zz1\" lies where others do"),
+              std::string::npos);
 }
 
 }  // namespace

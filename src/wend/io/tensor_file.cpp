@@ -65,6 +65,7 @@ std::map<std::string, Tensor> read_tensors(const std::filesystem::path& file) {
     bytes.take(signature.size());
     const auto entries = bytes.take<std::uint32_t>();
     std::map<std::string, Tensor> tensors;
+    std::uint64_t taken_so_far = 0;
     for (std::uint32_t i = 0; i < entries; ++i) {
         const Entry entry = take_entry(bytes, place);
         if (entry.type != Type::float32) {
@@ -74,6 +75,11 @@ std::map<std::string, Tensor> read_tensors(const std::filesystem::path& file) {
         Bytes data(content, place);
         data.seek(entry.offset);
         const std::string_view taken = data.take(size);
+        // Where arrays share their bytes, a small file would fill any memory.
+        taken_so_far += size;
+        if (taken_so_far > content.size()) {
+            throw InputError(place, fmt::format("the array \"{}\" lies where others do", entry.name));
+        }
         Tensor tensor{entry.shape, std::vector<float>(size / sizeof(float))};
         if (size > 0) {
             std::memcpy(tensor.values.data(), taken.data(), size);
