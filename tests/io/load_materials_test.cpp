@@ -316,6 +316,11 @@ TEST(LoadMaterials, WhatCannotBeIsRefused) {
                  "test.pbrt:3:21: error: there is no file");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"measured\""); }), "needs the parameter");
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"plaid\""); }), "known are");
+    for (const char* huge :
+         {"\"rgb eta\" [ 1 1 1e20 ]", "\"spectrum k\" [ 300 1e20 800 1 ]", "\"rgb k\" [ 3e6 1 1 ]"}) {
+        EXPECT_PRED2(contains, message_of([&] { Loaded(std::string("Material \"conductor\" ") + huge); }),
+                     "of a metal must not be above 1e+06");
+    }
     EXPECT_PRED2(contains, message_of([] {
                      Loaded("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [ \"m\" \"m\" ]");
                  }),

@@ -352,17 +352,32 @@ private:
         const auto eta = by_wavelength(prefix + "eta", "metal-Cu-eta"), k = by_wavelength(prefix + "k", "metal-Cu-k");
         if (eta && k) {
             const MetalConstants constants = reduce_metal(eta, k, around);
+            require_countable(p, prefix + "eta", constants.eta);
+            require_countable(p, prefix + "k", constants.k);
             material.eta = textures_.constant(constants.eta);
             material.k = textures_.constant(constants.k);
             return material;
         }
         const auto constant = [&](const std::string& name, const char* copper) {
             const auto found = textures_.find_colour(p, name, SpectrumKind::unbounded);
+            if (found && !textures_.varies(*found)) {
+                require_countable(p, name, textures_.mean(*found));
+            }
             return found ? *found : textures_.constant(named_spectrum(copper));
         };
         material.eta = constant(prefix + "eta", "metal-Cu-eta");
         material.k = constant(prefix + "k", "metal-Cu-k");
         return material;
+    }
+
+    /// Throws InputError where Fresnel's equations would leave the range of floats.
+    static void require_countable(const pbrt::ParameterSet& p, const std::string& name, const Rgb& value) {
+        constexpr float largest = 1e6f;
+        if (!is_finite(value) || !(max_value(value) <= largest)) {
+            throw InputError(p.place_of(name),
+                             fmt::format("\"{}\" of a metal must not be above {:g}, but is ({}, {}, {})", name, largest,
+                                         value.r, value.g, value.b));
+        }
     }
 
     Roughness load_roughness(const pbrt::ParameterSet& p, const std::string& prefix) {
