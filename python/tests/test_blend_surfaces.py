@@ -42,7 +42,7 @@ def ball(scene, made, flat=False):
         {"base_color": (0.9, 0.6, 0.3), "metallic": 1.0, "roughness": 0.4, "anisotropic": 0.6, "anisotropic_rotation": 0.15},
         {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 1.0},
         {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 0.7, "sheen_roughness": 0.3, "sheen_tint": (0.4, 0.7, 1.0)},
-        {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 1.0, "sheen_roughness": 0.9, "coat_weight": 1.0},
+        {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 1.0, "sheen_roughness": 0.9, "coat_weight": 1.0, "coat_roughness": 0.3},
     ],
     ids=["tint", "edge", "chalk", "level", "low level", "coat", "brushed", "turned", "sheen", "tinted sheen", "sheen on a coat"],
 )

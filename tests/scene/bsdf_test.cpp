@@ -461,11 +461,11 @@ TEST(Sheen, AlbedoIsThatOfCycles) {
         float cosine, roughness, albedo;
     };
     for (const Seen& seen :
-         {Seen{1, 1, 0.342f}, Seen{0.643f, 1, 0.443f}, Seen{0.175f, 1, 0.664f}, Seen{1, 0.7f, 0.104f},
-          Seen{0.454f, 0.7f, 0.340f}, Seen{0.175f, 0.7f, 0.561f}, Seen{1, 0.5f, 0.0187f}, Seen{0.643f, 0.5f, 0.0878f},
-          Seen{0.175f, 0.5f, 0.471f}, Seen{0.454f, 0.3f, 0.032f}, Seen{0.302f, 0.3f, 0.115f}}) {
+         {Seen{1, 1, 0.342f}, Seen{0.643f, 1, 0.443f}, Seen{0.2f, 1, 0.646f}, Seen{1, 0.7f, 0.104f},
+          Seen{0.454f, 0.7f, 0.340f}, Seen{0.2f, 0.7f, 0.532f}, Seen{1, 0.5f, 0.0187f}, Seen{0.643f, 0.5f, 0.0878f},
+          Seen{0.2f, 0.5f, 0.426f}, Seen{0.454f, 0.3f, 0.032f}, Seen{0.302f, 0.3f, 0.115f}}) {
         const Sheen fibres(direction_from_cosine(seen.cosine, 0.3f), seen.roughness);
-        EXPECT_NEAR(fibres.albedo(), seen.albedo, 3e-3f) << seen.cosine << ' ' << seen.roughness;
+        EXPECT_NEAR(fibres.albedo(), seen.albedo, 4e-3f) << seen.cosine << ' ' << seen.roughness;
     }
 }
 

@@ -62,9 +62,11 @@ std::vector<AttributeFields> attributes_of(const Element& element, std::string_v
         if (second && third) {
             attribute.fields.insert(attribute.fields.end(), {*second, *third});
         }
+        // Numbers that begin with 0 do not begin with 1 as well.
+        const bool is_within = name.ends_with("_1") && find(element, stem + "_0");
         const bool is_known = std::any_of(attributes.begin(), attributes.end(),
                                           [&](const AttributeFields& other) { return other.name == attribute.name; });
-        if (second.has_value() == third.has_value() && !is_known) {
+        if (second.has_value() == third.has_value() && !is_known && !is_within) {
             attributes.push_back(std::move(attribute));
         }
     }

@@ -14,15 +14,11 @@ Vec3 unfolded(const Vec3& wo, const Vec3& wi) {
     return {wi.x, wi.y, wo.z < 0 ? -std::abs(wi.z) : std::abs(wi.z)};
 }
 
-/// Of facets as seen from above, whichever side wo is on.
+/// Of facets as seen from above, whichever side wo is on. What passes is seen through them as in a mirror: so the two
+/// directions can be exchanged.
 Vec3 half_vector(const Vec3& wo, const Vec3& wi) {
     const Vec3 m = normalize(wo + unfolded(wo, wi));
     return m.z < 0 ? -m : m;
-}
-
-/// Whether both directions see the facet from their sides.
-bool is_seen(const Vec3& wo, const Vec3& wi, const Vec3& m) {
-    return dot(wo, m) * wo.z > 0 && dot(wi, m) * wi.z > 0;
 }
 
 }  // namespace
@@ -41,7 +37,7 @@ Rgb DisneySheetBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const Vec3 m = half_vector(wo, wi);
     const float cos_o = std::abs(wo.z), cos_i = std::abs(wi.z), half = abs_dot(wo, m);
     Rgb value(0.0f);
-    if (spec_trans > 0 && is_seen(wo, wi, m)) {
+    if (spec_trans > 0) {
         const Microfacets of = facets(passes);
         // Each direction is masked by itself.
         const float single = spec_trans * of.d(m) * of.g1(wo) * of.g1(wi) / (4 * cos_o);
@@ -67,7 +63,7 @@ float DisneySheetBsdf::density(const Vec3& wo, const Vec3& wi) const {
     const float passed_diffusely = (1 - spec_trans) * diff_trans;
     const float even = (passes ? passed_diffusely : share.diffuse) * cosine_hemisphere_density(std::abs(wi.z));
     const Vec3 m = half_vector(wo, wi);
-    if (!(spec_trans > 0) || !is_seen(wo, wi, m)) {
+    if (!(spec_trans > 0)) {
         return even;
     }
     return even +
@@ -88,9 +84,6 @@ std::optional<BsdfSample> DisneySheetBsdf::sample(const Vec3& wo, float u, const
             return std::nullopt;
         }
         wi.z = passes ? -wi.z : wi.z;
-        if (!is_seen(wo, wi, m)) {
-            return std::nullopt;
-        }
     } else {
         wi = to_cosine_hemisphere(u2);
         const bool goes_up = (u < share.mirrored + share.passed + share.diffuse) == (wo.z > 0);
