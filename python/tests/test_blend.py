@@ -312,13 +312,13 @@ def test_a_file_becomes_a_pbrt_scene(scene, tmp_path):
 
 
 def test_what_is_missing_is_named_once(scene):
-    made = material("BsdfPrincipled", sheen_weight=0.5)
+    made = material("BsdfPrincipled", thin_film_thickness=500)
     mesh(scene, "cube", made)
     mesh(scene, "cube", made)
     lamp(scene, "POINT", 1, (0, 0, 3))
     with pytest.warns(wend.SceneWarning) as told:
         blend.of_scene(scene)
-    assert sum("Sheen Weight is left out" in str(w.message) and made.name in str(w.message) for w in told) == 1
+    assert sum("Thin Film Thickness is left out" in str(w.message) and made.name in str(w.message) for w in told) == 1
 
 
 @pytest.mark.parametrize(

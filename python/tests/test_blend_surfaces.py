@@ -40,8 +40,11 @@ def ball(scene, made, flat=False):
         {"base_color": (0.6, 0.5, 0.4), "coat_weight": 1.0, "coat_roughness": 0.3, "coat_tint": (0.3, 0.6, 0.9)},
         {"base_color": (0.9, 0.6, 0.3), "metallic": 1.0, "roughness": 0.4, "anisotropic": 0.8},
         {"base_color": (0.9, 0.6, 0.3), "metallic": 1.0, "roughness": 0.4, "anisotropic": 0.6, "anisotropic_rotation": 0.15},
+        {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 1.0},
+        {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 0.7, "sheen_roughness": 0.3, "sheen_tint": (0.4, 0.7, 1.0)},
+        {"base_color": (0.5, 0.3, 0.2), "sheen_weight": 1.0, "sheen_roughness": 0.9, "coat_weight": 1.0, "coat_roughness": 0.3},
     ],
-    ids=["tint", "edge", "chalk", "level", "low level", "coat", "brushed", "turned"],
+    ids=["tint", "edge", "chalk", "level", "low level", "coat", "brushed", "turned", "sheen", "tinted sheen", "sheen on a coat"],
 )
 def test_principled(scene, tmp_path, inputs):
     ball(scene, material("BsdfPrincipled", **inputs))
@@ -54,8 +57,9 @@ def test_principled(scene, tmp_path, inputs):
         ("BsdfDiffuse", {"color": (0.5, 0.3, 0.2), "roughness": 0.7}),
         ("BsdfAnisotropic", {"color": (0.7, 0.5, 0.3), "roughness": 0.4}),
         ("BsdfMetallic", {"base_color": (0.7, 0.5, 0.3), "edge_tint": (0.4, 0.6, 0.9), "roughness": 0.4}),
+        ("BsdfSheen", {"color": (0.7, 0.5, 0.3), "roughness": 0.7}),
     ],
-    ids=["diffuse", "glossy", "metallic"],
+    ids=["diffuse", "glossy", "metallic", "sheen"],
 )
 def test_others(scene, tmp_path, kind, inputs):
     ball(scene, material(kind, **inputs))

@@ -271,6 +271,25 @@ def test_dense_media_have_the_colour_that_is_asked_for(stage, identifier, inputs
     assert middle(stage.image(size=(5, 5), spp=1024)) == pytest.approx((0.8, 0.5, 0.3), abs=0.04)
 
 
+@pytest.mark.parametrize(
+    ("identifier", "names"),
+    [
+        ("ND_standard_surface_surfaceshader", ("sheen", "sheen_color", "sheen_roughness", "specular")),
+        ("ND_open_pbr_surface_surfaceshader", ("fuzz_weight", "fuzz_color", "fuzz_roughness", "specular_weight")),
+    ],
+)
+def test_fibres_cover_what_is_below_by_what_they_scatter(stage, identifier, names):
+    cube = UsdGeom.Cube.Define(stage.stage, "/cube")
+    UsdGeom.XformCommonAPI(cube).SetTranslate(Gf.Vec3d(0, 0, -3))
+    given = dict(zip(names, (1.0, (1.0, 0.5, 0.0), 1.0, 0.0), strict=True))
+    materialx(stage, cube.GetPrim(), identifier, base_color=(1.0, 1.0, 1.0), **given)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    stage.camera.GetFocalLengthAttr().Set(1000)
+    seen = stage.image(size=(16, 16), spp=256).mean(axis=(0, 1))
+    # Of light from straight ahead the roughest fibres scatter back 0.342 (zeltner2022).
+    assert seen == pytest.approx((1, 1 - 0.342 / 2, 1 - 0.342), abs=5e-3)
+
+
 def test_instances_are_where_they_are_put(stage):
     root = UsdGeom.Xform.Define(stage.stage, "/things")
     instancer = UsdGeom.PointInstancer.Define(stage.stage, "/things/copies")

@@ -9,6 +9,7 @@ import numpy as np
 
 from ._blend_chalk import add_roughness
 from ._blend_nodes import Colour, Nodes, output_node
+from ._blend_sheen import add_sheen, fibres
 from ._blend_subsurface import add_inside
 from ._blend_volumes import volume_parameters
 from ._blend_wanted import Probe
@@ -133,6 +134,7 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
         "ShaderNodeBsdfAnisotropic": _glossy,
         "ShaderNodeBsdfGlossy": _glossy,
         "ShaderNodeBsdfMetallic": _metallic,
+        "ShaderNodeBsdfSheen": _sheen,
         "ShaderNodeBsdfGlass": _glass,
         "ShaderNodeBsdfRefraction": _glass,
         "ShaderNodeBsdfTransparent": _transparent,
@@ -195,9 +197,8 @@ def _normal_map(nodes: Nodes, node: Any) -> str | None:
 
 def _principled(nodes: Nodes, node: Any) -> _Surface:
     inputs = node.inputs
-    for name in ("Sheen Weight", "Thin Film Thickness"):
-        if name in inputs and (inputs[name].is_linked or inputs[name].default_value != 0):
-            nodes.warn(node, f"{name} is left out")
+    if "Thin Film Thickness" in inputs and (inputs["Thin Film Thickness"].is_linked or inputs["Thin Film Thickness"].default_value != 0):
+        nodes.warn(node, "Thin Film Thickness is left out")
     ior = max(nodes.number(inputs["IOR"]), 1e-3)
     emission, varies = _emitted(nodes, inputs["Emission Color"], inputs["Emission Strength"])
     material: dict[str, Any] = {"string type": "principled", "float eta": ior}
@@ -217,6 +218,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
         material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
         _add_tint(nodes, material, inputs["Coat Tint"], "coattint")
+    has_sheen = add_sheen(nodes, material, inputs)
     brushed = _brush(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
     _detail(nodes, node, material)
     result = _Surface(material, emission=emission, brushed=brushed)
@@ -238,6 +240,8 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         glass = _dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
+        if has_sheen:
+            nodes.warn(node, "the sheen of glass is left out")
         result = _blended(result, _Surface(glass), clear, emission)
     result.shines_by_a_picture = varies
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
@@ -288,6 +292,12 @@ def _diffuse(nodes: Nodes, node: Any) -> _Surface:
         add_roughness(nodes, material, node.inputs["Roughness"], node.inputs["Color"])
     else:
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    _detail(nodes, node, material)
+    return _Surface(material)
+
+
+def _sheen(nodes: Nodes, node: Any) -> _Surface:
+    material = fibres(nodes, node)
     _detail(nodes, node, material)
     return _Surface(material)
 

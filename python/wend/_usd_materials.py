@@ -79,6 +79,9 @@ _WORDS: dict[str, dict[str, str]] = {
         "coat": "coat",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_IOR",
+        "sheen": "sheen",
+        "sheen_colour": "sheen_color",
+        "sheen_roughness": "sheen_roughness",
         "clear": "transmission",
         "clear_colour": "transmission_color",
         "clear_depth": "transmission_depth",
@@ -103,6 +106,9 @@ _WORDS: dict[str, dict[str, str]] = {
         "coat": "coat_weight",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_ior",
+        "sheen": "fuzz_weight",
+        "sheen_colour": "fuzz_color",
+        "sheen_roughness": "fuzz_roughness",
         "clear": "transmission_weight",
         "clear_colour": "transmission_color",
         "clear_depth": "transmission_depth",
@@ -119,12 +125,17 @@ _WORDS: dict[str, dict[str, str]] = {
 }
 
 
-#: What has no counterpart, and its value where it is off.
-_NOT_HERE = {"sheen": 0, "fuzz_weight": 0, "thin_film_weight": 0}
+#: What has no counterpart; it is off where it is 0.
+_NOT_HERE = {
+    "UsdPreviewSurface": ("displacement", "useSpecularWorkflow"),
+    "ND_standard_surface_surfaceshader": ("thin_film_thickness",),
+    "ND_open_pbr_surface_surfaceshader": ("thin_film_weight",),
+}
 
 #: What is not OpenPBR's value where none is given.
 _COAT_ROUGHNESS = {"UsdPreviewSurface": 0.01, "ND_standard_surface_surfaceshader": 0.1}
 _COAT_IOR = {"ND_standard_surface_surfaceshader": 1.5}
+_SHEEN_ROUGHNESS = {"ND_standard_surface_surfaceshader": 0.3}
 
 
 class _Surface:
@@ -153,9 +164,8 @@ class _Surface:
 
     def made(self) -> UsdLook:
         """The look, after its material was made."""
-        plain = {"displacement": 0, "useSpecularWorkflow": 0} if self.is_preview else _NOT_HERE
-        for name, value in plain.items():
-            if float(self.inputs.constant(name, value)) != value:
+        for name in _NOT_HERE[self.kind]:
+            if float(self.inputs.constant(name, 0)) != 0:
                 self.reader.warn(self.inputs.shader.GetPrim(), f"{name} is left out")
         self._shine()
         is_clear = self._opacity() if self.is_preview else float(self.constant("clear", 0)) > 0.5
@@ -169,6 +179,8 @@ class _Surface:
             parameters = self._wax(ior)
         else:
             parameters = self._solid(ior)
+        if parameters["string type"] != "principled" and self._has_sheen():
+            self.reader.warn(self.inputs.shader.GetPrim(), "the sheen of what is clear or waxen is left out")
         self._normals(parameters)
         self.reader.builder.add("MakeNamedMaterial", self.key, parameters)
         named = self.inputs.coordinates
@@ -217,6 +229,10 @@ class _Surface:
         roughness = float(self.constant("roughness", self._roughness()))
         return {"float roughness": roughness**2, "bool remaproughness": False}
 
+    def _has_sheen(self) -> bool:
+        name = self.words.get("sheen")
+        return name is not None and (self.inputs.is_connected(name) or float(self.inputs.constant(name, 0)) > 0)
+
     def _roughness(self) -> float:
         return 0.5 if self.is_preview else 0.2 if self.kind == "ND_standard_surface_surfaceshader" else 0.3
 
@@ -252,6 +268,10 @@ class _Surface:
         self.add_to(parameters, "coat", "coat", "float", 0.0)
         self.add_to(parameters, "coat_roughness", "coatroughness", "float", _COAT_ROUGHNESS.get(self.kind, 0.0))
         parameters["float coateta"] = float(self.constant("coat_ior", ior if self.is_preview else _COAT_IOR.get(self.kind, 1.6)))
+        if self._has_sheen():
+            self.add_to(parameters, "sheen", "sheen", "float", 0.0)
+            self.add_to(parameters, "sheen_colour", "sheentint", "rgb", (1.0, 1.0, 1.0))
+            self.add_to(parameters, "sheen_roughness", "sheenroughness", "float", _SHEEN_ROUGHNESS.get(self.kind, 0.5))
         specular = blender.specular(self.inputs) if self.is_preview else float(self.constant("specular", 1))
         if specular != 1 and self.kind == "ND_standard_surface_surfaceshader":
             parameters["float specular"] = specular

@@ -23,7 +23,7 @@ from ._scene_reader import Look, SceneReader
 try:
     import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 except ImportError as error:
-    raise ImportError("wend.blend wants bpy: pip install 'wend[blender]'") from error
+    raise ImportError("wend.blend wants bpy, which there is for Python 3.11 and 3.13: pip install 'wend[blender]'") from error
 
 from . import _blend_lights as lights
 from . import _reader_command as command

@@ -520,5 +520,26 @@ TEST(LoadTextures, RefusesTexturesThatGrowExponentially) {
     EXPECT_PRED2(contains, message_of([&] { load_text(world); }), "more than 10000 parts");
 }
 
+TEST(LoadTextures, MeshesHaveValuesAtTheirCorners) {
+    const Loaded loaded(
+        "Texture \"m\" \"spectrum\" \"mesh\" \"float values\" [ 1 0 0  0 1 0  0 0 1  .5 .5 .5 ] "
+        "\"integer indices\" [ 0 1 2  3 3 3 ] Material \"diffuse\" \"texture reflectance\" \"m\"");
+    const auto at = [&](std::uint32_t triangle, const Vec2& of_corners) {
+        return loaded.scene.scene.textures.evaluate(loaded.as<DiffuseMaterial>().reflectance,
+                                                    {{0, 0}, {0, 0, 0}, {0, 0, 1}, false, triangle, of_corners});
+    };
+    EXPECT_EQ(at(0, {0, 0}), Rgb(1, 0, 0));
+    EXPECT_EQ(at(0, {0.25f, 0.5f}), Rgb(0.25f, 0.25f, 0.5f));
+    EXPECT_EQ(at(1, {0.25f, 0.5f}), Rgb(0.5f));
+    EXPECT_EQ(at(2, {0, 1}), Rgb(0, 0, 1)) << "of a larger mesh";
+    const auto refused = [](const std::string& parameters) {
+        return message_of([&] { Loaded("Texture \"m\" \"float\" \"mesh\" " + parameters); });
+    };
+    EXPECT_PRED2(contains, refused("\"integer indices\" [ 0 0 0 ]"), "\"values\" are finite numbers, 1 each");
+    EXPECT_PRED2(contains, refused("\"float values\" [ 1 2 ] \"integer indices\" [ 0 1 ]"), "three for each triangle");
+    EXPECT_PRED2(contains, refused("\"float values\" [ 1 2 ] \"integer indices\" [ 0 1 2 ]"),
+                 "index 2 is out of range");
+}
+
 }  // namespace
 }  // namespace wend

@@ -87,6 +87,10 @@ std::string message_of(const std::function<void()>& action) {
     return "nothing was thrown";
 }
 
+bool holds(const std::string& message, const std::string& text) {
+    return message.find("wend_measured.bsdf: error: " + text) != std::string::npos;
+}
+
 class MeasuredFile : public ::testing::Test {
 protected:
     MeasuredFile() : file_(std::filesystem::temp_directory_path() / "wend_measured.bsdf") {}
@@ -115,6 +119,33 @@ TEST_F(MeasuredFile, HoldsWhatWasWritten) {
     EXPECT_FLOAT_EQ(read->density(wo, wi), written.density(wo, wi));
 }
 
+TEST_F(MeasuredFile, MayHoldColoursInPlaceOfSpectra) {
+    const MeasuredData data = test::uneven_reflectance(false);
+    const MeasuredTables written(data);
+    Tensors tensors = tensors_of(data);
+    const std::size_t size = data.colours.width * data.colours.height;
+    Tensor rgb{{data.azimuths.size(), data.angles.size(), 3, data.colours.height, data.colours.width}, {}};
+    for (std::size_t slice = 0; slice < data.azimuths.size() * data.angles.size(); ++slice) {
+        for (int c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < size; ++i) {
+                rgb.values.push_back(data.colours.values[slice * size + i][c]);
+            }
+        }
+    }
+    tensors.erase("spectra");
+    tensors.erase("wavelengths");
+    tensors["rgb"] = rgb;
+    write_tensors(file_, tensors);
+    const auto read = read_measured(file_);
+    const Vec3 wo = normalize(Vec3(0.3f, -0.2f, 0.8f)), wi = normalize(Vec3(-0.5f, 0.6f, 0.7f));
+    EXPECT_EQ(read->value(wo, wi), written.value(wo, wi));
+    EXPECT_GT(read->value(wo, wi).b, read->value(wo, wi).r);
+    tensors["rgb"].shape[2] = 2;
+    tensors["rgb"].values.resize(2 * rgb.values.size() / 3);
+    write_tensors(file_, tensors);
+    EXPECT_PRED2(holds, message_of([&] { read_measured(file_); }), "the array \"rgb\" has the sizes [4, 5, 2");
+}
+
 TEST_F(MeasuredFile, IsAMaterial) {
     write_tensors(file_, tensors_of(test::even_reflectance(Rgb(0.5f), true)));
     const LoadedScene loaded = test::load_text(
@@ -127,9 +158,6 @@ TEST_F(MeasuredFile, IsAMaterial) {
 }
 
 TEST_F(MeasuredFile, FaultsAreNamed) {
-    const auto holds = [](const std::string& message, const std::string& text) {
-        return message.find("wend_measured.bsdf: error: " + text) != std::string::npos;
-    };
     EXPECT_PRED2(holds, error_of("ndf", [](Tensor& t) { t.values[1] = NAN; }), "the array \"ndf\" has a value");
     EXPECT_PRED2(holds, error_of("phi_i", [](Tensor& t) { std::swap(t.values[0], t.values[1]); }), "the values of");
     EXPECT_PRED2(holds,

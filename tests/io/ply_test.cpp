@@ -209,6 +209,35 @@ TEST_F(Ply, AbsurdCountsAreRefusedBeforeTheyAreAllocated) {
     expect_error(bytes, "list of 4294967295");
 }
 
+TEST_F(Ply, ReadsWhatVerticesAndFacesHaveBesideTheirShape) {
+    std::ofstream(folder / "m.ply", std::ios::binary)
+        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float blue\nproperty float y\n"
+           "property float z\nproperty float green\nproperty float red\nproperty float heat_0\n"
+           "property float flow_x\nproperty float flow_y\nproperty float flow_z\nproperty float pair_0\n"
+           "property float pair_1\nproperty float plain\n"
+           "element face 1\nproperty uchar dye_r\nproperty uchar dye_g\nproperty uchar dye_b\n"
+           "property list uchar int vertex_indices\nproperty float age_1\nend_header\n"
+           "0 .3 0 0 .2 .1 5 1 2 3 0 0 0\n1 .6 0 0 .5 .4 6 4 5 6 0 0 0\n"
+           "1 0 1 0 0 0 7 0 0 0 0 0 0\n0 0 1 0 0 0 8 0 0 0 0 0 0\n"
+           "255 51 0 4 0 1 2 3 9\n";
+    EXPECT_TRUE(read_ply(folder / "m.ply").attributes.empty());
+    const TriangleMeshData mesh = read_ply(folder / "m.ply", true);
+    const auto values = [&](const std::string& name) {
+        const auto found = std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
+                                        [&](const MeshAttribute& attribute) { return attribute.name == name; });
+        return found == mesh.attributes.end() ? std::vector<float>() : found->values;
+    };
+    EXPECT_EQ(mesh.attributes.size(), 5u) << "two numbers are no attribute, nor is what ends on no letter";
+    EXPECT_EQ(values("vertex_color"), (std::vector<float>{.1f, .2f, .3f, .4f, .5f, .6f, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(values("vertex_heat"), (std::vector<float>{5, 6, 7, 8}));
+    EXPECT_EQ(values("vertex_flow"), (std::vector<float>{1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0}));
+    // Of both triangles of the square; colours of bytes are parts of 255.
+    EXPECT_EQ(values("face_age"), (std::vector<float>{9, 9}));
+    ASSERT_EQ(values("face_dye_color").size(), 6u);
+    EXPECT_FLOAT_EQ(values("face_dye_color")[4], 0.2f);
+    EXPECT_FLOAT_EQ(values("face_dye_color")[3], 1);
+}
+
 TEST_F(Ply, ReadsTheMeshesOfARealScene) {
     const fs::path models = test::shared_dir() / "scenes/veach-ajar/models";
     if (!fs::exists(models)) {

@@ -6,6 +6,7 @@
 #include <wend/medium/phase.h>
 #include <wend/scene/bsdf/bsdf.h>
 #include <wend/scene/bsdf/facet_albedo.h>
+#include <wend/scene/bsdf/sheen.h>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,31 @@ PrincipledBsdf tinted(float metallic) {
     b.specular_tint = Rgb(0.9f, 0.5f, 0.2f);
     b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
     b.diffuse_roughness = 0.8f;
+    return b;
+}
+
+/// Below fibres.
+PrincipledBsdf fuzzy(float roughness, float coat = 0) {
+    PrincipledBsdf b = principled(0, 0.3f, coat);
+    b.sheen = 0.8f;
+    b.sheen_tint = Rgb(1.0f, 0.6f, 0.3f);
+    b.sheen_roughness = roughness;
+    return b;
+}
+
+DisneySheetBsdf sheet(float spec_trans) {
+    DisneySheetBsdf b;
+    b.base = Rgb(0.5f, 0.4f, 0.2f);
+    b.spec_trans = spec_trans;
+    b.diff_trans = 0.4f;
+    b.alpha_x = 0.5f;
+    b.alpha_y = 0.3f;
+    b.passing_alpha_x = 0.3f;
+    b.passing_alpha_y = 0.2f;
+    b.sheen = 0.2f;
+    b.sheen_tint = 0.5f;
+    b.flatness = 0.3f;
+    b.spec_tint = 0.5f;
     return b;
 }
 
@@ -136,7 +162,13 @@ const std::vector<Model>& models() {
         {"principled_brushed", tinted(1)},
         {"disney", disney(0.2f, 0)},
         {"disney_half_glass", disney(0.1f, 0.6f)},
-        {"disney_glass", disney(0, 1)}};
+        {"disney_glass", disney(0, 1)},
+        {"principled_fuzzy", fuzzy(0.5f)},
+        {"principled_smooth_fuzz", fuzzy(0)},
+        {"principled_rough_fuzz", fuzzy(1, 0.8f)},
+        {"sheet", sheet(0)},
+        {"sheet_half_glass", sheet(0.6f)},
+        {"sheet_glass", sheet(1)}};
     return all;
 }
 
@@ -369,6 +401,13 @@ TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
             }
         }
     }
+    for (const float roughness : {0.2f, 0.6f, 1.0f}) {
+        PrincipledBsdf velvet = fuzzy(roughness, 0.7f);
+        velvet.base = velvet.sheen_tint = Rgb(1.0f);
+        for (const Vec3& wo : incidences()) {
+            EXPECT_TRUE(test::is_within_one_percent(energy(velvet, wo, 400000)[0], 1, 2e-3)) << roughness << ' ' << wo;
+        }
+    }
     for (const float roughness : {0.5f, 1.0f}) {
         PrincipledBsdf chalk = principled(0, 0.3f);
         chalk.base = Rgb(1.0f);
@@ -388,6 +427,8 @@ TEST(SlowPrincipled, ReflectsItsAlbedo) {
             PrincipledBsdf b = principled(metallic, 0.4f, coat);
             b.coat_tint = Rgb(0.5f, 0.7f, 0.9f);
             b.diffuse_roughness = coat;
+            b.sheen = coat;
+            b.sheen_tint = Rgb(0.9f, 0.4f, 0.7f);
             b.specular_tint = metallic > 0 ? Rgb(1.0f) : Rgb(0.9f, 0.5f, 0.2f);
             for (const Vec3& wo : incidences()) {
                 const auto shares = energy(b, wo, 400000);
@@ -412,6 +453,30 @@ TEST(SlowPrincipled, WhatIsNotReflectedGoesInsideAndComesOut) {
             }
         }
     }
+}
+
+// What Cycles 5.0 reflects of a white sky by its node of fibres alone.
+TEST(Sheen, AlbedoIsThatOfCycles) {
+    struct Seen {
+        float cosine, roughness, albedo;
+    };
+    for (const Seen& seen :
+         {Seen{1, 1, 0.342f}, Seen{0.643f, 1, 0.443f}, Seen{0.2f, 1, 0.646f}, Seen{1, 0.7f, 0.104f},
+          Seen{0.454f, 0.7f, 0.340f}, Seen{0.2f, 0.7f, 0.532f}, Seen{1, 0.5f, 0.0187f}, Seen{0.643f, 0.5f, 0.0878f},
+          Seen{0.2f, 0.5f, 0.426f}, Seen{0.454f, 0.3f, 0.032f}, Seen{0.302f, 0.3f, 0.115f}}) {
+        const Sheen fibres(direction_from_cosine(seen.cosine, 0.3f), seen.roughness);
+        EXPECT_NEAR(fibres.albedo(), seen.albedo, 4e-3f) << seen.cosine << ' ' << seen.roughness;
+    }
+}
+
+TEST(Sheen, IsTheSameFromBehind) {
+    const Vec3 wo = normalize(Vec3(0.3f, -0.5f, 0.4f)), wi = normalize(Vec3(-0.6f, 0.1f, 0.5f));
+    const auto behind = [](const Vec3& w) { return Vec3(w.x, w.y, -w.z); };
+    const Sheen front(wo, 0.6f), back(behind(wo), 0.6f);
+    EXPECT_EQ(front.albedo(), back.albedo());
+    EXPECT_EQ(front.density(wi), back.density(behind(wi)));
+    EXPECT_EQ(front.density(behind(wi)), 0);
+    EXPECT_EQ(front.sample({0.3f, 0.7f}), behind(back.sample({0.3f, 0.7f})));
 }
 
 TEST(Principled, FacetsAreThoseOfFresnelWhereTheyAreSmooth) {

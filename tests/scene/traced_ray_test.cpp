@@ -186,6 +186,47 @@ TEST(TracedRay, GoesBackThroughWhatTouchesTheSurfaceItLeaves) {
     }
 }
 
+// A floor at height 0 is known the better the nearer the origin; how far the way there was is not.
+TEST(TracedRay, GoesBackThroughWhatTouchesTheFloorNearTheOrigin) {
+    for (const bool floor_first : {false, true}) {
+        for (const float reach : {1.0f, 0.1f, 1e-2f, 1e-4f, 1e-6f, 0.0f}) {
+            auto description = test::two_materials();
+            TriangleMesh floor = test::square();
+            for (Vec3& p : floor.positions) {
+                p *= 4.0f;
+            }
+            const TriangleMesh box = cube(Transform::translate(0, 0, 10) * Transform::scale(1, 1, 10));
+            for (const bool is_floor : {floor_first, !floor_first}) {
+                test::add(description, is_floor ? floor : box, is_floor ? 0 : 1);
+            }
+            const Scene scene(std::move(description));
+            Pcg32 random(6);
+            int met_again = 0, passed = 0;
+            constexpr int rays = 2000;
+            for (int i = 0; i < rays; ++i) {
+                const Vec3 from(0.1f, -0.3f, 8);
+                const Vec3 to(reach * (random.uniform() - 0.5f), reach * (random.uniform() - 0.5f), 0);
+                TracedRay ray = Ray{from, normalize(to - from)};
+                auto hit = scene.intersect(ray);
+                bool was_passed = false;
+                while (hit && scene.is_interface(*hit)) {
+                    was_passed = true;
+                    ray.pass(*hit);
+                    hit = scene.intersect(ray);
+                }
+                ASSERT_TRUE(hit);
+                const Vec3 w = normalize(Vec3(random.uniform() - 0.5f, random.uniform() - 0.5f, 1));
+                const auto bottom = scene.intersect(ray.leave(*hit, w));
+                passed += was_passed;
+                met_again += bottom && bottom->normal.z < 0;
+                ASSERT_EQ(bottom && bottom->normal.z < 0, was_passed) << floor_first << ' ' << reach << ' ' << w;
+            }
+            EXPECT_EQ(met_again, passed);
+            EXPECT_GT(floor_first ? passed : rays - passed, 0) << "of two in one place either may come first";
+        }
+    }
+}
+
 TEST(TracedRay, LeavesTheSeamOfAMeshWhereNothingIsRounded) {
     // On the diagonal of two triangles at the origin a position has no rounding, and so no clearance.
     SceneDescription s;

@@ -1,6 +1,7 @@
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
 #include <wend/io/ply.h>
+#include <wend/io/ply_attributes.h>
 #include <wend/io/ply_header.h>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 namespace wend {
 namespace {
 
+using ply::AttributeRows;
 using ply::bytes_of;
 using ply::Element;
 using ply::Format;
@@ -152,7 +154,8 @@ VertexRow::Slot slot_of(const Property& property) {
 template <class Reader>
 class BodyParser {
 public:
-    BodyParser(const Header& header, Reader reader) : header_(header), reader_(std::move(reader)) {}
+    BodyParser(const Header& header, Reader reader, bool with_attributes)
+        : header_(header), reader_(std::move(reader)), with_attributes_(with_attributes) {}
 
     TriangleMeshData parse() {
         for (const Element& element : header_.elements) {
@@ -211,15 +214,21 @@ private:
         mesh_.normals.reserve(has_normals ? element.count : 0);
         mesh_.uvs.reserve(has_uvs ? element.count : 0);
         VertexRow row;
+        AttributeRows attributes(with_attributes_ ? element : Element{}, "vertex_");
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (std::size_t p = 0; p < slots.size(); ++p) {
                 const Property& property = element.properties[p];
                 if (property.count_type) {
                     skip(property);
                 } else {
-                    row.values[slots[p]] = static_cast<float>(reader_.next(property.type));
+                    const double value = reader_.next(property.type);
+                    row.values[slots[p]] = static_cast<float>(value);
+                    if (with_attributes_) {
+                        attributes.set(p, value);
+                    }
                 }
             }
+            attributes.add_row();
             if (!row.finite(VertexRow::x, 3)) {
                 throw InputError(reader_.place(), fmt::format("vertex {} is not finite", i));
             }
@@ -232,20 +241,36 @@ private:
                 mesh_.uvs.push_back(row.finite(VertexRow::u, 2) ? Vec2(v[VertexRow::u], v[VertexRow::v]) : Vec2(0, 0));
             }
         }
+        add_attributes(attributes);
     }
 
     void read_faces(const Element& element) {
         const Element* vertices = header_.find("vertex");
         const double vertex_count = vertices ? static_cast<double>(vertices->count) : 0;
         mesh_.indices.reserve(3 * element.count);
+        AttributeRows attributes(with_attributes_ ? element : Element{}, "face_");
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            for (const Property& property : element.properties) {
+            const std::size_t before = mesh_.indices.size();
+            for (std::size_t p = 0; p < element.properties.size(); ++p) {
+                const Property& property = element.properties[p];
                 if (property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index")) {
                     read_polygon(property, i, vertex_count);
+                } else if (with_attributes_ && !property.count_type) {
+                    attributes.set(p, reader_.next(property.type));
                 } else {
                     skip(property);
                 }
             }
+            for (std::size_t corner = before; corner < mesh_.indices.size(); corner += 3) {
+                attributes.add_row();
+            }
+        }
+        add_attributes(attributes);
+    }
+
+    void add_attributes(AttributeRows& rows) {
+        for (MeshAttribute& attribute : rows.take()) {
+            mesh_.attributes.push_back(std::move(attribute));
         }
     }
 
@@ -289,17 +314,18 @@ private:
 
     const Header& header_;
     Reader reader_;
+    bool with_attributes_;
     TriangleMeshData mesh_;
 };
 
 template <class Reader>
-TriangleMeshData parse_body(const Header& header, std::string_view body, const Place& place) {
-    return BodyParser<Reader>(header, Reader(body, place)).parse();
+TriangleMeshData parse_body(const Header& header, std::string_view body, const Place& place, bool with_attributes) {
+    return BodyParser<Reader>(header, Reader(body, place), with_attributes).parse();
 }
 
 }  // namespace
 
-TriangleMeshData read_ply(const std::filesystem::path& file) {
+TriangleMeshData read_ply(const std::filesystem::path& file, bool with_attributes) {
     const std::string bytes = read_file(file);
     const Header header = ply::parse_header(bytes, file.string());
     const std::string_view body = std::string_view(bytes).substr(header.bytes);
@@ -307,11 +333,11 @@ TriangleMeshData read_ply(const std::filesystem::path& file) {
         throw InputError(Place{file.string()}, "a mesh needs the elements `vertex` and `face`");
     }
     if (header.format == Format::ascii) {
-        return parse_body<AsciiReader>(header, body, {file.string(), header.lines + 1, 1});
+        return parse_body<AsciiReader>(header, body, {file.string(), header.lines + 1, 1}, with_attributes);
     }
     const bool native = (header.format == Format::little_endian) == (std::endian::native == std::endian::little);
-    return native ? parse_body<BinaryReader<false>>(header, body, {file.string()})
-                  : parse_body<BinaryReader<true>>(header, body, {file.string()});
+    return native ? parse_body<BinaryReader<false>>(header, body, {file.string()}, with_attributes)
+                  : parse_body<BinaryReader<true>>(header, body, {file.string()}, with_attributes);
 }
 
 }  // namespace wend

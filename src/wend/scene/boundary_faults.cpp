@@ -31,6 +31,7 @@ bool is_passable(const SceneDescription& scene, const Surface& surface) {
            std::holds_alternative<InterfaceMaterial>(material) ||
            std::holds_alternative<DielectricMaterial>(material) ||
            std::holds_alternative<ThinDielectricMaterial>(material) ||
+           std::holds_alternative<DisneySheetMaterial>(material) ||
            std::holds_alternative<DiffuseTransmissionMaterial>(material) ||
            std::holds_alternative<MixMaterial>(material) || surface.alpha >= 0;
 }

@@ -158,6 +158,29 @@ Bsdf bsdf_of(const DisneyMaterial& m, const Textures& textures, const TexturePoi
     return b;
 }
 
+Bsdf bsdf_of(const DisneySheetMaterial& m, const Textures& textures, const TexturePoint& p) {
+    const auto share = [&](TextureId id) { return std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f); };
+    constexpr float least_alpha = 1e-3f;
+    DisneySheetBsdf b;
+    b.base = clamp01(textures.evaluate(m.base, p));
+    b.roughness = share(m.roughness);
+    b.ior = m.ior;
+    // What passes two facets is bent back by the second: less is left of their roughness (burley2015).
+    const float bent = sqr((0.65f * b.ior - 0.35f) * b.roughness), alpha = sqr(b.roughness);
+    const float aspect = aspect_of(share(m.anisotropy));
+    b.alpha_x = std::max(alpha / aspect, least_alpha);
+    b.alpha_y = std::max(alpha * aspect, least_alpha);
+    b.passing_alpha_x = std::max(bent / aspect, least_alpha);
+    b.passing_alpha_y = std::max(bent * aspect, least_alpha);
+    b.spec_trans = share(m.spec_trans);
+    b.diff_trans = std::clamp(textures.evaluate_grey(m.diff_trans, p) / 2, 0.0f, 1.0f);
+    b.spec_tint = share(m.spec_tint);
+    b.sheen = std::max(textures.evaluate_grey(m.sheen, p), 0.0f);
+    b.sheen_tint = share(m.sheen_tint);
+    b.flatness = share(m.flatness);
+    return b;
+}
+
 Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const TexturePoint& p) {
     const auto share = [&](TextureId id) { return std::clamp(textures.evaluate_grey(id, p), 0.0f, 1.0f); };
     const auto alpha = [&](TextureId roughness) {
@@ -177,6 +200,11 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
     b.specular_tint = factor(m.specular_tint);
     b.coat_tint = factor(m.coat_tint);
     b.diffuse_roughness = m.diffuse_roughness < 0 ? 0.0f : share(m.diffuse_roughness);
+    if (m.sheen >= 0) {
+        b.sheen = share(m.sheen);
+        b.sheen_tint = factor(m.sheen_tint);
+        b.sheen_roughness = share(m.sheen_roughness);
+    }
     if (m.subsurface >= 0) {
         b.has_inside = true;
         b.subsurface = share(m.subsurface);

@@ -98,6 +98,9 @@ struct PrincipledMaterial {
     TextureId specular_tint = -1;      ///< those of PrincipledBsdf; -1: 1
     TextureId coat_tint = -1;          ///< the same
     TextureId diffuse_roughness = -1;  ///< -1: 0
+    TextureId sheen = -1;              ///< -1: none
+    TextureId sheen_tint = -1;         ///< -1: 1
+    TextureId sheen_roughness = 0;
     float ior = 1.5f, coat_ior = 1.5f;
     TextureId subsurface = -1;  ///< -1: there is nothing inside
     float entry_ior = 1.5f;
@@ -129,6 +132,20 @@ struct DisneyMaterial {
     bool transmits = false;  ///< whether `spec_trans` is anything but 0
 };
 
+/// DisneySheetBsdf by textures.
+struct DisneySheetMaterial {
+    TextureId base = 0;
+    TextureId roughness = 0;  ///< alpha is its square
+    TextureId anisotropy = 0;
+    TextureId spec_trans = 0;
+    TextureId diff_trans = 0;  ///< twice the share
+    TextureId spec_tint = 0;
+    TextureId sheen = 0;
+    TextureId sheen_tint = 0;
+    TextureId flatness = 0;
+    float ior = 1.5f;
+};
+
 /// At each point one of two others, by chance.
 struct MixMaterial {
     int first = 0;
@@ -141,7 +158,7 @@ struct InterfaceMaterial {};
 
 using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, ConductorMaterial, DielectricMaterial,
                               ThinDielectricMaterial, CoatedMaterial, HairMaterial, PrincipledMaterial,
-                              MeasuredMaterial, DisneyMaterial, MixMaterial, InterfaceMaterial>;
+                              MeasuredMaterial, DisneyMaterial, DisneySheetMaterial, MixMaterial, InterfaceMaterial>;
 
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);

@@ -96,9 +96,10 @@ struct Hit {
     float t = 0;         ///< from where it is traced from
     float time = 0;      ///< of the ray
     Vec3 position;
-    Vec3 normal;    ///< geometric, unit length, towards the exterior
-    Frame shading;  ///< z: interpolated normal on the geometric normal's side; x along dp/du
-    Vec2 uv;        ///< surface parameters; not computed for interfaces
+    Vec3 normal;            ///< geometric, unit length, towards the exterior
+    Frame shading;          ///< z: interpolated normal on the geometric normal's side; x along dp/du
+    Vec2 uv;                ///< surface parameters; not computed for interfaces
+    Vec2 of_corners{0, 0};  ///< TexturePoint::of_corners
     const Surface* surface = nullptr;
     SurfaceElement element;
     bool is_behind = false;        ///< the ray came from where the normal does not point to
@@ -110,7 +111,7 @@ struct Hit {
 
 /// Where textures are evaluated for a hit.
 inline TexturePoint texture_point(const Hit& hit) {
-    return {hit.uv, hit.position, hit.normal, hit.is_behind};
+    return {hit.uv, hit.position, hit.normal, hit.is_behind, hit.element.primitive, hit.of_corners};
 }
 
 /// Embree's structures over the scene's surfaces.

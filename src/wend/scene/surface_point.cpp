@@ -60,6 +60,7 @@ LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
     const Vec3 e2 = p2 - p0;
     const float w = 1 - raw.u - raw.v;
     LocalPoint point;
+    hit.of_corners = {raw.u, raw.v};
     point.largest = largest_coordinates(mesh, raw.element.primitive);
     point.position = p0 + e1 * raw.u + e2 * raw.v;
     point.normal = cross(e1, e2);

@@ -111,6 +111,12 @@ Rgb Textures::value_of(const DirectionMixTexture& t, const TexturePoint& p) cons
     return evaluate(t.first, p) * amount + evaluate(t.second, p) * (1 - amount);
 }
 
+Rgb Textures::value_of(const MeshTexture& t, const TexturePoint& p) const {
+    const std::size_t first = 3 * (p.triangle % (t.indices->size() / 3));
+    const auto corner = [&](std::size_t i) { return (*t.values)[(*t.indices)[first + i]]; };
+    return corner(0) * (1 - p.of_corners.x - p.of_corners.y) + corner(1) * p.of_corners.x + corner(2) * p.of_corners.y;
+}
+
 Rgb Textures::value_of(const BilerpTexture& t, const TexturePoint& p) const {
     const Vec2 st = map_to_texture(t.mapping, p);
     return (t.v00 * (1 - st.x) + t.v10 * st.x) * (1 - st.y) + (t.v01 * (1 - st.x) + t.v11 * st.x) * st.y;

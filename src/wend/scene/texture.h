@@ -8,6 +8,7 @@
 #include <wend/scene/noise.h>
 #include <wend/scene/texture_mapping.h>
 
+#include <cstdint>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -104,6 +105,13 @@ struct MarbleTexture {
     AffineMap texture_from_world;
 };
 
+/// Values at the vertices of a mesh, or on its faces: what the mesh has beside its shape.
+struct MeshTexture {
+    std::shared_ptr<const std::vector<Rgb>> values;
+    /// Three a triangle, one triangle at least; those of another mesh have them again from the first on.
+    std::shared_ptr<const std::vector<std::uint32_t>> indices;
+};
+
 /// The albedo that gives a medium the colour of another texture, over the medium's own.
 struct RelativeAlbedoTexture {
     TextureId reflectance = 0;
@@ -111,9 +119,9 @@ struct RelativeAlbedoTexture {
     Rgb albedo;
 };
 
-using Texture =
-    std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, SidesTexture, BilerpTexture,
-                 ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture, RelativeAlbedoTexture>;
+using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, SidesTexture,
+                             BilerpTexture, ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture,
+                             MeshTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {
@@ -140,6 +148,7 @@ private:
     Rgb value_of(const DotsTexture& t, const TexturePoint& p) const;
     Rgb value_of(const NoiseTexture& t, const TexturePoint& p) const;
     Rgb value_of(const MarbleTexture& t, const TexturePoint& p) const;
+    Rgb value_of(const MeshTexture& t, const TexturePoint& p) const;
     Rgb value_of(const RelativeAlbedoTexture& t, const TexturePoint& p) const;
 
     std::vector<Texture> textures_;

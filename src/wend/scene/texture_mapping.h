@@ -4,6 +4,7 @@
 #include <wend/core/transform.h>
 #include <wend/core/vector.h>
 
+#include <cstdint>
 #include <variant>
 
 namespace wend {
@@ -11,9 +12,11 @@ namespace wend {
 /// What a texture is evaluated at.
 struct TexturePoint {
     Vec2 uv;
-    Vec3 position;           ///< in the world
-    Vec3 normal{0, 0, 0};    ///< geometric, of unit length; of no matter to most textures
-    bool is_behind = false;  ///< whether it is seen from where the normal does not point to
+    Vec3 position;               ///< in the world
+    Vec3 normal{0, 0, 0};        ///< geometric, of unit length; of no matter to most textures
+    bool is_behind = false;      ///< whether it is seen from where the normal does not point to
+    std::uint32_t triangle = 0;  ///< of a mesh, and how much of the value is that of its second and third corner
+    Vec2 of_corners{0, 0};
 };
 
 /// By the surface's own parameters, an affine map of them.

@@ -10,6 +10,9 @@ namespace {
 /// A ray that is more along the surface does not get behind it.
 constexpr float least_cosine = 1.0f / 32;
 
+/// What a distance may be off by, over itself: as large as that of surface_point.cpp.
+constexpr float rounding = 1e-6f;
+
 /// Whether a ray that starts inwards may meet the same element again, on its way out.
 bool is_round(const Surface& surface) {
     const auto* quadric = std::get_if<Quadric>(surface.shape.get());
@@ -39,9 +42,12 @@ void TracedRay::pass(const Hit& met) {
 TracedRay TracedRay::leave(const Hit& hit, const Vec3& w) const {
     TracedRay ray(hit, w, (dot(direction, hit.normal) < 0) != (dot(w, hit.normal) < 0));
     const Crossing own = ray.crossings_[0];
+    // Near the origin the place is known better than the way there was. What is farther than the ray's own zone will be
+    // met as anything else is.
+    const float reach = ray.zone_ + rounding * hit.t;
     ray.count_ = 0;
     for (const Crossing* crossing = end(); crossing-- != begin();) {
-        const bool is_here = crossing->t == before ? hit.t < zone_ : crossing->t > hit.t - ray.zone_;
+        const bool is_here = crossing->t == before ? hit.t < zone_ : hit.t - crossing->t <= reach;
         if (is_here) {
             ray.add({crossing->met, before, crossing->along});
         }

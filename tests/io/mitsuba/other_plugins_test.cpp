@@ -35,15 +35,14 @@ std::vector<Plugin> plugins() {
     const auto plain = [](const char* kind, const std::string& type) {
         return std::string("<") + kind + " type=\"" + type + "\"/>";
     };
-    add("bsdf", {"circular", "measured", "measured_polarized", "polarizer", "principledthin", "retarder"},
-        [&](const std::string& type) { return on_a_sphere(plain("bsdf", type)); });
+    add("bsdf", {"measured_polarized"}, [&](const std::string& type) { return on_a_sphere(plain("bsdf", type)); });
     add("shape", {"ellipsoids", "ellipsoidsmesh", "sdfgrid"},
         [&](const std::string& type) { return plain("shape", type); });
     add("emitter", {"sunsky", "timed_sunsky", "volume"},
         [&](const std::string& type) { return plain("emitter", type); });
     add("emitter", {"directionalarea"}, [&](const std::string& type) { return on_a_sphere(plain("emitter", type)); });
     add("phase", {"sggx"}, [&](const std::string& type) { return in_a_medium(plain("phase", type)); });
-    add("texture", {"mesh_attribute", "volume"}, as_a_texture);
+    add("texture", {"volume"}, as_a_texture);
     add("spectrum", {"blackbody", "regular", "irregular"}, [](const std::string& type) {
         return on_a_sphere("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"" + type + "\"/></bsdf>");
     });
@@ -72,6 +71,53 @@ TEST(MitsubaPlugins, SkiesAreNamedWithHowToBakeThem) {
     EXPECT_PRED2(contains, said, "\"python -m wend.mitsuba_sky scene.xml -o sky.exr\"");
     EXPECT_PRED2(contains, said, "<emitter type=\"envmap\"> and <emitter type=\"directional\"> take its place");
     EXPECT_PRED2(contains, said_of("<emitter type=\"timed_sunsky\"/>"), "<emitter type=\"sunsky\"> of one hour");
+}
+
+TEST(MitsubaPlugins, AttributesThatAMeshHasNotAreNamed) {
+    const std::string texture =
+        "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"mesh_attribute\">"
+        "<string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
+    EXPECT_PRED2(contains, said_of(on_a_sphere(texture)), "the shape has no attribute \"vertex_color\"; it has none");
+    const MitsubaFiles files;
+    files.write("m.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "property float heat_0\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0 1\n1 0 0 2\n0 1 0 4\n3 0 1 2\n");
+    const std::string shape = "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/>";
+    EXPECT_PRED2(contains, files.error_of(shape + texture + "</shape>"), "it has vertex_heat");
+    // Each mesh has its own, though the BSDF is one.
+    const std::string shared =
+        "<bsdf type=\"diffuse\" id=\"b\"><texture name=\"reflectance\" type=\"mesh_attribute\">"
+        "<string name=\"name\" value=\"vertex_heat\"/><float name=\"scale\" value=\".1\"/>"
+        "</texture></bsdf>";
+    const pbrt::Description scene =
+        files.read(shared + shape + "<ref id=\"b\"/></shape>" + shape + "<ref id=\"b\"/></shape>");
+    ASSERT_EQ(scene.textures.size(), 3u) << "one tells a surface's sides apart";
+    std::size_t meshes = 0;
+    for (const auto& made : scene.textures) {
+        if (made.type == "mesh") {
+            ++meshes;
+            EXPECT_EQ(made.parameters.get_floats("values"),
+                      (std::vector<float>{.1f, .1f, .1f, .2f, .2f, .2f, .4f, .4f, .4f}));
+            EXPECT_EQ(made.parameters.get_ints("indices"), (std::vector<int>{0, 1, 2}));
+        }
+    }
+    EXPECT_EQ(meshes, 2u);
+}
+
+TEST(MitsubaPlugins, PolarizersAreGreyWithoutPolarization) {
+    const auto alpha_of = [](const std::string& bsdf) {
+        return read_scene(scene_with(on_a_sphere(bsdf)), "/tmp", "scene.xml")
+            .shapes.at(0)
+            .parameters.get_float("alpha", 1);
+    };
+    EXPECT_FLOAT_EQ(alpha_of("<bsdf type=\"polarizer\"/>"), 0.5f);
+    EXPECT_FLOAT_EQ(alpha_of("<bsdf type=\"circular\"><rgb name=\"transmittance\" value=\".6\"/></bsdf>"), 0.7f);
+    EXPECT_FLOAT_EQ(alpha_of("<bsdf type=\"retarder\"/>"), 0);
+    EXPECT_PRED2(
+        contains,
+        said_of(on_a_sphere("<bsdf type=\"polarizer\"><rgb name=\"transmittance\" value=\".6 .5 .4\"/></bsdf>")),
+        "the \"transmittance\" of <bsdf type=\"polarizer\"> is taken as grey");
 }
 
 /// Of a scene with this sensor alone.

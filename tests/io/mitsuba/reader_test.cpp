@@ -57,8 +57,8 @@ TEST(MitsubaReader, WhatWendLacksIsNamed) {
     EXPECT_PRED2(contains, warnings_of(read_text("<emitter type=\"sunsky\"/>")),
                  "scene.xml:3:1: warning: <emitter type=\"sunsky\"> is not implemented: it is left out");
     EXPECT_PRED2(contains, warnings_of(read_text("<shape type=\"sdfgrid\"/>")), "it is left out");
-    const auto scene = read_text("<shape type=\"sphere\"><bsdf type=\"measured\"/></shape>");
-    EXPECT_PRED2(contains, warnings_of(scene), "<bsdf type=\"measured\"> is not implemented: a diffuse one");
+    const auto scene = read_text("<shape type=\"sphere\"><bsdf type=\"measured_polarized\"/></shape>");
+    EXPECT_PRED2(contains, warnings_of(scene), "<bsdf type=\"measured_polarized\"> is not implemented: a diffuse one");
     EXPECT_PRED2(contains, warnings_of(read_scene(scene_with("<integrator type=\"ptracer\"/>"), "/tmp", "scene.xml")),
                  "\"volpath\" takes its place");
 }

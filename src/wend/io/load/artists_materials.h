@@ -12,4 +12,7 @@ PrincipledMaterial principled_surface(TextureLoader& textures, const pbrt::Param
 /// "burley", but for the index.
 DisneyMaterial disney_surface(TextureLoader& textures, const pbrt::ParameterSet& p);
 
+/// "burleysheet", but for the index.
+DisneySheetMaterial disney_sheet(TextureLoader& textures, const pbrt::ParameterSet& p);
+
 }  // namespace wend

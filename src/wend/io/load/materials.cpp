@@ -43,6 +43,7 @@ public:
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
             {"burley", &MaterialLoader::load_disney},
+            {"burleysheet", &MaterialLoader::load_disney_sheet},
             {"principled", &MaterialLoader::load_principled},
             {"measured", &MaterialLoader::load_measured},
         };
@@ -55,10 +56,10 @@ public:
             context_.warnings.add_unused("Material", entity);
             return material;
         }
-        refuse_type(
-            "Material", entity,
-            {"burley", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse", "diffusetransmission",
-             "hair", "interface", "measured", "mix", "principled", "subsurface", "thindielectric"});
+        refuse_type("Material", entity,
+                    {"burley", "burleysheet", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse",
+                     "diffusetransmission", "hair", "interface", "measured", "mix", "principled", "subsurface",
+                     "thindielectric"});
     }
 
 private:
@@ -185,6 +186,12 @@ private:
     /// What Mitsuba's scenes have.
     LoadedMaterial load_disney(const pbrt::MaterialEntity& entity) {
         DisneyMaterial material = disney_surface(textures_, entity.parameters);
+        material.ior = load_ior(entity.parameters, "eta", 1.5f);
+        return {material};
+    }
+
+    LoadedMaterial load_disney_sheet(const pbrt::MaterialEntity& entity) {
+        DisneySheetMaterial material = disney_sheet(textures_, entity.parameters);
         material.ior = load_ior(entity.parameters, "eta", 1.5f);
         return {material};
     }

@@ -32,9 +32,9 @@ public:
         const std::vector<std::size_t> directions = {data.azimuths.size(), data.angles.size()};
         data.visible = take_table("vndf", directions);
         data.luminance = take_table("luminance", directions);
-        data.colours = take_colours(directions, slices);
+        data.colours = tensors_.contains("rgb") ? take_rgb(directions) : take_colours(directions, slices);
         if (data.colours.width != data.luminance.width || data.colours.height != data.luminance.height) {
-            throw InputError(place_, "the measured reflection's \"spectra\" and \"luminance\" differ in size");
+            throw InputError(place_, "the measured reflection's colours and its \"luminance\" differ in size");
         }
         return std::make_shared<const MeasuredTables>(std::move(data));
     }
@@ -91,6 +91,23 @@ private:
             value = std::max(value, 0.0f);
         }
         return {tensor.shape.back(), tensor.shape[before.size()], std::move(tensor.values)};
+    }
+
+    /// Of files that their authors have made colours of. Planes of a channel become triples.
+    BilinearTable<Rgb> take_rgb(const std::vector<std::size_t>& directions) {
+        constexpr std::size_t channels = 3;
+        const Tensor planes = take("rgb", 5);
+        require_shape(planes, "rgb", {directions[0], directions[1], channels});
+        BilinearTable<Rgb> colours{planes.shape[4], planes.shape[3], {}};
+        const std::size_t size = colours.width * colours.height;
+        colours.values.resize(planes.values.size() / channels);
+        for (std::size_t i = 0; i < colours.values.size(); ++i) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                const float value = planes.values[(i / size * channels + c) * size + i % size];
+                colours.values[i][static_cast<int>(c)] = std::max(value, 0.0f);
+            }
+        }
+        return colours;
     }
 
     /// Spectra become colours in daylight. Beyond the wavelengths they are as at the outermost.

@@ -88,9 +88,10 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
         {"constant", &TextureLoader::load_constant}, {"directionmix", &TextureLoader::load_direction_mix},
         {"dots", &TextureLoader::load_dots},         {"fbm", &TextureLoader::load_fractal},
         {"imagemap", &TextureLoader::load_imagemap}, {"marble", &TextureLoader::load_marble},
-        {"mix", &TextureLoader::load_mix},           {"ptex", &TextureLoader::load_ptex},
-        {"scale", &TextureLoader::load_scale},       {"sides", &TextureLoader::load_sides},
-        {"windy", &TextureLoader::load_windy},       {"wrinkled", &TextureLoader::load_wrinkled},
+        {"mesh", &TextureLoader::load_mesh},         {"mix", &TextureLoader::load_mix},
+        {"ptex", &TextureLoader::load_ptex},         {"scale", &TextureLoader::load_scale},
+        {"sides", &TextureLoader::load_sides},       {"windy", &TextureLoader::load_windy},
+        {"wrinkled", &TextureLoader::load_wrinkled},
     };
     for (const Loader& loader : loaders) {
         if (loader.type == texture.type) {
@@ -98,8 +99,8 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
         }
     }
     refuse_type("Texture", texture,
-                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mix",
-                 "ptex", "scale", "sides", "windy", "wrinkled"});
+                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mesh",
+                 "mix", "ptex", "scale", "sides", "windy", "wrinkled"});
 }
 
 TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
@@ -241,6 +242,33 @@ TextureId TextureLoader::load_marble(const pbrt::TextureEntity& texture) {
                                        texture_from_world(texture)});
 }
 
+/// What a mesh has at its vertices or on its faces.
+TextureId TextureLoader::load_mesh(const pbrt::TextureEntity& texture) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    const std::vector<float> numbers = p.get_floats("values");
+    const std::size_t channels = texture.kind == pbrt::TextureKind::real ? 1 : 3;
+    if (numbers.empty() || numbers.size() % channels != 0 ||
+        !std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); })) {
+        throw InputError(p.place_of("values"), fmt::format("\"values\" are finite numbers, {} each", channels));
+    }
+    auto values = std::make_shared<std::vector<Rgb>>();
+    for (std::size_t i = 0; i < numbers.size(); i += channels) {
+        values->emplace_back(numbers[i], numbers[i + (channels - 1) / 2], numbers[i + channels - 1]);
+    }
+    auto indices = std::make_shared<std::vector<std::uint32_t>>();
+    for (const int index : p.get_ints("indices")) {
+        if (index < 0 || static_cast<std::size_t>(index) >= values->size()) {
+            throw InputError(p.place_of("indices"),
+                             fmt::format("the index {} is out of range: there are {} values", index, values->size()));
+        }
+        indices->push_back(static_cast<std::uint32_t>(index));
+    }
+    if (indices->empty() || indices->size() % 3 != 0) {
+        throw InputError(p.place_of("indices"), "\"indices\" are three for each triangle");
+    }
+    return textures_.add(MeshTexture{std::move(values), std::move(indices)});
+}
+
 TextureId TextureLoader::load_ptex(const pbrt::TextureEntity& texture) {
     context_.warnings.add(texture.place, "Texture \"ptex\" is not implemented: the constant 0.5 takes its place");
     static_cast<void>(texture.parameters.get_string("filename", ""));
@@ -362,7 +390,8 @@ Rgb TextureLoader::mean(TextureId id) const {
             const Vec2 uv((static_cast<float>(x) + 0.5f) / side, (static_cast<float>(y) + 0.5f) / side);
             // What depends on the place instead varies over a cube around the origin.
             const Vec3 position(2 * uv.x - 1, 2 * uv.y - 1, static_cast<float>((x * 37 + y * 29) % side) / 32 - 1);
-            sum += textures_.evaluate(id, {uv, position, {0, 0, 1}});
+            const auto triangle = static_cast<std::uint32_t>(y * side + x);
+            sum += textures_.evaluate(id, {uv, position, {0, 0, 1}, false, triangle, {1.0f / 3, 1.0f / 3}});
         }
     }
     return sum / static_cast<float>(side * side);

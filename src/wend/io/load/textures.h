@@ -70,6 +70,7 @@ private:
     TextureId load_wrinkled(const pbrt::TextureEntity& texture);
     TextureId load_windy(const pbrt::TextureEntity& texture);
     TextureId load_marble(const pbrt::TextureEntity& texture);
+    TextureId load_mesh(const pbrt::TextureEntity& texture);
     TextureId load_ptex(const pbrt::TextureEntity& texture);
 
     /// Adds a texture made of others. Throws InputError if evaluating it takes absurdly many steps.

@@ -12,8 +12,9 @@ namespace wend::mitsuba {
 namespace {
 
 constexpr std::string_view known_types =
-    "blendbsdf, bumpmap, conductor, dielectric, diffuse, hair, mask, normalmap, null, plastic, principled, "
-    "roughconductor, roughdielectric, roughplastic, thindielectric, twosided";
+    "blendbsdf, bumpmap, circular, conductor, dielectric, diffuse, hair, mask, measured, normalmap, null, plastic, "
+    "polarizer, principled, principledthin, retarder, roughconductor, roughdielectric, roughplastic, thindielectric, "
+    "twosided";
 
 bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), type) != names.end();
@@ -33,7 +34,9 @@ std::vector<const Element*> inner_of(const Object& bsdf, std::size_t least, std:
 
 }  // namespace
 
-SurfaceLook Materials::look_of(const Element* element, const pbrt::Location& shape, bool shines) {
+SurfaceLook Materials::look_of(const Element* element, const pbrt::Location& shape, bool shines,
+                               const TriangleMeshData* mesh) {
+    textures_.set_mesh(mesh);
     if (!element) {
         if (shines) {
             return {black(), {}};
@@ -60,7 +63,7 @@ std::optional<SurfaceLook> Materials::masked(const Object& bsdf) {
         return look;
     }
     if (bsdf.type() != "blendbsdf") {
-        return std::nullopt;
+        return filter(bsdf);
     }
     const std::vector<const Element*> inner = inner_of(bsdf, 2, 2);
     const bool first = inner[0]->attribute("type") == "null", second = inner[1]->attribute("type") == "null";
@@ -75,8 +78,34 @@ std::optional<SurfaceLook> Materials::masked(const Object& bsdf) {
     return SurfaceLook{name_of(*inner[first ? 1 : 0], {}), first ? weight : rest};
 }
 
+/// What changes polarization is, without it, a black surface that has holes: of what meets a polarizer half passes.
+std::optional<SurfaceLook> Materials::filter(const Object& bsdf) {
+    const bool is_retarder = bsdf.type() == "retarder";
+    if (!is_retarder && bsdf.type() != "polarizer" && bsdf.type() != "circular") {
+        return std::nullopt;
+    }
+    for (const char* name : {"theta", "delta", "polarizing", "left_handed"}) {
+        bsdf.ignore(name);
+    }
+    const double passing = is_retarder ? 1 : 0.5;
+    const Element* given = bsdf.find("transmittance");
+    if (given && !is_texture(*given)) {
+        const Rgb colour = colour_of(context_, *given, SpectrumUse::reflectance);
+        if (colour != Rgb(colour.r)) {
+            context_.warn(given->place, fmt::format("the \"transmittance\" of {} is taken as grey", bsdf.title()));
+        }
+    }
+    const NumberOrTexture share = textures_.number(bsdf, "transmittance", 1);
+    bsdf.warn_of_unused();
+    if (const auto* number = std::get_if<float>(&share)) {
+        return SurfaceLook{black(), static_cast<float>(1 - passing * static_cast<double>(*number))};
+    }
+    const TextureRef part = textures_.scaled(std::get<TextureRef>(share), passing, bsdf.place());
+    return SurfaceLook{black(), textures_.inverted(part, bsdf.place())};
+}
+
 std::string Materials::name_of(const Element& element, const Setting& setting) {
-    const std::tuple key(&element, setting.is_two_sided, setting.detail);
+    const std::tuple key(&element, setting.is_two_sided, setting.detail, textures_.mesh_number());
     if (const auto known = names_.find(key); known != names_.end()) {
         return known->second;
     }
@@ -219,6 +248,9 @@ Materials::Leaf Materials::leaf_of(const Object& bsdf) {
     }
     if (type == "principledthin") {
         return thin(bsdf);
+    }
+    if (type == "measured") {
+        return measured(bsdf);
     }
     if (type == "null") {
         return {"interface", Parameters(bsdf.place()), false};
@@ -365,35 +397,34 @@ Materials::Leaf Materials::hair(const Object& bsdf) {
     return {"hair", std::move(p), false};
 }
 
-/// `principledthin` without what its surface reflects.
 Materials::Leaf Materials::thin(const Object& bsdf) {
     Parameters p(bsdf.place());
-    const ColourOrTexture base = textures_.colour(bsdf, "base_color", Rgb(0.5f));
-    const Element* through = bsdf.find("diff_trans");
-    const double passes = through && !is_texture(*through) ? bsdf.number("diff_trans", 0) / 2 : 0;
-    if (!(passes >= 0 && passes <= 1)) {
-        throw InputError(bsdf.place_of("diff_trans"), "\"diff_trans\" must lie between 0 and 2");
+    p.colour("reflectance", textures_.colour(bsdf, "base_color", Rgb(0.5f)))
+        .real("roughness", textures_.number(bsdf, "roughness", 0.5))
+        .real("eta", bsdf.positive("eta", 1.5));
+    for (const auto& [name, parameter] :
+         {std::pair{"anisotropic", "anisotropy"}, std::pair{"spec_trans", "transmission"},
+          std::pair{"diff_trans", "diffusetransmission"}, std::pair{"spec_tint", "speculartint"},
+          std::pair{"sheen", "sheen"}, std::pair{"sheen_tint", "sheentint"}, std::pair{"flatness", "flatness"}}) {
+        if (bsdf.has(name)) {
+            p.real(parameter, textures_.number(bsdf, name, 0));
+        }
     }
-    const bool transmits = passes > 0 && std::holds_alternative<Rgb>(base);
-    context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse sheet of its \"base_color\"{} takes its "
-                                            "place, without reflections",
-                                            bsdf.title(), transmits ? " and \"diff_trans\"" : ""));
-    for (const char* name : {"spec_trans", "anisotropic", "roughness", "sheen", "sheen_tint", "flatness", "eta",
-                             "spec_tint", "specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
+    for (const char* name : {"specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate",
                              "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate"}) {
         bsdf.ignore(name);
     }
-    if (!transmits) {
-        p.colour("reflectance", base);
-        return {"diffuse", std::move(p), false};
-    }
-    const auto share = static_cast<float>(passes);
-    p.colour("reflectance", std::get<Rgb>(base) * (1 - share)).colour("transmittance", std::get<Rgb>(base) * share);
-    return {"diffusetransmission", std::move(p), false};
+    return {"burleysheet", std::move(p), false};
+}
+
+Materials::Leaf Materials::measured(const Object& bsdf) {
+    Parameters p(bsdf.place());
+    p.text("filename", bsdf.file("filename").string());
+    return {"measured", std::move(p)};
 }
 
 Materials::Leaf Materials::replaced(const Object& bsdf) {
-    if (!is_one_of(bsdf.type(), {"circular", "measured", "measured_polarized", "polarizer", "retarder"})) {
+    if (!is_one_of(bsdf.type(), {"circular", "measured_polarized", "polarizer", "retarder"})) {
         refuse_type(bsdf, std::string(known_types));
     }
     context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse one takes its place", bsdf.title()));

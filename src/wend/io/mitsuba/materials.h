@@ -25,7 +25,8 @@ public:
 
     /// Of a BSDF; null: the one that shapes have without any, which is black where they shine. Throws InputError for a
     /// BSDF that there is not; what Mitsuba has and Wend lacks is replaced by a diffuse one, with a warning.
-    SurfaceLook look_of(const Element* bsdf, const pbrt::Location& shape, bool shines);
+    /// `mesh` is the shape's, for what its textures take of it; null: it is no mesh.
+    SurfaceLook look_of(const Element* bsdf, const pbrt::Location& shape, bool shines, const TriangleMeshData* mesh);
 
 private:
     /// What is around a BSDF.
@@ -51,6 +52,7 @@ private:
     std::string detailed(const Object& bsdf, Setting setting);
     std::string blended(const Object& bsdf, const Setting& setting);
     std::optional<SurfaceLook> masked(const Object& bsdf);
+    std::optional<SurfaceLook> filter(const Object& bsdf);
     Leaf leaf_of(const Object& bsdf);
     Leaf diffuse(const Object& bsdf);
     Leaf dielectric(const Object& bsdf);
@@ -59,6 +61,7 @@ private:
     Leaf principled(const Object& bsdf);
     Leaf hair(const Object& bsdf);
     Leaf thin(const Object& bsdf);
+    Leaf measured(const Object& bsdf);
     Leaf replaced(const Object& bsdf);
     void set_detail(const Element& detail, Parameters& p);
     void set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p);
@@ -66,7 +69,7 @@ private:
 
     Context& context_;
     Textures& textures_;
-    std::map<std::tuple<const Element*, bool, const Element*>, std::string> names_;
+    std::map<std::tuple<const Element*, bool, const Element*, int>, std::string> names_;
     std::string black_, default_;
     int depth_ = 0;
 };

@@ -104,7 +104,7 @@ TriangleMeshData read_mesh(const Object& shape, bool& has_face_normals) {
         return std::move(read.mesh);
     }
     const bool is_obj = shape.type() == "obj";
-    TriangleMeshData mesh = is_obj ? read_obj(file) : read_ply(file);
+    TriangleMeshData mesh = is_obj ? read_obj(file) : read_ply(file, true);
     if (shape.flag("flip_tex_coords", is_obj)) {
         for (Vec2& uv : mesh.uvs) {
             uv.y = 1 - uv.y;

@@ -102,7 +102,11 @@ SerializedMesh read_mesh(const std::string& content, int version, const Place& p
         mesh.uvs = take_vectors<Vec2>(bytes, vertices, is_double);
     }
     if (flags & has_colours) {
-        take_vectors<Vec3>(bytes, vertices, is_double);
+        MeshAttribute colours{"vertex_color", 3, {}};
+        for (const Vec3& colour : take_vectors<Vec3>(bytes, vertices, is_double)) {
+            colours.values.insert(colours.values.end(), {colour.x, colour.y, colour.z});
+        }
+        mesh.attributes.push_back(std::move(colours));
     }
     if (triangles > bytes.left() / (3 * sizeof(std::uint32_t))) {
         throw InputError(place, "the file is truncated");

@@ -123,8 +123,9 @@ void Shapes::add_object(const Object& shape) {
     Parameters p(shape.place());
     Transform to_world;
     std::string type = "trianglemesh";
+    TriangleMeshData mesh;
     if (is_mesh(shape)) {
-        const TriangleMeshData mesh = mesh_of(shape);
+        mesh = mesh_of(shape);
         if (mesh.indices.empty()) {
             context_.warn(shape.place(), fmt::format("{} has no triangles: it is left out", shape.title()));
             return;
@@ -138,7 +139,7 @@ void Shapes::add_object(const Object& shape) {
         to_world = quadric.to_world;
     }
     const Element* emitter = emitter_of(shape);
-    const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr);
+    const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr, &mesh);
     if (shape.element().has("id")) {
         p.text("name", std::string(shape.element().attribute("id")));
     }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace wend::mitsuba {
@@ -22,13 +23,16 @@ void set_mapping(const Object& texture, double repeats, bool is_picture, Paramet
 }
 
 void refuse_texture(const Object& texture) {
-    if (texture.type() == "mesh_attribute") {
-        throw InputError(texture.place(),
-                         fmt::format("{} is not implemented: meshes have no colours of their own. Bake "
-                                     "them into a <texture type=\"bitmap\">",
-                                     texture.title()));
+    refuse_type(texture, "bitmap, checkerboard, mesh_attribute, volume");
+}
+
+/// "vertex_color, face_heat".
+std::string names_of(const std::vector<MeshAttribute>& attributes) {
+    std::string names;
+    for (const MeshAttribute& attribute : attributes) {
+        names += (names.empty() ? "" : ", ") + attribute.name;
     }
-    refuse_type(texture, "bitmap, checkerboard, volume");
+    return names;
 }
 
 }  // namespace
@@ -84,7 +88,9 @@ TextureRef Textures::behind(const pbrt::Location& place) {
 }
 
 TextureRef Textures::add(const Element& element, const std::string& kind) {
-    if (const auto known = known_.find({&element, kind}); known != known_.end()) {
+    const bool is_of_mesh = element.attribute("type") == "mesh_attribute";
+    const std::tuple key(&element, kind, is_of_mesh ? mesh_number() : 0);
+    if (const auto known = known_.find(key); known != known_.end()) {
         return known->second;
     }
     constexpr int deepest = 32;
@@ -99,6 +105,9 @@ TextureRef Textures::add(const Element& element, const std::string& kind) {
     } else if (texture.type() == "checkerboard") {
         type = "checkerboard";
         set_checkerboard(texture, kind, p);
+    } else if (is_of_mesh) {
+        type = "mesh";
+        set_attribute(texture, kind, p);
     } else if (texture.type() == "volume") {
         type = "constant";
         set_volume(texture, kind, p);
@@ -108,7 +117,7 @@ TextureRef Textures::add(const Element& element, const std::string& kind) {
     texture.warn_of_unused();
     const TextureRef name{context_.new_name()};
     context_.builder.texture(name.name, kind, type, p.take(), texture.place());
-    known_.emplace(std::pair(&element, kind), name);
+    known_.emplace(key, name);
     --depth_;
     return name;
 }
@@ -148,6 +157,44 @@ void Textures::set_checkerboard(const Object& texture, const std::string& kind, 
             .colour("tex2", colour(texture, "color1", Rgb(static_cast<float>(second))));
     }
     set_mapping(texture, 2, false, p);
+}
+
+void Textures::set_mesh(const TriangleMeshData* mesh) {
+    mesh_ = mesh && !mesh->attributes.empty() ? mesh : nullptr;
+    meshes_ += mesh_ != nullptr;
+}
+
+/// Of a vertex or a triangle.
+void Textures::set_attribute(const Object& texture, const std::string& kind, Parameters& p) {
+    const std::string name = texture.text("name", "");
+    const auto none = std::vector<MeshAttribute>();
+    const std::vector<MeshAttribute>& all = mesh_ ? mesh_->attributes : none;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const MeshAttribute& a) { return a.name == name; });
+    if (found == all.end()) {
+        throw InputError(texture.place_of("name"), fmt::format("the shape has no attribute \"{}\"; {}", name,
+                                                               all.empty() ? "it has none: PLY and serialized files may"
+                                                                           : "it has " + names_of(all)));
+    }
+    const auto scale = static_cast<float>(texture.number("scale", 1));
+    const std::size_t channels = kind == "float" ? 1 : 3;
+    std::vector<float> values;
+    for (std::size_t i = 0; i < found->values.size(); i += found->channels) {
+        const float* value = &found->values[i];
+        const Rgb colour = found->channels == 1 ? Rgb(value[0]) : Rgb(value[0], value[1], value[2]);
+        if (channels == 1) {
+            values.push_back(luminance(colour) * scale);
+        } else {
+            values.insert(values.end(), {colour.r * scale, colour.g * scale, colour.b * scale});
+        }
+    }
+    std::vector<int> indices(mesh_->indices.begin(), mesh_->indices.end());
+    if (name.starts_with("face_")) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            indices[i] = static_cast<int>(i / 3);
+        }
+    }
+    p.add(pbrt::ParameterType::real, "values", std::move(values))
+        .add(pbrt::ParameterType::integer, "indices", std::move(indices));
 }
 
 /// One that is the same everywhere.

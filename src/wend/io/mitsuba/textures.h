@@ -3,6 +3,7 @@
 
 #include <wend/io/mitsuba/directive.h>
 #include <wend/io/mitsuba/spectra.h>
+#include <wend/io/ply.h>
 
 #include <map>
 #include <string>
@@ -24,6 +25,10 @@ public:
     /// A texture of an element, for a parameter of colours, or of numbers.
     TextureRef add_colours(const Element& texture) { return add(texture, "spectrum"); }
     TextureRef add_numbers(const Element& texture) { return add(texture, "float"); }
+    /// Whose "mesh_attribute" textures are asked for from now on; null: a shape without any. It must outlive them.
+    void set_mesh(const TriangleMeshData* mesh);
+    /// Which of the meshes with attributes that is, from 1; 0: one without.
+    int mesh_number() const { return mesh_ ? meshes_ : 0; }
     /// Of numbers: another times a factor, or 1 less another.
     TextureRef scaled(const TextureRef& texture, double factor, const pbrt::Location& place);
     TextureRef inverted(const TextureRef& texture, const pbrt::Location& place);
@@ -36,9 +41,12 @@ private:
     void set_bitmap(const Object& texture, const std::string& kind, Parameters& p);
     void set_checkerboard(const Object& texture, const std::string& kind, Parameters& p);
     void set_volume(const Object& texture, const std::string& kind, Parameters& p);
+    void set_attribute(const Object& texture, const std::string& kind, Parameters& p);
 
     Context& context_;
-    std::map<std::pair<const Element*, std::string>, TextureRef> known_;
+    std::map<std::tuple<const Element*, std::string, int>, TextureRef> known_;
+    const TriangleMeshData* mesh_ = nullptr;
+    int meshes_ = 0;
     std::string behind_;
     int depth_ = 0;
 };

@@ -39,6 +39,10 @@ Rgb albedo(const MeasuredBsdf& b, const Vec3& wo) {
 Rgb albedo(const DisneyBsdf& b, const Vec3& wo) {
     return b.albedo(wo);
 }
+Rgb albedo(const DisneySheetBsdf& b, const Vec3& wo) {
+    const float fresnel = fresnel_dielectric(std::abs(wo.z), b.ior);
+    return b.base * (1 - b.spec_trans * fresnel) + Rgb(b.spec_trans * fresnel);
+}
 
 }  // namespace
 

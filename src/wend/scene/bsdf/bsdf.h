@@ -188,9 +188,10 @@ private:
 class FacetAlbedo;
 
 /// What surface shaders of artists' programs have in common (burley2012): a diffuse base below dielectric facets, a
-/// metal, or some of both, and a coat over all. What is below gets what a layer leaves, by the layer's directional
-/// albedo from wo; so no energy is lost, and the albedo is right from everywhere, but for dielectrics the two
-/// directions cannot be exchanged. Light that facets reflect several times is counted in (kulla2017b).
+/// metal, or some of both, a coat over these, and fibres over all. What is below gets what a layer leaves, by the
+/// layer's directional albedo from wo; so no energy is lost, and the albedo is right from everywhere, but for
+/// dielectrics the two directions cannot be exchanged. Light that facets reflect several times is counted in
+/// (kulla2017b).
 struct PrincipledBsdf {
     Rgb base;            ///< colour of the diffuse base, and of metal from the front; in [0, 1]
     float metallic = 0;  ///< share of metal
@@ -209,6 +210,10 @@ struct PrincipledBsdf {
     float coat_ior = 1.5f;
     /// What is left of what passes the coat, twice the way straight through; aslant it is a longer way, from wo.
     Rgb coat_tint{1.0f};
+    float sheen =
+        0;  ///< how much of what fibres over all scatter there is (Sheen), and in which colour; both in [0, 1]
+    Rgb sheen_tint{1.0f};
+    float sheen_roughness = 0.5f;
     /// Whether there is a medium inside, of the same index, in place of a share of the diffuse base. What goes in goes
     /// by refraction at facets or evenly, undiminished by what facets reflect from inside; what comes out does so
     /// evenly, whatever it met. The two directions cannot be exchanged.
@@ -233,7 +238,7 @@ private:
     struct Parts;
     /// How a direction is drawn.
     struct Shares {
-        float coat, facets, base, entry;
+        float coat, facets, base, entry, sheen;
     };
     Shares shares(const Parts& parts) const;
     Microfacets facets() const { return {alpha / aspect, alpha * aspect}; }
@@ -289,16 +294,45 @@ private:
     Shares shares(bool is_front) const;
     std::optional<Meeting> meet(const Vec3& wo, const Vec3& wi) const;
     Vec3 to_front(const Vec3& w, const Vec3& wo) const;
-    Rgb tint() const;
     Rgb facet_colour(const Meeting& at, bool is_front) const;
     Rgb diffuse_value(const Meeting& at, float cos_o, float cos_i) const;
     float reflected_share(float fresnel, bool is_front) const;
     std::optional<Vec3> sample_direction(const Vec3& wo, float u, const Vec2& u2) const;
 };
 
+/// The same for a sheet so thin that light goes on straight, alike from both sides: Mitsuba's principledthin. Facets
+/// reflect, and others, less rough, let through; a diffuse base does both.
+struct DisneySheetBsdf {
+    Rgb base;
+    float roughness = 0.5f;  ///< of the diffuse base
+    float alpha_x = 0.25f, alpha_y = 0.25f;
+    float passing_alpha_x = 0.1f, passing_alpha_y = 0.1f;  ///< of the facets that let through
+    float ior = 1.5f;
+    float spec_trans = 0;             ///< share of facets, of which there are none else
+    float diff_trans = 0;             ///< share of the rest that goes through
+    float spec_tint = 0;              ///< those of DisneyBsdf
+    float sheen = 0, sheen_tint = 0;  ///< the same
+    float flatness = 0;               ///< the same
+
+    Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
+    float density(const Vec3& wo, const Vec3& wi) const;
+    std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
+    bool is_specular() const { return false; }
+
+private:
+    /// How a direction is drawn; a diffuse passage gets the rest.
+    struct Shares {
+        float mirrored, passed, diffuse;
+    };
+    Shares shares(const Vec3& wo) const;
+    Microfacets facets(bool passes) const {
+        return passes ? Microfacets(passing_alpha_x, passing_alpha_y) : Microfacets(alpha_x, alpha_y);
+    }
+};
+
 /// The closed set of BSDFs.
 using Bsdf = std::variant<LambertBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf,
-                          CoatedBsdf, HairBsdf, PrincipledBsdf, MeasuredBsdf, DisneyBsdf>;
+                          CoatedBsdf, HairBsdf, PrincipledBsdf, MeasuredBsdf, DisneyBsdf, DisneySheetBsdf>;
 
 /// Refractive index beyond over before for light going from wo to wi; 1 unless refracted.
 float index_ratio(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi);

@@ -2,17 +2,13 @@
 #include <wend/medium/microfacet.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/bsdf/disney_terms.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace wend {
 namespace {
-
-float schlick_weight(float cosine) {
-    const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
-    return sqr(sqr(m)) * m;
-}
 
 /// Facets of the coat (GTR1 with an exponent of 1), by their density of normals per projected area.
 float coat_facets(const Vec3& m, float alpha) {
@@ -66,11 +62,6 @@ Vec3 DisneyBsdf::to_front(const Vec3& w, const Vec3& wo) const {
     return wo.z < 0 && !(spec_trans > 0) ? Vec3(w.x, w.y, -w.z) : w;
 }
 
-Rgb DisneyBsdf::tint() const {
-    const float brightness = luminance(base);
-    return brightness > 0 ? base / brightness : Rgb(1.0f);
-}
-
 Rgb DisneyBsdf::facet_colour(const Meeting& at, bool is_front) const {
     if (!is_front) {
         return Rgb((1 - metallic) * spec_trans * at.fresnel);
@@ -80,20 +71,18 @@ Rgb DisneyBsdf::facet_colour(const Meeting& at, bool is_front) const {
     const float n = at.with_o > 0 ? ior : 1 / ior;
     const float beyond = safe_sqrt(1 - (1 - sqr(at.with_o)) / sqr(n));
     const float grazing = schlick_weight(is_denser_beyond ? std::abs(at.with_o) : beyond);
-    const auto schlick = [&](const Rgb& normal) { return normal + (Rgb(1.0f) - normal) * grazing; };
-    return schlick(base) * metallic + Rgb((1 - metallic) * (1 - spec_tint) * at.fresnel) +
-           schlick(tint() * sqr((n - 1) / (n + 1))) * ((1 - metallic) * spec_tint);
+    return schlick(base, grazing) * metallic + Rgb((1 - metallic) * (1 - spec_tint) * at.fresnel) +
+           schlick(hue_of(base) * sqr((n - 1) / (n + 1)), grazing) * ((1 - metallic) * spec_tint);
 }
 
 Rgb DisneyBsdf::diffuse_value(const Meeting& at, float cos_o, float cos_i) const {
-    const float seen = schlick_weight(cos_o), lit = schlick_weight(cos_i), half = std::abs(at.with_i);
-    const float retro = 2 * roughness * sqr(half);
-    const float plain = (1 - 0.5f * seen) * (1 - 0.5f * lit) + retro * (seen + lit + seen * lit * (retro - 1));
-    const float flat = (1 + (retro / 2 - 1) * lit) * (1 + (retro / 2 - 1) * seen);
-    const float below = 1.25f * (flat * (1 / (cos_o + cos_i) - 0.5f) + 0.5f);
-    const float matt = (1 - metallic) * (1 - spec_trans);
-    const Rgb cloth = (Rgb(1.0f) + (tint() - Rgb(1.0f)) * sheen_tint) * (sheen * (1 - metallic) * schlick_weight(half));
-    return (base * (matt * inv_pi * (plain + (below - plain) * flatness)) + (matt > 0 ? cloth : Rgb(0.0f))) * cos_i;
+    const float half = std::abs(at.with_i), matt = (1 - metallic) * (1 - spec_trans);
+    if (!(matt > 0)) {
+        return Rgb(0.0f);
+    }
+    return (base * (matt * inv_pi * matt_value(roughness, flatness, cos_o, cos_i, half)) +
+            cloth_value(base, sheen, sheen_tint, half) * (1 - metallic)) *
+           cos_i;
 }
 
 Rgb DisneyBsdf::evaluate(const Vec3& given_o, const Vec3& given_i) const {

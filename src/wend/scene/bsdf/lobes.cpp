@@ -76,6 +76,10 @@ struct LobesOf {
         }
         return b.metallic < half ? cosine_lobes(wo) : mirror_lobes(b.alpha_x, b.alpha_y, wo);
     }
+    AxialLobes operator()(const DisneySheetBsdf& b) const {
+        return b.spec_trans > 0 ? AxialLobes()
+                                : two_sided_lobes({b.base * (1 - b.diff_trans), b.base * b.diff_trans}, wo);
+    }
 };
 
 }  // namespace
@@ -96,6 +100,7 @@ bool is_pictured_by_lobes(const Bsdf& bsdf) {
         bool operator()(const MeasuredBsdf&) const { return false; }
         bool operator()(const PrincipledBsdf& b) const { return !b.has_inside; }
         bool operator()(const DisneyBsdf& b) const { return !(b.spec_trans > 0); }
+        bool operator()(const DisneySheetBsdf& b) const { return !(b.spec_trans > 0); }
     };
     return std::visit(Pictured{}, bsdf);
 }

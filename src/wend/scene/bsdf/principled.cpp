@@ -4,6 +4,7 @@
 #include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/bsdf.h>
 #include <wend/scene/bsdf/facet_albedo.h>
+#include <wend/scene/bsdf/sheen.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,10 +64,12 @@ struct MattFacets {
 
 struct PrincipledBsdf::Parts {
     float cosine;
-    Rgb left;           ///< by the coat
-    float below;        ///< of that, for the base below the dielectric
-    Rgb metal, facets;  ///< factors of their single reflections
-    Rgb edge;           ///< edge_of() the metal
+    std::optional<Sheen> fibres;
+    float uncovered = 1;  ///< left by the fibres
+    Rgb left;             ///< by the coat as well
+    float below;          ///< of that, for the base below the dielectric
+    Rgb metal, facets;    ///< factors of their single reflections
+    Rgb edge;             ///< edge_of() the metal
     float coat = 1;
     Rgb albedo_of_metal, albedo_of_facets;
     float albedo_of_coat;
@@ -89,7 +92,11 @@ struct PrincipledBsdf::Parts {
             coat = several_times(*b.above, cosine, b.coat_alpha, Rgb(b.above->mean_fresnel())).r;
             albedo_of_coat = std::min(b.above->dielectric(cosine, b.coat_alpha) * coat, 1.0f);
         }
-        left = Rgb(1 - b.coat * albedo_of_coat);
+        if (b.sheen > 0) {
+            fibres.emplace(wo, b.sheen_roughness);
+            uncovered = 1 - b.sheen * max_value(b.sheen_tint) * fibres->albedo();
+        }
+        left = Rgb(uncovered * (1 - b.coat * albedo_of_coat));
         if (b.coat > 0 && b.coat_tint != Rgb(1.0f)) {
             const float aslant = 1 / std::sqrt(std::max(1 - (1 - sqr(cosine)) / sqr(b.coat_ior), 1e-4f));
             for (int c = 0; c < 3; ++c) {
@@ -140,15 +147,16 @@ Rgb PrincipledBsdf::diffuse_albedo(float cosine) const {
 
 PrincipledBsdf::Shares PrincipledBsdf::shares(const Parts& parts) const {
     Shares shares;
-    shares.coat = coat * parts.albedo_of_coat;
+    shares.sheen = parts.fibres ? sheen * mean_value(sheen_tint) * parts.fibres->albedo() : 0.0f;
+    shares.coat = coat * parts.uncovered * parts.albedo_of_coat;
     const float left = mean_value(parts.left);
     shares.facets =
         left * (metallic * mean_value(parts.albedo_of_metal) + (1 - metallic) * mean_value(parts.albedo_of_facets));
     shares.base = left * (1 - metallic) * parts.below * (1 - subsurface) * mean_value(base);
     shares.entry = left * (1 - metallic) * parts.below * subsurface;
-    const float sum = shares.coat + shares.facets + shares.base + shares.entry;
+    const float sum = shares.coat + shares.facets + shares.base + shares.entry + shares.sheen;
     if (!(sum > 0)) {
-        return {0, 1, 0, 0};
+        return {0, 1, 0, 0, 0};
     }
     // What is dark from here may be bright at grazing angles.
     constexpr float least = 0.05f;
@@ -156,8 +164,9 @@ PrincipledBsdf::Shares PrincipledBsdf::shares(const Parts& parts) const {
     shares.facets = std::max(shares.facets / sum, least);
     shares.base = metallic < 1 && subsurface < 1 ? std::max(shares.base / sum, least) : 0.0f;
     shares.entry /= sum;
-    const float all = shares.coat + shares.facets + shares.base + shares.entry;
-    return {shares.coat / all, shares.facets / all, shares.base / all, shares.entry / all};
+    shares.sheen /= sum;
+    const float all = shares.coat + shares.facets + shares.base + shares.entry + shares.sheen;
+    return {shares.coat / all, shares.facets / all, shares.base / all, shares.entry / all, shares.sheen / all};
 }
 
 float PrincipledBsdf::entry_density(const Vec3& wo, const Vec3& wi) const {
@@ -196,7 +205,11 @@ Rgb PrincipledBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     const Rgb diffuse = diffuse_value(wo, wi) * (parts.below * (1 - subsurface));
     Rgb value = (metal * metallic * single + (glossy * single + diffuse) * (1 - metallic)) * parts.left;
     if (coat > 0) {
-        value += Rgb(coat * parts.coat * fresnel_dielectric(c, coat_ior) * reflected({coat_alpha, coat_alpha}));
+        value += Rgb(parts.uncovered * coat * parts.coat * fresnel_dielectric(c, coat_ior) *
+                     reflected({coat_alpha, coat_alpha}));
+    }
+    if (parts.fibres) {
+        value += sheen_tint * (sheen * parts.fibres->albedo() * parts.fibres->density(wi));
     }
     return value;
 }
@@ -214,13 +227,14 @@ float PrincipledBsdf::density(const Vec3& wo, const Vec3& wi) const {
     }
     m = normalize(m);
     m = m.z < 0 ? -m : m;
-    const Shares share = shares(Parts(*this, wo));
+    const Parts parts(*this, wo);
+    const Shares share = shares(parts);
     const auto reflected = [&](const Microfacets& of) { return of.visible_density(wo, m) / (4 * abs_dot(wo, m)); };
     float density = share.facets * reflected(facets()) + share.base * cosine_hemisphere_density(std::abs(wi.z));
     if (share.coat > 0) {
         density += share.coat * reflected({coat_alpha, coat_alpha});
     }
-    return density;
+    return parts.fibres ? density + share.sheen * parts.fibres->density(wi) : density;
 }
 
 std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3& wo, float u, const Vec2& u2) const {
@@ -232,7 +246,8 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3& wo, float u, const 
         const float p = density(wo, wi);
         return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
     }
-    const Shares share = shares(Parts(*this, wo));
+    const Parts parts(*this, wo);
+    const Shares share = shares(parts);
     Vec3 wi;
     if (u > 1 - share.entry) {
         const auto entered = sample_entry(wo, (1 - u) / share.entry, u2);
@@ -243,8 +258,11 @@ std::optional<BsdfSample> PrincipledBsdf::sample(const Vec3& wo, float u, const 
     } else if (u < share.base) {
         wi = to_cosine_hemisphere(u2);
         wi.z = wo.z < 0 ? -wi.z : wi.z;
+    } else if (u < share.base + share.sheen) {
+        wi = parts.fibres->sample(u2);
     } else {
-        const Microfacets of = u < share.base + share.facets ? facets() : Microfacets(coat_alpha, coat_alpha);
+        const Microfacets of =
+            u < share.base + share.sheen + share.facets ? facets() : Microfacets(coat_alpha, coat_alpha);
         const Vec3 m = of.sample_visible(wo, u2);
         wi = m * (2 * dot(wo, m)) - wo;
         // Below, it is not what goes in.
@@ -263,7 +281,8 @@ Rgb PrincipledBsdf::albedo(const Vec3& wo) const {
     const Parts parts(*this, wo);
     const Rgb dielectric = parts.albedo_of_facets + diffuse_albedo(parts.cosine) * parts.below;
     return (parts.albedo_of_metal * metallic + dielectric * (1 - metallic)) * parts.left +
-           Rgb(coat * parts.albedo_of_coat);
+           Rgb(coat * parts.uncovered * parts.albedo_of_coat) +
+           (parts.fibres ? sheen_tint * (sheen * parts.fibres->albedo()) : Rgb(0.0f));
 }
 
 }  // namespace wend

@@ -54,6 +54,53 @@ def write_pictures() -> None:
         bitmap.write(str(HERE / name), quality=100 if name.endswith("jpg") else -1)
 
 
+def write_measured(name: str) -> None:
+    """A glossy reflection, redder towards the normal, in the format of measured ones with colours."""
+    angles, size = np.linspace(0, 1.5, 6), 16
+    v, u = np.mgrid[0:size, 0:size] / (size - 1)
+    facet, azimuth = u**2 * np.pi / 2, (2 * v - 1) * np.pi
+    lobe = np.exp(-((facet / 0.5) ** 2))
+    cosines = [np.clip(np.sin(a) * np.sin(facet) * np.cos(azimuth) + np.cos(a) * np.cos(facet), 0, 1) for a in angles]
+    visible = np.stack([lobe * c * u * np.sin(facet) + 1e-3 for c in cosines])
+    colour = np.array([0.8, 0.5, 0.3])[:, None, None]
+    rgb = 0.5 * np.stack([colour + (1 - colour) * (1 - c) ** 5 for c in cosines])
+    arrays = {
+        "theta_i": angles,
+        "phi_i": np.zeros(1),
+        "ndf": lobe,
+        "sigma": np.array([[1, 1.6], [1, 1.6]]),
+        "vndf": visible[None],
+        "luminance": rgb.mean(axis=1)[None],
+        "rgb": rgb[None],
+    }
+    fields = {"description": (1, np.frombuffer(b"made up", "u1")), "jacobian": (1, np.ones(1, "u1"))}
+    fields |= {key: (10, values.astype("<f4")) for key, values in arrays.items()}
+    head, data = b"tensor_file\0\1\0" + struct.pack("<I", len(fields)), b""
+    start = len(head) + sum(13 + len(key) + 8 * values.ndim for key, (_, values) in fields.items())
+    for key, (kind, values) in fields.items():
+        head += struct.pack("<H", len(key)) + key.encode() + struct.pack("<HBQ", values.ndim, kind, start + len(data))
+        head += struct.pack(f"<{values.ndim}Q", *values.shape)
+        data += values.tobytes()
+    (HERE / name).write_bytes(head + data)
+
+
+def write_dyed(name: str) -> None:
+    """An octahedron with colours and a number at its corners, and a colour on each face."""
+    corners = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    properties = "".join(f"property float {field}\n" for field in ("x", "y", "z", "r", "g", "b", "heat_0"))
+    dyes = "".join(f"property float dye_{field}\n" for field in "rgb")
+    head = f"element vertex 6\n{properties}element face 8\nproperty list uchar int vertex_indices\n{dyes}end_header\n"
+    with (HERE / name).open("w") as file:
+        file.write("ply\nformat ascii 1.0\n" + head)
+        for i, corner in enumerate(corners):
+            colour = (0.1 + 0.15 * i, 0.9 - 0.1 * i, 0.3 * (i % 3), 0.2 + 0.15 * i)
+            file.write(" ".join(f"{value:g}" for value in corner + colour) + "\n")
+        for i, face in enumerate(faces):
+            dye = (0.1 * i + 0.1, 0.2 + 0.6 * (i % 2), 0.8 - 0.1 * i)
+            file.write("3 " + " ".join(f"{value:g}" for value in face + dye) + "\n")
+
+
 def write_lump(name: str) -> None:
     """A lumpy ball with texture coordinates, as .ply and as .obj."""
     rings = 12
@@ -85,6 +132,8 @@ def main() -> None:
     write_sky("sky.pfm")
     write_serialized("meshes.serialized")
     write_pictures()
+    write_measured("gloss.bsdf")
+    write_dyed("dyed.ply")
     write_lump("lump")
 
 
