@@ -22,7 +22,9 @@ public:
         constexpr int largest_pass = 32;
         const int wanted = std::min(largest_pass, 1 << std::min(pass, 5));
         if (settings_.seconds <= 0) {
-            return std::min(wanted, settings_.samples - done);
+            // A small rest is no pass of its own, which would cost more than it brings.
+            const int left = settings_.samples - done;
+            return left < wanted + wanted / 2 ? left : wanted;
         }
         if (done == 0) {
             return 1;
