@@ -8,6 +8,11 @@ picture are shared out among up to 4,096 ranks as the renderer does, by the work
 by the work that they are in another: so imbalance is counted, not assumed. Messages are as large as they are there.
 
 Rows go to bench/results/scaling.json, tables into docs/scaling.md.
+
+    bench/scaling.py --pairs 7      # about five minutes on two free cores
+
+holds two ranks against two threads alone, turn by turn, beside one thread for the whole and for half of the samples, and
+writes nothing: strong and weak scaling, and the ratio of each turn.
 """
 
 import argparse
@@ -25,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENES = ["fog-door", "cloud"]
 TILE = 16
 # Of the picture that is measured.
-WIDTH, HEIGHT = 160, 90
+WIDTH, HEIGHT, SAMPLES = 160, 90, 31
 # Of a pixel of the film, and of a record of a vertex, as ranks tell them to each other.
 BYTES_OF_PIXEL, BYTES_OF_RECORD, MOST_RECORDS = 168, 100, 2e6
 CLUSTERS = {"100 Gb/s, 2 µs": (2e-6, 12.5e9), "10 Gb/s, 20 µs": (20e-6, 1.25e9)}
@@ -46,16 +51,24 @@ def render(wend, scene, ranks, threads, options, folder):
     return dict(json.loads(told.read_text()), cpu=cpu)
 
 
+def run(wend, scene, way, samples, folder):
+    return render(wend, scene, *way, ["--resolution", f"{WIDTH}x{HEIGHT}", "--spp", samples, "--sampling",
+                                      "direction+roulette+splitting"], folder)
+
+
+def start(wend, scene, way, folder):
+    """Seconds of processors to begin and to end."""
+    return render(wend, scene, *way, ["--resolution", "16x9", "--spp", 1, "--sampling", "classical"], folder)["cpu"]
+
+
 def measure(wend, scene, repetitions, folder):
     """Medians of each way to use the machine, which take turns."""
     ways = [(1, 1), (1, 2), (2, 1), (4, 1)]
     told, starts = {way: [] for way in ways}, {way: [] for way in ways}
     for _ in range(repetitions):
         for way in ways:
-            starts[way].append(render(wend, scene, *way, ["--resolution", "16x9", "--spp", 1, "--sampling", "classical"],
-                                      folder)["cpu"])
-            told[way].append(render(wend, scene, *way, ["--resolution", f"{WIDTH}x{HEIGHT}", "--spp", 31, "--sampling",
-                                                        "direction+roulette+splitting"], folder))
+            starts[way].append(start(wend, scene, way, folder))
+            told[way].append(run(wend, scene, way, SAMPLES, folder))
     return [{"scene": scene, "ranks": ranks, "threads": threads,
              "seconds": statistics.median(t["seconds"] for t in told[ranks, threads]),
              "cpu": statistics.median(t["cpu"] for t in told[ranks, threads]) -
@@ -64,6 +77,30 @@ def measure(wend, scene, repetitions, folder):
              "passes": len(told[ranks, threads][0]["settings"]["passes"]),
              "field_bytes": told[ranks, threads][0]["field_bytes"],
              "bytes_per_pass": told[ranks, threads][0].get("bytes_per_pass", 0)} for ranks, threads in ways]
+
+
+def print_pairs(wend, scene, pairs, folder):
+    """Two ranks against two threads, turn by turn: processors' seconds without those of starting, and by the clock."""
+    alone, threads, ranks = (1, 1), (1, 2), (2, 1)
+    starts = {way: statistics.median(start(wend, scene, way, folder) for _ in range(3))
+              for way in (alone, threads, ranks)}
+    cpu, clock = {threads: [], ranks: []}, {threads: [], ranks: []}
+    for turn in range(pairs):
+        for way in (threads, ranks) if turn % 2 == 0 else (ranks, threads):
+            told = run(wend, scene, way, SAMPLES, folder)
+            cpu[way].append(told["cpu"] - starts[way])
+            clock[way].append(told["seconds"])
+    ratios = [r / t for r, t in zip(cpu[ranks], cpu[threads])]
+    clocks = [r / t for r, t in zip(clock[ranks], clock[threads])]
+    error = 1.25 * statistics.stdev(ratios) / math.sqrt(pairs) if pairs > 1 else float("nan")
+    print(f"{scene}: two ranks over two threads, processors' time {statistics.median(ratios):.3f} ± {error:.3f}, "
+          f"clock {statistics.median(clocks):.3f}; turns " + " ".join(f"{r:.3f}" for r in sorted(ratios)))
+    whole = run(wend, scene, alone, SAMPLES, folder)["seconds"] / SAMPLES
+    half = run(wend, scene, alone, SAMPLES // 2, folder)["seconds"] / (SAMPLES // 2)
+    for name, way in (("threads", threads), ("ranks", ranks)):
+        of_sample = statistics.median(clock[way]) / SAMPLES
+        print(f"{scene}: two {name}: {whole / of_sample:.2f} times one thread (strong), "
+              f"{half / of_sample:.2f} times with twice the samples (weak)", flush=True)
 
 
 def exchanged(rows, ranks):
@@ -159,7 +196,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wend", type=Path, default=ROOT / "build/release/bin/wend")
     parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--pairs", type=int, help="turns of two ranks and two threads, and nothing else")
+    parser.add_argument("--scenes", default=",".join(SCENES), help="for --pairs: which, separated by commas")
     arguments = parser.parse_args()
+    if arguments.pairs:
+        with tempfile.TemporaryDirectory() as folder:
+            for scene in arguments.scenes.split(","):
+                print_pairs(arguments.wend, scene, arguments.pairs, folder)
+        return
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], check=True, capture_output=True,
                             text=True).stdout.strip()
     rows = []

@@ -125,6 +125,28 @@ TEST_F(SlowStoppedRender, AFullDiskKeepsTheLastGoodCheckpoint) {
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"room.checkpoint", "room.exr", "room.pbrt", "whole.exr"}));
 }
 
+TEST_F(SlowStoppedRender, WherePicturesCannotBeWrittenTheCheckpointIsLeft) {
+    ASSERT_EQ(run_wend(arguments("whole.exr", 150)).status, 0);
+    std::filesystem::create_directory(folder_.path() / "gone");
+    const std::vector<std::string> kept = {"--checkpoint", folder_.file("room.checkpoint"), "--checkpoint-every",
+                                           "1000"};
+    {
+        std::vector<std::string> more = kept;
+        more.insert(more.end(), {"--write-every", "1000"});
+        test::WendProcess process(arguments("gone/room.exr", 150, more), folder_);
+        ASSERT_TRUE(wait_for("gone/room.exr"));
+        std::filesystem::remove_all(folder_.path() / "gone");
+        process.signal(SIGTERM);
+        const auto result = process.wait();
+        EXPECT_EQ(result.status, 1);
+        EXPECT_NE(result.err.find("gone/room.exr"), std::string::npos) << result.err;
+    }
+    std::vector<std::string> more = kept;
+    more.insert(more.end(), {"--resume", folder_.file("room.checkpoint")});
+    ASSERT_EQ(run_wend(arguments("room.exr", 150, more)).status, 0);
+    EXPECT_TRUE(bytes("room.exr") == bytes("whole.exr"));
+}
+
 TEST_F(SlowStoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
     const std::string file = folder_.file("room.checkpoint");
     ASSERT_EQ(run_wend(arguments("room.exr", 9, {"--checkpoint", file, "--seed", "3"})).status, 0);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -179,6 +181,61 @@ TEST(Film, WeightsOfStagesDoNotDarkenThePicture) {
     }
     EXPECT_TRUE(test::is_within_one_percent(means, 1)) << means.mean();
     EXPECT_FALSE(agrees(naive, 1, 5)) << naive.mean();
+}
+
+/// Over many small films, what a last stage costs that is as noisy as the one before: the squared error of films over
+/// that of the plain mean of all samples. Also the mean of all films, which is 1.
+struct CostOfAStage {
+    Moments squared_error, plain_squared_error, mean;
+
+    /// `samples` of each pixel in the first stage; in the last one, so many as a mean, given out by chance.
+    CostOfAStage(int samples, float last, int films) {
+        constexpr int side = 16;
+        Pcg32 random(6);
+        // Skewed, as light is: few samples seldom show how much they vary.
+        const auto exponential = [&] { return -std::log(1 - random.uniform()); };
+        const auto value = [&] { return exponential() * exponential() * exponential(); };
+        for (int k = 0; k < films; ++k) {
+            Film film({side, side}, {{0, 0}, {side, side}});
+            std::vector<double> sums(side * side, 0), counts(side * side, 0);
+            const auto add = [&](int pixel) {
+                const float v = value();
+                film.add({pixel % side, pixel / side}, sample_of(Rgb(v)));
+                sums[static_cast<std::size_t>(pixel)] += static_cast<double>(v);
+                ++counts[static_cast<std::size_t>(pixel)];
+            };
+            for (int i = 0; i < samples * side * side; ++i) {
+                add(i % (side * side));
+            }
+            film.begin_stage();
+            for (int i = 0; i < static_cast<int>(last * side * side); ++i) {
+                add(static_cast<int>(random.uniform() * side * side));
+            }
+            const Image picture = film.beauty();
+            double sum = 0;
+            for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+                const double shown = static_cast<double>(picture.pixels[i].r);
+                sum += shown / (side * side);
+                squared_error.add(sqr(shown - 1));
+                plain_squared_error.add(sqr(sums[i] / counts[i] - 1));
+            }
+            mean.add(sum);
+        }
+    }
+
+    double ratio() const { return squared_error.mean() / plain_squared_error.mean(); }
+};
+
+TEST(Film, ALastStageOfFewSamplesHasLittleToSay) {
+    const CostOfAStage cost(63, 1, 400);
+    EXPECT_LT(cost.ratio(), 1.01);
+    EXPECT_TRUE(test::is_within_one_percent(cost.mean, 1)) << cost.mean.mean();
+}
+
+TEST(Film, AStageThatIsAsNoisyAsTheOneBeforeCostsLittle) {
+    const CostOfAStage cost(7, 9, 1000);
+    EXPECT_LT(cost.ratio(), 1.01);
+    EXPECT_TRUE(test::is_within_one_percent(cost.mean, 1)) << cost.mean.mean();
 }
 
 TEST(Film, AStageThatLacksLightCountsLess) {

@@ -26,8 +26,20 @@ std::vector<int> passes(const RenderSettings& settings, double seconds_per_sampl
 
 TEST(Schedule, PassesDoubleUpToTheSamplesAskedFor) {
     RenderSettings settings;
+    settings.samples = 112;
+    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2, 4, 8, 16, 32, 32, 17}));
+}
+
+TEST(Schedule, ASmallRestIsNoPassOfItsOwn) {
+    RenderSettings settings;
+    settings.samples = 64;
+    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2, 4, 8, 16, 33}));
     settings.samples = 100;
-    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2, 4, 8, 16, 32, 32, 5}));
+    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2, 4, 8, 16, 32, 37}));
+    settings.samples = 3;
+    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 2}));
+    settings.samples = 2;
+    EXPECT_EQ(passes(settings, 1), (std::vector<int>{1, 1}));
 }
 
 TEST(Schedule, PassesOfAnEarlierRunAreRepeated) {

@@ -179,11 +179,19 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     if (!is_first) {
         return statistics;
     }
-    write_picture(statistics);
-    // After the picture: it takes longer, and who stops a render may not wait for ever.
-    if (!options.checkpoint.empty()) {
-        save_now();
+    const auto save_last = [&] {
+        if (!options.checkpoint.empty()) {
+            save_now();
+        }
+    };
+    try {
+        write_picture(statistics);
+    } catch (...) {
+        save_last();
+        throw;
     }
+    // After the picture: it takes longer, and who stops a render may not wait for ever.
+    save_last();
     if (view) {
         view->finish(render, film);
     }

@@ -12,6 +12,8 @@
 namespace wend {
 namespace {
 
+constexpr double channels = 3;
+
 std::size_t checked_size(const Vec2i& full, const PixelRect& crop) {
     if (full.x <= 0 || full.y <= 0) {
         throw InputError("a film of " + std::to_string(full.x) + " x " + std::to_string(full.y) +
@@ -144,32 +146,59 @@ std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) cons
     std::array<Comparison, 2> result;
     for (std::size_t half = 0; half < 2; ++half) {
         const std::vector<float> estimates = estimates_of_half(weights, half);
-        double variance = 0, now = 0, before = 0, count = 0, samples = 0, earlier_samples = 0;
+        Comparison& shown = result[half];
+        double variances = 0, squares = 0, light = 0, count = 0;
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const Pixel& p = pixels_[i];
             const double scale = static_cast<double>(estimates[i]);
             if (half_of(i) == half && p.count > 1 && scale > 0) {
-                variance += (p.variance(0) + p.variance(1) + p.variance(2)) / (scale * scale);
-                now += (p.sum[0] + p.sum[1] + p.sum[2]) / (p.count * scale);
+                const double variance = (p.variance(0) + p.variance(1) + p.variance(2)) / (scale * scale);
+                variances += variance;
+                squares += variance * variance;
+                light += (p.sum[0] + p.sum[1] + p.sum[2]) / (p.count * scale);
                 if (p.earlier_weight > 0) {
-                    before += (p.earlier_sum[0] + p.earlier_sum[1] + p.earlier_sum[2]) / (p.earlier_weight * scale);
+                    light -= (p.earlier_sum[0] + p.earlier_sum[1] + p.earlier_sum[2]) / (p.earlier_weight * scale);
                 }
-                samples += p.count;
-                earlier_samples += p.earlier_count;
+                shown.samples += p.count;
+                shown.earlier_samples += p.earlier_count;
                 ++count;
             }
         }
         if (count == 0) {
             continue;
         }
-        result[half].variance = variance / count;
-        // All stages have the same mean. What is missing in a sum of n samples comes once in n of them, or more seldom.
-        constexpr double channels = 3;
-        const double missing =
-            (now - before) / (channels * count) - 2 * std::sqrt(result[half].variance / (channels * samples));
-        result[half].lack = missing > 0 ? channels * earlier_samples * missing * missing : 0;
+        shown.more_light = light / (channels * count);
+        shown.noise = {variances / count, shown.samples - count, 0};
+        if (count > 1 && variances > 0) {
+            const double of_pixels = std::max(0.0, count * squares / (variances * variances) - 1);
+            shown.noise.scatter = shown.noise.freedom * of_pixels / (count - 1);
+        }
     }
     return result;
+}
+
+double Film::stage_weight(double earlier_weight, const StageNoise& first, const Comparison& shown) {
+    double variance = shown.noise.variance, weight = earlier_weight;
+    if (!(variance > 0)) {
+        return weight;
+    }
+    // What is less noise than before may be chance, too. Of the logarithm of their ratio what remains is the part that
+    // its own error does not explain. Stages scatter alike: one that has missed what is rare takes its error for small.
+    constexpr double least_scatter = 2;  // of a normal distribution
+    const double gain = first.variance > 0 ? std::log(first.variance / (variance * earlier_weight)) : 0.0;
+    if (gain > 0) {
+        const double scatter = std::max(least_scatter, first.scatter);
+        const double error =
+            scatter / first.freedom + std::max(scatter, shown.noise.scatter) / shown.noise.freedom;
+        weight *= std::exp(std::max(0.0, gain - error / gain));
+        variance = first.variance / weight;
+    }
+    // All stages have the same mean. What is missing in a sum of n samples comes once in n of them, or more seldom. The
+    // more earlier samples would count little then, the less it may be chance.
+    const double deviations = std::sqrt(4 + 2 * std::log(std::max(1.0, shown.earlier_samples / shown.samples)));
+    const double missing = shown.more_light - deviations * std::sqrt(variance / (channels * shown.samples));
+    const double lack = missing > 0 ? channels * shown.earlier_samples * missing * missing : 0.0;
+    return std::max(weight, earlier_weight * lack / variance);
 }
 
 Film::Halves Film::stage_weights() const {
@@ -177,13 +206,9 @@ Film::Halves Film::stage_weights() const {
         return {1, 1};
     }
     const std::array<Comparison, 2> shown = compare_stages(earlier_weights_);
-    Halves weights = earlier_weights_;
+    Halves weights;
     for (std::size_t half = 0; half < 2; ++half) {
-        const Comparison& other = shown[1 - half];
-        if (other.variance > 0) {
-            weights[half] = std::max({weights[half], first_variances_[1 - half] / other.variance,
-                                      earlier_weights_[half] * other.lack / other.variance});
-        }
+        weights[half] = stage_weight(earlier_weights_[half], first_noise_[1 - half], shown[1 - half]);
     }
     return weights;
 }
@@ -192,7 +217,7 @@ void Film::begin_stage() {
     const Halves weights = stage_weights();
     if (earlier_weights_[0] == 0) {
         const std::array<Comparison, 2> shown = compare_stages(weights);
-        first_variances_ = {shown[0].variance, shown[1].variance};
+        first_noise_ = {shown[0].noise, shown[1].noise};
     }
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         Pixel& p = pixels_[i];

@@ -55,11 +55,11 @@ struct PixelNoise {
 
 /// Sums of samples, pixel by pixel. Two threads must not add to the same pixel.
 ///
-/// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, and no less than
-/// the one before: by few samples, noise that comes with rare values is easily missed. What earlier stages clearly lack
-/// of the light of the last one is such noise, and makes them count less. So that no sample has a say in its own
-/// weight, which would darken the picture, the pixels are divided like the fields of a chess board, and those of one
-/// colour are weighted by what the other shows.
+/// Samples come in stages, as what draws them learns. A stage counts by its inverse relative variance, as far as that
+/// is no chance, and no less than the one before: by few samples, noise that comes with rare values is easily missed.
+/// What earlier stages clearly lack of the light of the last one is such noise, and makes them count less. So that no
+/// sample has a say in its own weight, which would darken the picture, the pixels are divided like the fields of a
+/// chess board, and those of one colour are weighted by what the other shows.
 class Film {
 public:
     /// Throws InputError if the crop window is empty, outside the picture, or larger than max_pixels.
@@ -110,7 +110,7 @@ public:
         bytes.same(film.parts_.parts());
         bytes.same(film.geometry_.size());
         bytes.same(film.coverage_.size());
-        bytes(film.earlier_weights_, film.first_variances_);
+        bytes(film.earlier_weights_, film.first_noise_);
         archive_pixels(bytes, film, 0, film.pixels_.size());
     }
 
@@ -189,12 +189,21 @@ private:
     /// Samples of a pixel, as a mean.
     int mean_samples() const;
     Image beauty(const Halves& weights) const;
+    /// The variance of one sample of a stage, as one half of the pixels tells it relative to the picture.
+    struct StageNoise {
+        double variance = 0;  ///< summed over the channels
+        double freedom = 0;   ///< samples that tell it, less one of each pixel
+        double scatter = 0;   ///< `freedom` times the variance of the estimate `variance` over its square
+    };
     /// What one half of the pixels tells of this stage and those before, relative to the picture.
     struct Comparison {
-        double variance = 0;  ///< of one sample of this stage, summed over the channels
-        double lack = 0;      ///< the least variance that earlier samples must have for the light that they lack
+        StageNoise noise;
+        double more_light = 0;  ///< of this stage than of those before: of the mean of a channel
+        double samples = 0, earlier_samples = 0;
     };
     std::array<Comparison, 2> compare_stages(const Halves& weights) const;
+    /// Of the stage at hand, where that of the one before it is known, and the noise of the first one.
+    static double stage_weight(double earlier_weight, const StageNoise& first, const Comparison& shown);
     Halves stage_weights() const;
 
     std::size_t index_of(const Vec2i& p) const {
@@ -212,7 +221,7 @@ private:
     std::vector<PixelCoverage> coverage_;
     /// Of the stage before this one; none as long as this is the first.
     Halves earlier_weights_{0, 0};
-    Halves first_variances_{0, 0};
+    std::array<StageNoise, 2> first_noise_;
 };
 
 }  // namespace wend

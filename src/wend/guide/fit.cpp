@@ -7,6 +7,7 @@
 #include <wend/guide/lobe_learning.h>
 #include <wend/guide/records_by_cell.h>
 #include <wend/guide/scatter_fit.h>
+#include <wend/guide/shared_learning.h>
 #include <wend/guide/weight_limit.h>
 
 #include <algorithm>
@@ -46,9 +47,10 @@ void validate(const FitSettings& s) {
 /// leaf is fitted. What runs in parallel writes to one leaf only.
 class Fitting {
 public:
-    Fitting(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads)
+    Fitting(const Field& previous, std::span<const Record> records, std::span<const std::uint32_t> cells,
+            const FitSettings& settings, int threads)
         : field_(previous),
-          sorted_(previous, records, threads),
+          sorted_(previous, records, cells, threads),
           cells_(sorted_.cells()),
           settings_(settings),
           threads_(threads) {
@@ -362,9 +364,14 @@ private:
     FitReport report_;
 };
 
-FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads) {
+FitResult fit(const Field& previous, std::span<const Record> records, std::span<const std::uint32_t> cells,
+              const FitSettings& settings, int threads) {
     validate(settings);
-    return Fitting(previous, records, settings, threads).run();
+    return Fitting(previous, records, cells, settings, threads).run();
+}
+
+FitResult fit(const Field& previous, std::span<const Record> records, const FitSettings& settings, int threads) {
+    return fit(previous, records, {}, settings, threads);
 }
 
 }  // namespace wend::guide

@@ -9,9 +9,24 @@
 
 namespace wend::guide {
 
+
+std::vector<std::uint32_t> RecordsByCell::leaves_of(const Field& field) {
+    std::vector<std::uint32_t> leaves(field.size());
+    for (std::uint32_t node = 0; node < field.nodes_.size(); ++node) {
+        if (field.nodes_[node].axis == Field::Node::leaf) {
+            leaves[field.nodes_[node].child] = node;
+        }
+    }
+    return leaves;
+}
+
 // A stable counting sort by leaf, in chunks that do not depend on the threads.
-RecordsByCell::RecordsByCell(const Field& field, std::span<const Record> records, int threads) : records_(records) {
+RecordsByCell::RecordsByCell(const Field& field, std::span<const Record> records, std::span<const std::uint32_t> cells,
+                             int threads)
+    : records_(records) {
     WEND_EXPECT(records.size() < std::numeric_limits<std::uint32_t>::max());
+    WEND_EXPECT(cells.empty() || cells.size() == records.size());
+    const std::vector<std::uint32_t> leaves = cells.empty() ? std::vector<std::uint32_t>() : leaves_of(field);
     constexpr std::uint32_t unusable = std::numeric_limits<std::uint32_t>::max();
     constexpr std::size_t chunk = 1 << 15;
     const std::size_t chunks = (records.size() + chunk - 1) / chunk;
@@ -27,7 +42,7 @@ RecordsByCell::RecordsByCell(const Field& field, std::span<const Record> records
         std::size_t without_radiance = 0;
         for (std::size_t i = begin; i < to; ++i) {
             if (is_usable(records[i])) {
-                node_of[i] = field.leaf_of(records[i].position);
+                node_of[i] = cells.empty() ? field.leaf_of(records[i].position) : leaves[cells[i]];
                 ++next[c][node_of[i]];
                 without_radiance += records[i].radiance == 0 ? 1 : 0;
             }

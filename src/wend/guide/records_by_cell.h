@@ -35,8 +35,10 @@ public:
         std::uint32_t node;
     };
 
-    /// Refers to the records. The order does not depend on the threads.
-    RecordsByCell(const Field& field, std::span<const Record> records, int threads);
+    /// Refers to the records. `cells` has the field's cell of each (FieldBytes::cell_at), or is empty where that is not
+    /// known. The order does not depend on the threads.
+    RecordsByCell(const Field& field, std::span<const Record> records, std::span<const std::uint32_t> cells,
+                  int threads);
 
     /// The leaves that have records.
     const std::vector<Cell>& cells() const { return cells_; }
@@ -57,6 +59,9 @@ public:
     std::size_t partition(const Range& range, const SplitPlane& plane);
 
 private:
+    /// Of each cell, its leaf among the nodes.
+    static std::vector<std::uint32_t> leaves_of(const Field& field);
+
     struct Entry {
         Vec3 position;
         std::uint32_t record;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace wend::guide {
@@ -15,120 +17,181 @@ namespace {
 
 using Producers = std::span<const PathRecords>;
 
-/// Records of one kind for one process: those of each producer side by side.
+/// The next so many bytes of a message.
+std::string_view take(std::string_view& message, std::size_t bytes) {
+    ArchiveReader::require(bytes <= message.size());
+    const std::string_view taken = message.substr(0, bytes);
+    message.remove_prefix(bytes);
+    return taken;
+}
+
 template <class T>
-struct Parcel {
+T value_at(std::string_view bytes, std::size_t index = 0) {
+    T value;
+    std::memcpy(static_cast<void*>(&value), bytes.data() + index * sizeof(T), sizeof(T));
+    return value;
+}
+
+/// Records of one kind for one field, of which each process has some and gets those of its cells. They are many: each
+/// is looked up in the tree once, and copied once before it is sent and once after.
+template <class T>
+class SharedRecords {
+public:
+    using Kind = const std::vector<T>& (PathRecords::*)() const;
+
+    SharedRecords(const Field& field, Producers producers, Kind kind, int threads)
+        : producers_(producers), kind_(kind), cells_(producers.size()) {
+        parallel_for(producers.size(), threads, [&](std::size_t i) {
+            const std::vector<T>& records = (producers[i].*kind)();
+            cells_[i].reserve(records.size());
+            for (const T& record : records) {
+                cells_[i].push_back(static_cast<std::uint32_t>(FieldBytes::cell_at(field, record.position)));
+            }
+        });
+    }
+
+    /// Adds the records of each cell that this process has.
+    void count(std::span<std::uint64_t> work) const {
+        for (const std::vector<std::uint32_t>& of_producer : cells_) {
+            for (const std::uint32_t cell : of_producer) {
+                ++work[cell];
+            }
+        }
+    }
+    /// Writes those of the owner's cells: of each producer how many, then all of them with their cells.
+    void send(std::string& message, std::span<const int> owners, int owner) const {
+        std::vector<Part> parts;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const auto of_owner = [&](std::uint32_t cell) { return owners[cell] == owner; };
+            if (const auto n = std::count_if(cells_[i].begin(), cells_[i].end(), of_owner); n > 0) {
+                parts.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(n)});
+                count += static_cast<std::size_t>(n);
+            }
+        }
+        const std::uint64_t number = parts.size();
+        message.reserve(message.size() + sizeof number + parts.size() * sizeof(Part) + count * sizeof(Placed));
+        append(message, &number, 1);
+        append(message, parts.data(), parts.size());
+        for (const Part& part : parts) {
+            for_each(part.producer, owners, owner, [&](const Placed& placed) { append(message, &placed, 1); });
+        }
+    }
+    /// Takes what another has sent, up to where it ends in the message, which must live until gather().
+    void receive(std::string_view& message) {
+        const auto number = value_at<std::uint64_t>(take(message, sizeof(std::uint64_t)));
+        ArchiveReader::require(number <= producers_.size());
+        const std::string_view parts = take(message, number * sizeof(Part));
+        for (std::size_t i = 0; i < number; ++i) {
+            const auto part = value_at<Part>(parts, i);
+            ArchiveReader::require(part.producer < producers_.size());
+            told_.push_back({part.producer, take(message, part.count * sizeof(Placed))});
+        }
+    }
+
+    /// What the owner, this process, has and was told of its cells, in the order of the producers.
+    struct Gathered {
+        std::vector<T> records;
+        std::vector<std::uint32_t> cells;
+    };
+    Gathered gather(std::span<const int> owners, int owner) {
+        std::vector<std::string_view> told(producers_.size());
+        std::size_t count = 0;
+        for (const Told& part : std::exchange(told_, {})) {
+            told[part.producer] = part.placed;
+            count += part.placed.size() / sizeof(Placed);
+        }
+        for (const std::vector<std::uint32_t>& of_producer : cells_) {
+            count += of_producer.size();
+        }
+        Gathered all;
+        all.records.reserve(count);
+        all.cells.reserve(count);
+        const auto add = [&](const Placed& placed) {
+            ArchiveReader::require(placed.cell < owners.size());
+            all.records.push_back(placed.record);
+            all.cells.push_back(placed.cell);
+        };
+        for (std::size_t i = 0; i < producers_.size(); ++i) {
+            for_each(i, owners, owner, add);
+            for (std::size_t k = 0; k < told[i].size() / sizeof(Placed); ++k) {
+                add(value_at<Placed>(told[i], k));
+            }
+        }
+        cells_.clear();
+        return all;
+    }
+
+private:
     struct Part {
         std::uint32_t producer, count;
     };
-    std::vector<Part> parts;
-    std::vector<T> records;
-
-    void add(std::size_t producer, const T& record) {
-        if (parts.empty() || parts.back().producer != producer) {
-            parts.push_back({static_cast<std::uint32_t>(producer), 0});
-        }
-        ++parts.back().count;
-        records.push_back(record);
-    }
-
-    /// See ListsMembers.
-    template <class Archive, class Self>
-    static void archive(Archive& bytes, Self& parcel) {
-        bytes(parcel.parts, parcel.records);
-        std::size_t count = 0;
-        for (const Part& part : parcel.parts) {
-            count += part.count;
-        }
-        bytes.require(count == parcel.records.size());
-    }
-};
-
-/// All parcels in the order of the producers, each of which is in one of them.
-template <class T>
-std::vector<T> opened(std::span<const Parcel<T>> parcels) {
-    struct Place {
-        std::uint32_t producer;
-        const T* first;
-        std::size_t count;
+    struct Placed {
+        std::uint32_t cell;
+        T record;
     };
-    std::vector<Place> places;
-    std::size_t count = 0;
-    for (const Parcel<T>& parcel : parcels) {
-        const T* next = parcel.records.data();
-        for (const auto& part : parcel.parts) {
-            places.push_back({part.producer, next, part.count});
-            next += part.count;
-        }
-        count += parcel.records.size();
-    }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.producer < b.producer; });
-    std::vector<T> all;
-    all.reserve(count);
-    for (const Place& place : places) {
-        all.insert(all.end(), place.first, place.first + place.count);
-    }
-    return all;
-}
+    struct Told {
+        std::uint32_t producer;
+        std::string_view placed;
+    };
 
-/// Of each producer, the cells that its records are in.
-template <class T>
-std::vector<std::vector<std::uint32_t>> cells_of(const Field& field, Producers producers,
-                                                 const std::vector<T>& (PathRecords::*kind)() const, int threads) {
-    std::vector<std::vector<std::uint32_t>> cells(producers.size());
-    parallel_for(producers.size(), threads, [&](std::size_t i) {
-        const std::vector<T>& records = (producers[i].*kind)();
-        cells[i].reserve(records.size());
-        for (const T& record : records) {
-            cells[i].push_back(static_cast<std::uint32_t>(FieldBytes::cell_at(field, record.position)));
+    template <class Value>
+    static void append(std::string& message, const Value* values, std::size_t count) {
+        message.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+    }
+    /// What a producer of this process has in the owner's cells.
+    template <class Visit>
+    void for_each(std::size_t producer, std::span<const int> owners, int owner, const Visit& visit) const {
+        const std::vector<T>& records = (producers_[producer].*kind_)();
+        const std::vector<std::uint32_t>& cells = cells_[producer];
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            if (owners[cells[k]] == owner) {
+                visit(Placed{cells[k], records[k]});
+            }
         }
-    });
-    return cells;
-}
+    }
+
+    Producers producers_;
+    Kind kind_;
+    std::vector<std::vector<std::uint32_t>> cells_;  ///< of each producer, where its records are
+    std::vector<Told> told_;
+};
 
 /// One of the two fields and what there is to learn for it, shared out.
 class SharedField {
 public:
-    SharedField(const Field& before, Producers producers, const Records& (PathRecords::*arrived)() const,
-                const ScatterRecords& (PathRecords::*scattered)() const, const FitSettings& settings, int threads)
+    SharedField(const Field& before, Producers producers, SharedRecords<Record>::Kind arrived,
+                SharedRecords<ScatterRecord>::Kind scattered, const FitSettings& settings, int threads)
         : before_(before),
-          producers_(producers),
-          arrived_(arrived),
-          scattered_(scattered),
           settings_(settings),
           threads_(threads),
-          arrived_cells_(cells_of(before, producers, arrived, threads)),
-          scattered_cells_(cells_of(before, producers, scattered, threads)) {}
+          arrived_(before, producers, arrived, threads),
+          scattered_(before, producers, scattered, threads) {}
 
     std::size_t cells() const { return before_.size(); }
     /// Adds the records of each cell that this process has.
     void count(std::span<std::uint64_t> work) const {
-        for (const auto* cells : {&arrived_cells_, &scattered_cells_}) {
-            for (const std::vector<std::uint32_t>& of_producer : *cells) {
-                for (const std::uint32_t cell : of_producer) {
-                    ++work[cell];
-                }
-            }
-        }
+        arrived_.count(work);
+        scattered_.count(work);
     }
     /// Writes the records of those cells that the owner has.
-    void send(ArchiveWriter& bytes, std::span<const int> owners, int owner) const {
-        bytes(parcel(arrived_, arrived_cells_, owners, owner), parcel(scattered_, scattered_cells_, owners, owner));
+    void send(std::string& message, std::span<const int> owners, int owner) const {
+        arrived_.send(message, owners, owner);
+        scattered_.send(message, owners, owner);
     }
-    /// Takes the records of its own cells, which need not be sent.
-    void keep(std::span<const int> owners, int owner) {
-        arrived_parcels_.push_back(parcel(arrived_, arrived_cells_, owners, owner));
-        scattered_parcels_.push_back(parcel(scattered_, scattered_cells_, owners, owner));
+    /// Takes what another has sent; see SharedRecords.
+    void receive(std::string_view& message) {
+        arrived_.receive(message);
+        scattered_.receive(message);
     }
-    /// Takes what another has sent.
-    void receive(ArchiveReader& bytes) { bytes(arrived_parcels_.emplace_back(), scattered_parcels_.emplace_back()); }
 
-    /// Fits with what was received; how many cells that has made, or more than there may be.
-    std::uint64_t fit() {
-        FitResult fitted =
-            guide::fit(before_, opened<Record>(std::exchange(arrived_parcels_, {})), settings_, threads_);
-        next_ = fit_scattered(std::move(fitted.field), opened<ScatterRecord>(std::exchange(scattered_parcels_, {})),
-                              settings_.decay, threads_);
+    /// Fits the cells of the owner, this process, with what it has and has received; how many cells that has made, or
+    /// more than there may be.
+    std::uint64_t fit(std::span<const int> owners, int owner) {
+        const auto arrived = arrived_.gather(owners, owner);
+        FitResult fitted = guide::fit(before_, arrived.records, arrived.cells, settings_, threads_);
+        const auto scattered = scattered_.gather(owners, owner);
+        next_ = fit_scattered(std::move(fitted.field), scattered.records, settings_.decay, threads_);
         return fitted.report.memory_limited ? most_cells() : next_->size() - before_.size();
     }
     /// Whether so many new cells are more than one fit would have made.
@@ -145,37 +208,11 @@ public:
 private:
     std::uint64_t most_cells() const { return settings_.max_bytes / Field::bytes_per_cell(); }
 
-    template <class T>
-    Parcel<T> parcel(const std::vector<T>& (PathRecords::*kind)() const,
-                     const std::vector<std::vector<std::uint32_t>>& cells, std::span<const int> owners,
-                     int owner) const {
-        Parcel<T> parcel;
-        std::size_t count = 0;
-        for (const std::vector<std::uint32_t>& of_producer : cells) {
-            count += static_cast<std::size_t>(std::count_if(of_producer.begin(), of_producer.end(),
-                                                            [&](std::uint32_t cell) { return owners[cell] == owner; }));
-        }
-        parcel.records.reserve(count);
-        for (std::size_t i = 0; i < producers_.size(); ++i) {
-            const std::vector<T>& records = (producers_[i].*kind)();
-            for (std::size_t k = 0; k < records.size(); ++k) {
-                if (owners[cells[i][k]] == owner) {
-                    parcel.add(i, records[k]);
-                }
-            }
-        }
-        return parcel;
-    }
-
     const Field& before_;
-    Producers producers_;
-    const Records& (PathRecords::*arrived_)() const;
-    const ScatterRecords& (PathRecords::*scattered_)() const;
     const FitSettings& settings_;
     int threads_;
-    std::vector<std::vector<std::uint32_t>> arrived_cells_, scattered_cells_;
-    std::vector<Parcel<Record>> arrived_parcels_;
-    std::vector<Parcel<ScatterRecord>> scattered_parcels_;
+    SharedRecords<Record> arrived_;
+    SharedRecords<ScatterRecord> scattered_;
     std::optional<Field> next_;  ///< as this process knows it
 };
 
@@ -233,29 +270,24 @@ Fields learn_together(const Fields& fields, std::vector<PathRecords> records, in
     std::vector<std::string> messages(static_cast<std::size_t>(team.size()));
     const auto own = static_cast<std::size_t>(team.rank());
     parallel_for(messages.size(), threads, [&](std::size_t rank) {
-        if (rank == own) {
-            surface.keep(of_surface, team.rank());
-            volume.keep(of_volume, team.rank());
-            return;
+        if (rank != own) {
+            surface.send(messages[rank], of_surface, static_cast<int>(rank));
+            volume.send(messages[rank], of_volume, static_cast<int>(rank));
         }
-        ArchiveWriter bytes;
-        surface.send(bytes, of_surface, static_cast<int>(rank));
-        volume.send(bytes, of_volume, static_cast<int>(rank));
-        messages[rank] = bytes.take();
     });
     messages = team.exchange(std::move(messages));
     for (std::size_t rank = 0; rank < messages.size(); ++rank) {
-        if (rank == own) {
-            continue;
+        if (rank != own) {
+            std::string_view message = messages[rank];
+            surface.receive(message);
+            volume.receive(message);
+            ArchiveReader::require(message.empty());
         }
-        const std::string message = std::exchange(messages[rank], {});
-        ArchiveReader bytes(message);
-        surface.receive(bytes);
-        volume.receive(bytes);
-        bytes.require(bytes.empty());
     }
 
-    const std::vector<std::uint64_t> made = team.sum({surface.fit(), volume.fit()});
+    const std::vector<std::uint64_t> made =
+        team.sum({surface.fit(of_surface, team.rank()), volume.fit(of_volume, team.rank())});
+    messages.clear();
     if (surface.exceeds_memory(made[0]) || volume.exceeds_memory(made[1])) {
         return learn_from_all(fields, std::move(records), settings, threads, team);
     }

@@ -4,9 +4,15 @@
 #include <wend/core/team.h>
 #include <wend/guide/fit.h>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace wend::guide {
+
+/// fit() where it is known which of the previous field's cells each record is in (FieldBytes::cell_at).
+FitResult fit(const Field& previous, std::span<const Record> records, std::span<const std::uint32_t> cells,
+              const FitSettings& settings, int threads);
 
 /// learn() by other settings.
 Fields learn(const Fields& fields, std::vector<PathRecords> records, const FitSettings& settings, int threads);

@@ -51,8 +51,10 @@ FieldLearner::FieldLearner(const LearningContext& context)
 
 void FieldLearner::begin(const PassPlan& plan) {
     records_ = plan.learns && !context_.settings.preset.is_classical();
-    // Photons cost as much as the first samples do, which may be all.
-    if (!records_ || !plan.guides || !context_.settings.preset.direction || plan.first < warm_up_samples) {
+    // Photons cost as much as the first samples do, which may be all. They are wanted where fields are given, too.
+    const RenderSettings& settings = context_.settings;
+    const bool are_due = plan.first >= warm_up_samples && (records_ || plan.first < settings.training_samples);
+    if (!are_due || !plan.guides || !settings.preset.direction) {
         return;
     }
     if (fields_.surface.is_trained() || fields_.volume.is_trained()) {

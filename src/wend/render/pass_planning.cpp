@@ -1,6 +1,7 @@
 #include <wend/decision/pixel_estimate.h>
 #include <wend/render/pass_planning.h>
 #include <wend/render/sample_budget.h>
+#include <wend/render/schedule.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,13 @@ Image as_in_scene(const Film& film, const ColourMatrix& balance) {
     return picture;
 }
 
+/// Whether to learn from a pass costs more than it brings a render that keeps nothing: the last one, and any of a render
+/// that is not longer than the one that taught it, since what is new replaces a part of what was known.
+bool learns_in_vain(const KnownSoFar& known, bool is_last) {
+    return (is_last && known.choice.kinds().size() > 1) ||
+           (known.taught && Schedule(known.context.settings).total() <= known.taught->samples);
+}
+
 double mean_variance(const std::vector<PixelNoise>& noise) {
     double sum = 0;
     for (const PixelNoise& pixel : noise) {
@@ -43,7 +51,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     plan.count = count;
     const int enough = settings.training_samples;
     const bool is_taught = samples >= enough && (rendered.recorded >= enough || !choice.guiding_pays());
-    plan.learns = !is_taught && !(is_last && choice.kinds().size() > 1 && !settings.keeps_fields);
+    plan.learns = !is_taught && (settings.keeps_fields || !learns_in_vain(known, is_last));
     plan.guides = choice.guides(count);
     plan.steers = preset.direction || learners.get<InteriorLearner>().can_guide();
     // In a small picture the fields would learn from too few.

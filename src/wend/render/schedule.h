@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace wend {
 
@@ -22,7 +24,9 @@ public:
         constexpr int largest_pass = 32;
         const int wanted = std::min(largest_pass, 1 << std::min(pass, 5));
         if (settings_.seconds <= 0) {
-            return std::min(wanted, settings_.samples - done);
+            // A small rest is no pass of its own, which would cost more than it brings.
+            const int left = settings_.samples - done;
+            return left < wanted + wanted / 2 ? left : wanted;
         }
         if (done == 0) {
             return 1;
@@ -42,6 +46,14 @@ public:
     /// Whether time ends the render.
     bool is_timed() const { return settings_.seconds > 0 && settings_.passes.empty(); }
 
+    /// Samples of each pixel in the end; no less than any number of them where time ends the render.
+    int total() const {
+        if (settings_.passes.empty()) {
+            return is_timed() ? std::numeric_limits<int>::max() : settings_.samples;
+        }
+        return std::accumulate(settings_.passes.begin(), settings_.passes.end(), 0);
+    }
+
     /// Whether it is known that no pass follows that one, which ends with `done` samples of each pixel.
     bool is_last(int pass, int done) const {
         return settings_.passes.empty() ? settings_.seconds <= 0 && done >= settings_.samples
@@ -50,15 +62,7 @@ public:
 
     /// Of the whole, where each pixel has so many samples as a mean.
     double fraction(double done, double elapsed) const {
-        if (!settings_.passes.empty()) {
-            int total = 0;
-            for (const int pass : settings_.passes) {
-                total += pass;
-            }
-            return done / std::max(1, total);
-        }
-        return std::min(1.0,
-                        settings_.seconds > 0 ? elapsed / settings_.seconds : done / std::max(1, settings_.samples));
+        return std::min(1.0, is_timed() ? elapsed / settings_.seconds : done / std::max(1, total()));
     }
 
 private:
