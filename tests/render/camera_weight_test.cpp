@@ -71,9 +71,9 @@ TEST(SlowCameraWeight, GuidedFogAgrees) {
     const Scene scene(std::move(description));
     const auto expected =
         test::kept_means("camera_weight", [&] { return rendered(scene, "classical", 4096, 32).known(); });
-    test::expect_known(test::means_until_seen(0.03, expected, 16, [&](std::uint64_t seed) {
-        return picture_of(scene, "full", 256, seed);
-    }), expected, 0.03);
+    test::expect_known(test::means_until_seen(0.03, expected, 16,
+                                              [&](std::uint64_t seed) { return picture_of(scene, "full", 256, seed); }),
+                       expected, 0.03);
 }
 
 }  // namespace

@@ -56,12 +56,11 @@ TEST(FirstGuidedWalksSlow, LeaveTheMeanAsItIs) {
     for (const Budget budget : {Budget{4, 48}, Budget{7, 32}, Budget{16, 24}, Budget{64, 8}}) {
         SCOPED_TRACE(budget.samples);
         RenderStatistics last;
-        const test::ChannelMeans means =
-            test::means_until_seen(0.01, expected, budget.seeds, [&](std::uint64_t seed) {
-                Image picture;
-                last = render_once(scene, "full", budget.samples, seed, picture);
-                return picture;
-            });
+        const test::ChannelMeans means = test::means_until_seen(0.01, expected, budget.seeds, [&](std::uint64_t seed) {
+            Image picture;
+            last = render_once(scene, "full", budget.samples, seed, picture);
+            return picture;
+        });
         if (budget.samples == 7) {
             EXPECT_GT(last.kinds.back().share, 0.02) << "no walks before the trial";
             EXPECT_LT(last.kinds.back().share, 0.1) << "no trial yet";

@@ -33,7 +33,8 @@ public:
     }
 
 private:
-    explicit Renders(LoadedScene loaded) : resolution_(loaded.resolution), crop_(loaded.crop), scene_(std::move(loaded.scene)) {
+    explicit Renders(LoadedScene loaded)
+        : resolution_(loaded.resolution), crop_(loaded.crop), scene_(std::move(loaded.scene)) {
         settings_.sampler = loaded.sampler;
         settings_.max_depth = loaded.max_depth;
         settings_.exposure = loaded.exposure;
@@ -61,9 +62,9 @@ void expect_means(const std::string& scene, const char* preset, const std::vecto
     SCOPED_TRACE(preset);
     Renders renders(scene);
     constexpr double bias = 0.03;
-    test::expect_known(test::means_until_seen(bias, expected, 16, [&](std::uint64_t seed) {
-        return renders.picture(preset, 256, seed);
-    }), expected, bias);
+    test::expect_known(test::means_until_seen(bias, expected, 16,
+                                              [&](std::uint64_t seed) { return renders.picture(preset, 256, seed); }),
+                       expected, bias);
 }
 
 /// A room with a window, through which the sky shines, in a ball of hardly anything.

@@ -59,9 +59,10 @@ Moments render_means(const Scene& scene, const char* sampling, const char* subsu
 TEST(SlowSubsurfaceTraining, GivesTheSamePictureAsClassicalSampling) {
     const Scene scene(table_top());
     const test::KnownMean classical = test::kept_means("subsurface_training", [&] {
-        const Moments means = render_means(scene, "classical", "classical", 1000, 400);
-        return std::vector{test::KnownMean{means.mean(), means.standard_error()}};
-    }).front();
+                                          const Moments means =
+                                              render_means(scene, "classical", "classical", 1000, 400);
+                                          return std::vector{test::KnownMean{means.mean(), means.standard_error()}};
+                                      }).front();
     for (const char* subsurface : {"dwivedi", "auto"}) {
         SCOPED_TRACE(subsurface);
         const Moments full = render_means(scene, "full", subsurface, 2000, 20);

@@ -110,8 +110,8 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, const WalkBudget& 
     constexpr int least = 20000;
     // Well spread samples of as many pixels as tell their noise: the mean of each is one value.
     constexpr int least_pixels = 32, most_samples = 1024;
-    const int samples = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(walks.most / least_pixels))), 1,
-                                   most_samples);
+    const int samples =
+        std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(walks.most / least_pixels))), 1, most_samples);
     const ClassicalDecisions decisions;
     const SubsurfaceGuides subsurface(scene, strategies, 0);
     const LightSelection lights(scene);
