@@ -88,7 +88,7 @@ std::vector<Furnace> furnaces() {
         all.emplace_back(row);
         if (const Furnace& f = all.back(); f.sampling == std::string("full") && f.size <= 10) {
             chosen.push_back(f);
-            chosen.back().samples = 64;
+            chosen.back().samples = 31;
             chosen.back().least_resolution = 32;
         }
     }
@@ -153,7 +153,7 @@ struct Effort {
     int most_renders;
 };
 
-constexpr int samples_of_render = 1 << 12;
+constexpr int samples_of_render = 1 << 10;
 
 test::ChannelMeans measure(const Furnace& f, const Effort& effort) {
     const int resolution =
@@ -196,7 +196,7 @@ TEST(FurnaceReferences, DISABLED_WriteReferences) {
         if (f.is_lossless(0) || references.contains(f.object())) {
             continue;
         }
-        const test::ChannelMeans classical = measure(f, {"classical", "classical", 64, 0.0009, 4096});
+        const test::ChannelMeans classical = measure(f, {"classical", "classical", 64, 0.0009, 16384});
         std::ofstream file(references_path(), std::ios::app);
         file << std::quoted(f.object()) << std::setprecision(6);
         for (const Moments& m : classical.channels) {
@@ -212,7 +212,7 @@ TEST_P(FurnaceMatrix, IsAsBrightAsItShouldBe) {
     const Furnace& f = GetParam();
     const auto references = read_references();
     const auto known = references.find(f.object());
-    const test::ChannelMeans got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 512});
+    const test::ChannelMeans got = measure(f, {f.subsurface, f.sampling, f.samples, 0.0022, 2048});
     for (int c = 0; c < 3; ++c) {
         ASSERT_TRUE(f.is_lossless(c) || known != references.end()) << references_path() << " has no such line";
         const Reference right = f.is_lossless(c) ? Reference{1, 0} : known->second[static_cast<std::size_t>(c)];
