@@ -12,9 +12,9 @@ struct KnownMean {
     double mean = 0, standard_error = 0;
 };
 
-/// What tests/references/means.csv has under that name: means by unguided walks, with their standard errors. What it
-/// does not have is measured, written there, and fails the test, since nobody knows yet whether it is right. Delete the
-/// line of a scene that is changed.
+/// What tests/support/means.csv has under that name: means by unguided walks, with their standard errors. Where it
+/// has nothing it throws, or with WEND_MEANS=record measures them and writes them there. Delete the line of a scene
+/// that is changed.
 std::vector<KnownMean> kept_means(const std::string& name, const std::function<std::vector<KnownMean>()>& measure);
 
 }  // namespace wend::test
