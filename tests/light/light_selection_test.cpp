@@ -140,7 +140,7 @@ TEST(SlowLightSelection, GiveTheSamePictureWithLessNoise) {
     settings.max_depth = 20;
     settings.seed = 1000;
     const auto expected = test::kept_means("light_selection", [&] {
-        const test::RepeatedRenders classical(scene, settings, resolution, {64, 64});
+        const test::RepeatedRenders classical(scene, settings, resolution, {32, 32});
         return std::vector{test::KnownMean{classical.mean.mean(), classical.mean.standard_error()}};
     });
     // Its noise alone: its mean is known.

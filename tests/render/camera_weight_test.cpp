@@ -70,7 +70,7 @@ TEST(SlowCameraWeight, GuidedFogAgrees) {
     test::add_parallelogram(description, {-2, -0.5f, -1}, {0, 0, 4}, {4, 0, 0}, floor);
     const Scene scene(std::move(description));
     const auto expected =
-        test::kept_means("camera_weight", [&] { return rendered(scene, "classical", 4096, 32).known(); });
+        test::kept_means("camera_weight", [&] { return rendered(scene, "classical", 2048, 16).known(); });
     test::expect_known(test::means_until_seen(0.03, expected, 16,
                                               [&](std::uint64_t seed) { return picture_of(scene, "full", 256, seed); }),
                        expected, 0.03);

@@ -72,7 +72,7 @@ TEST(SlowColouredGlass, WhatScattersInsideIsLitAsThroughGlassThatIsNearlySmooth)
         return s;
     };
     const auto rough =
-        test::kept_means("nearly_smooth_glass", [&] { return means(lit(0.01f), "classical", 16384, 16).known(); });
+        test::kept_means("nearly_smooth_glass", [&] { return means(lit(0.01f), "classical", 4096, 16).known(); });
     const Scene scene(lit(0));
     const auto smooth = test::means_until_seen(
         0.02, rough, 64, [&](std::uint64_t seed) { return picture_of(scene, "classical", 1024, seed); });

@@ -269,7 +269,7 @@ void expect_guided_agrees(const char* name, const std::string& scene, int sample
             scene, preset, samples, count, seed, [&](const Image& image) { found.add(image); }, SamplerKind::sobol);
         return found;
     };
-    const auto expected = test::kept_means(name, [&] { return means("classical", 200, 1000).known(); });
+    const auto expected = test::kept_means(name, [&] { return means("classical", 50, 1000).known(); });
     constexpr double bias = 0.03;
     const auto guided = test::means_until_seen(bias, expected, 24, [&](std::uint64_t seed) {
         Image picture;

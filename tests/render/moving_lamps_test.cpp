@@ -257,7 +257,7 @@ TEST(SlowMovingLamps, ReflectedTheyAreTheMeanOfStandingOnes) {
             const std::string place = fmt::format("Translate {} {} {}\nScale {} {} 1\n", -1.5 + 3 * t, .5 * t, .5 * t,
                                                   1 + .5 * t, 1 - .3 * t);
             const auto still =
-                picture_means(over_metal(place, "3"), "classical", 1024, 8, static_cast<std::uint64_t>(1000 + 8 * i))
+                picture_means(over_metal(place, "3"), "classical", 256, 8, static_cast<std::uint64_t>(1000 + 8 * i))
                     .known();
             for (std::size_t c = 0; c < 3; ++c) {
                 means[c].mean += still[c].mean / times;

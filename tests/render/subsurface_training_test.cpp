@@ -60,7 +60,7 @@ TEST(SlowSubsurfaceTraining, GivesTheSamePictureAsClassicalSampling) {
     const Scene scene(table_top());
     const test::KnownMean classical = test::kept_means("subsurface_training", [&] {
                                           const Moments means =
-                                              render_means(scene, "classical", "classical", 1000, 400);
+                                              render_means(scene, "classical", "classical", 1000, 120);
                                           return std::vector{test::KnownMean{means.mean(), means.standard_error()}};
                                       }).front();
     for (const char* subsurface : {"dwivedi", "auto"}) {

@@ -188,7 +188,7 @@ class GuidedObject : public testing::TestWithParam<Object> {};
 TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     const Scene scene(lit(GetParam()));
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    const KnownMean classical = kept_radiance(std::string("guided_object_") + GetParam().name, scene, ray, 6'000'000);
+    const KnownMean classical = kept_radiance(std::string("guided_object_") + GetParam().name, scene, ray, 1'000'000);
     for (const char* strategy : guided) {
         SCOPED_TRACE(strategy);
         const Measured m = test::measure_radiance(scene, ray, {300000, 0.0048}, 100000, 2, parse_subsurface(strategy));
@@ -218,7 +218,7 @@ TEST(SlowGuidedObject, MayHoldALampAndOtherObjects) {
     test::add_environment(s, Rgb(0.5f));
     const Scene scene(std::move(s));
     const Ray ray{{0.1f, 0.1f, -4}, {0, 0, 1}};
-    const KnownMean classical = kept_radiance("holds_a_lamp", scene, ray, 3'000'000);
+    const KnownMean classical = kept_radiance("holds_a_lamp", scene, ray, 400'000);
     for (const char* strategy : guided) {
         const Measured m = test::measure_radiance(scene, ray, {60000, 0.024}, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
@@ -268,9 +268,9 @@ TEST(SlowGuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     const Scene scene(back_lit());
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // Few walks get through in five collisions; to connect once too often would show there.
-    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit_5", scene, ray, 6'000'000, 5, "incident"),
+    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit_5", scene, ray, 1'000'000, 5, "incident"),
                          {5, 300000, 0.08});
-    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit", scene, ray, 6'000'000, 100000, "incident"),
+    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit", scene, ray, 1'000'000, 100000, "incident"),
                          {100000, 500000, 0.03});
 }
 
@@ -294,9 +294,9 @@ TEST(SlowGuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
     const Scene scene(under_glass());
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // After the first collision a walk of five vertices has three left, of which two boundaries.
-    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass_5", scene, ray, 20'000'000, 5),
+    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass_5", scene, ray, 3'000'000, 5),
                          {5, 1500000, 0.06});
-    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass", scene, ray, 6'000'000),
+    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass", scene, ray, 1'000'000),
                          {100000, 300000, 0.04});
 }
 
@@ -379,7 +379,7 @@ TEST(SlowGuidedObject, HasTheColourOfWhereItIsEntered) {
     constexpr float ior = 1.4f;
     const Scene both(two_coloured(ior, dark, red)), all_red(two_coloured(ior, red, red));
     const Ray to_the_right{{0.25f, 0.1f, -4}, {0, 0, 1}}, to_the_left{{-0.25f, 0.1f, -4}, {0, 0, 1}};
-    const KnownMean expected = kept_radiance("all_red", all_red, to_the_right, 4'000'000);
+    const KnownMean expected = kept_radiance("all_red", all_red, to_the_right, 500'000);
     const test::WalkBudget walks(100000, 0.007);
     const Measured elsewhere = test::measure_radiance(both, to_the_left, walks);
     EXPECT_LT(elsewhere.mean, 0.8 * expected.mean);

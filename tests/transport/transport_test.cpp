@@ -188,7 +188,7 @@ TEST(SlowGridMedium, IsTheSameAsTheHomogeneousOne) {
                                           1000, is_grid ? 6 : 5);
         };
         const test::KnownMean expected = test::kept_means(g > 0 ? "forward_medium" : "isotropic_medium", [&] {
-                                             const Measured m = measure(false, 8'000'000);
+                                             const Measured m = measure(false, 2'000'000);
                                              return std::vector{test::KnownMean{m.mean, m.standard_error}};
                                          }).front();
         const Measured grid = measure(true, {500000, 0.0023});

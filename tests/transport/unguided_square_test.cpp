@@ -90,8 +90,8 @@ TEST_F(SlowUnguidedSquare, OfGuidedWalksIsThatOfUnguidedOnesInTheMean) {
     constexpr int few = 80000;
     // The mean square of unguided walks, how much the square varies, and what walks bring.
     const auto known = test::kept_means("unguided_square", [&] {
-        constexpr int many = 100 * few;
-        const Moments squares = means(classical_, 0, many, true), brought = means(classical_, 0, many, false);
+        constexpr int many = 30 * few;
+        const Moments squares = means(classical_, 0, many, true), brought = means(classical_, 0, many / 6, false);
         return std::vector{test::KnownMean{squares.mean(), squares.standard_error()},
                            test::KnownMean{squares.variance(), 0},
                            test::KnownMean{brought.mean(), brought.standard_error()}};
