@@ -1,4 +1,5 @@
 // Walks inside dense media that are guided there by a strategy and elsewhere by what the render learns.
+#include <tests/support/kept_means.h>
 #include <tests/support/scenes.h>
 
 #include <wend/stats/significance.h>
