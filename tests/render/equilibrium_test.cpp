@@ -139,7 +139,7 @@ TEST_P(Equilibria, AreAsBrightAsTheSky) {
     settings.samples = e.samples;
     settings.max_depth = 100000;
     const auto scale = [&](double) { return right; };
-    const test::ChannelMeans means = test::render_until(scene, settings, resolution, 0.0024, 2048, scale);
+    const test::ChannelMeans means = test::render_until(scene, settings, resolution, 0.00248, 2048, scale);
     for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(agrees(means[c], right, 4, 1e-5))
             << "channel " << c << ": " << means[c].mean() << " +- " << means[c].standard_error() << ", not " << right;

@@ -12,11 +12,11 @@
 namespace wend {
 namespace {
 
-/// So many pixels that a few guided walks come before the trial.
-constexpr int side = 80;
+/// Of a picture of so many pixels that a few guided walks come before the trial.
+constexpr int large = 80;
 
 /// A room full of coloured fog that scatters back, with a lamp, and a screen before it.
-Scene foggy_room() {
+Scene foggy_room(int side) {
     SceneDescription s = test::scene_with_camera({0, 0, -0.9f}, {0, 0, 1}, 60, side);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.02f, 0.06f, 0.1f), Rgb(0.5f, 0.4f, 0.2f), -0.4f);
     s.camera_medium = fog;
@@ -27,7 +27,8 @@ Scene foggy_room() {
     return Scene(std::move(s));
 }
 
-RenderStatistics render_once(const Scene& scene, const char* preset, int samples, std::uint64_t seed, Image& picture) {
+RenderStatistics render_once(const Scene& scene, int side, const char* preset, int samples, std::uint64_t seed,
+                             Image& picture) {
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.samples = samples;
@@ -40,25 +41,27 @@ RenderStatistics render_once(const Scene& scene, const char* preset, int samples
 }
 
 TEST(FirstGuidedWalksSlow, LeaveTheMeanAsItIs) {
-    const Scene scene = foggy_room();
     const auto expected = test::kept_means("first_guided_walks", [&] {
+        const Scene scene = foggy_room(large);
         test::ChannelMeans means;
         for (std::uint64_t seed = 1000; seed < 1012; ++seed) {
             Image picture;
-            render_once(scene, "classical", 64, seed, picture);
+            render_once(scene, large, "classical", 64, seed, picture);
             means.add(picture);
         }
         return means.known();
     });
     struct Budget {
-        int samples, seeds;
+        int samples, seeds, side;
     };
-    for (const Budget budget : {Budget{4, 48}, Budget{7, 32}, Budget{16, 24}, Budget{64, 8}}) {
+    for (const Budget budget :
+         {Budget{4, 48, large}, Budget{7, 32, large}, Budget{16, 24, large}, Budget{64, 24, large / 2}}) {
         SCOPED_TRACE(budget.samples);
+        const Scene scene = foggy_room(budget.side);
         RenderStatistics last;
         const test::ChannelMeans means = test::means_until_seen(0.01, expected, budget.seeds, [&](std::uint64_t seed) {
             Image picture;
-            last = render_once(scene, "full", budget.samples, seed, picture);
+            last = render_once(scene, budget.side, "full", budget.samples, seed, picture);
             return picture;
         });
         if (budget.samples == 7) {

@@ -2,6 +2,8 @@
 #include <wend/core/random.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace wend::test {
 namespace {
@@ -60,6 +62,17 @@ private:
     std::size_t next_ = 0;
 };
 
+/// Factor and level of each of two.
+std::vector<std::array<int, 4>> pairs_of(const Row& row) {
+    std::vector<std::array<int, 4>> pairs;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        for (std::size_t k = i + 1; k < row.size(); ++k) {
+            pairs.push_back({static_cast<int>(i), row[i], static_cast<int>(k), row[k]});
+        }
+    }
+    return pairs;
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> covering_array(const std::vector<int>& levels) {
@@ -86,6 +99,28 @@ std::vector<std::vector<int>> covering_array(const std::vector<int>& levels) {
         rows.push_back(best);
     }
     return rows;
+}
+
+std::vector<bool> needed_rows(const std::vector<std::vector<int>>& rows) {
+    std::map<std::array<int, 4>, int> counts;
+    const auto all_in_others = [&](const Row& row) {
+        return std::ranges::all_of(pairs_of(row), [&](const auto& pair) { return counts.at(pair) > 1; });
+    };
+    for (const Row& row : rows) {
+        for (const auto& pair : pairs_of(row)) {
+            ++counts[pair];
+        }
+    }
+    std::vector<bool> needed(rows.size(), true);
+    for (std::size_t i = rows.size(); i-- > 0;) {
+        if (all_in_others(rows[i])) {
+            needed[i] = false;
+            for (const auto& pair : pairs_of(rows[i])) {
+                --counts[pair];
+            }
+        }
+    }
+    return needed;
 }
 
 }  // namespace wend::test
