@@ -1,6 +1,7 @@
 // Bad input ends in a message that names the place and exit status 2: no crash, no hang, no memory taken for nothing.
 #include "program_support.h"
 #include "tests/support/paths.h"
+#include "tests/support/peak_memory.h"
 
 #include <wend/core/random.h>
 #include <wend/io/image_file.h>
@@ -16,22 +17,15 @@ namespace {
 using test::run_wend;
 using test::small_scene;
 
-/// The most memory this process has held so far, in KiB.
-long peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-}
-
 class BadInput : public testing::Test {
 protected:
     /// Renders at the smallest size, within bounds of work and memory.
     test::ProgramResult render(const std::string& scene, std::vector<std::string> more = {}) const {
         more.insert(more.begin(), {"render", scene, "-o", folder_.file("out.exr"), "--quiet"});
-        const long memory = peak_memory();
+        const test::PeakMemory memory;
         const test::ResourceLimit limit = test::ten_more_seconds_of_work();
         const auto result = run_wend(more);
-        EXPECT_LT(peak_memory() - memory, 256 * 1024) << result.err;
+        EXPECT_LT(memory.growth(), 256 << 20) << result.err;
         return result;
     }
     test::ProgramResult render_text(const std::string& text, std::vector<std::string> more = {}) const {

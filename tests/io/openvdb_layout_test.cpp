@@ -1,4 +1,5 @@
 // OpenVDB files whose counts and sizes lie: they are refused, or read, in little memory, whatever the library would do.
+#include <tests/support/peak_memory.h>
 #include <wend/core/error.h>
 #include <wend/core/random.h>
 #include <wend/io/gzip.h>
@@ -6,7 +7,6 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdint>
@@ -50,13 +50,7 @@ private:
 
 /// The message of the error; empty where the file is read. Either way it takes little memory.
 std::string error_of(const fs::path& file) {
-    const auto peak = [] {
-        rusage usage{};
-        getrusage(RUSAGE_SELF, &usage);
-        return usage.ru_maxrss;
-    };
-    constexpr long most = 256 * 1024;
-    const long before = peak();
+    const test::PeakMemory memory;
     std::string message;
     try {
         read_volume(file, "density");
@@ -64,7 +58,7 @@ std::string error_of(const fs::path& file) {
         message = error.what();
         EXPECT_NE(message.find(file.string()), std::string::npos) << message;
     }
-    EXPECT_LT(peak() - before, most) << message;
+    EXPECT_LT(memory.growth(), 256 << 20) << message;
     return message;
 }
 

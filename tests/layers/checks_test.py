@@ -15,6 +15,7 @@ import check_citations
 import check_extensions
 import check_layers
 import check_public
+import headers_alone
 import measure
 import tables
 
@@ -31,6 +32,17 @@ class Tree(unittest.TestCase):
         file = self.root / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
+
+
+class HeadersAlone(Tree):
+    def test_each_header_begins_something_that_is_compiled(self):
+        self.write("src/wend/core/a.h", "#include <wend/core/b.h>\n")
+        self.write("src/wend/core/b.h", "#include <vector>\n#include <wend/core/c.h>\n")
+        self.write("src/wend/core/c.h", "")
+        self.write("src/wend/core/d.h", "#include <wend/core/e.h>\n")
+        self.write("src/wend/core/e.h", "")
+        self.write("src/wend/core/c.cpp", "// Words.\n#include <wend/core/d.h>\n#include <wend/core/a.h>\n")
+        self.assertEqual(headers_alone.to_compile(self.root, ["core"]), ["wend/core/a.h", "wend/core/c.h"])
 
 
 class Layers(Tree):

@@ -92,7 +92,7 @@ TEST(EmissionSampler, LightsAFloor) {
     add_floor(s);
     test::add_box(s, flame, test::add_interface(s), glow);
     const Scene scene(std::move(s));
-    const Measured m = test::measure_radiance(scene, {{0, 0, 2}, {0, 0, -1}}, 100000, 1);
+    const Measured m = test::measure_radiance(scene, {{0, 0, 2}, {0, 0, -1}}, {100000, 0.0023}, 1);
     expect_agrees(m, reflected({0, 0, 0}, through_flame));
 }
 
@@ -115,7 +115,7 @@ TEST(EmissionSampler, OnlyWhereTheMediumIs) {
             return middle > 0 && square > 0 ? Chord{2 * std::sqrt(square), middle - std::sqrt(square)} : Chord{};
         };
     };
-    const Measured m = test::measure_radiance(scene, {{0, 0, 2}, {0, 0, -1}}, 2000000, 1);
+    const Measured m = test::measure_radiance(scene, {{0, 0, 2}, {0, 0, -1}}, {2000000, 0.0023}, 1);
     // No ray from the floor's middle passes both.
     expect_agrees(m, reflected({0, 0, 0}, ball(0)) + reflected({0, 0, 0}, ball(1)));
 }
@@ -134,7 +134,7 @@ TEST(EmissionSampler, SurroundsTheFloor) {
         float t0 = 0, t1 = 100;
         return clip_to_box(room, ray.origin, ray.direction, t0, t1) ? Chord{t1, 0} : Chord{};
     };
-    const Measured m = test::measure_radiance(scene, {p + Vec3(0, 0, 0.8f), {0, 0, -1}}, 120000, 1);
+    const Measured m = test::measure_radiance(scene, {p + Vec3(0, 0, 0.8f), {0, 0, -1}}, {120000, 0.0023}, 1);
     expect_agrees(m, static_cast<double>(glowing(0.8f)) + std::exp(-absorption * 0.8f) * reflected(p, around));
 }
 
@@ -163,7 +163,7 @@ TEST(EmissionSampler, LightsFog) {
                                std::exp(-extinction * static_cast<double>(chord.before));
                     });
     }
-    expect_agrees(test::measure_radiance(scene, ray, 300000, 1), expected);
+    expect_agrees(test::measure_radiance(scene, ray, {300000, 0.0023}, 1), expected);
 }
 
 TEST(EmissionSampler, IsALightOfTheSceneWhereItIsUsed) {

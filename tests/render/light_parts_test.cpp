@@ -120,9 +120,10 @@ SceneDescription table_top() {
 
 class LightPartsOf : public testing::TestWithParam<const char*> {};
 
-TEST_P(LightPartsOf, APictureAddUpToIt) {
+TEST_P(LightPartsOf, APictureAddUpToItAndLeaveItAsItIs) {
     const Scene scene(table_top());
-    const Rendered all = rendered(scene, settings_of(GetParam(), 31));
+    const RenderSettings settings = settings_of(GetParam(), 31);
+    const Rendered all = rendered(scene, settings);
     ASSERT_EQ(all.parts.size(), path_parts + scene.lights().size() + 1);
     for (std::size_t part = 0; part < path_parts; ++part) {
         EXPECT_GT(all.mean(part), 0) << "nothing of part " << part;
@@ -138,14 +139,8 @@ TEST_P(LightPartsOf, APictureAddUpToIt) {
         ASSERT_NEAR(by_path, beauty, contributions * 0x1p-25 * beauty) << i;
         ASSERT_NEAR(by_light, beauty, contributions * 0x1p-25 * beauty) << i;
     }
-}
-
-TEST_P(LightPartsOf, APictureLeaveItAsItIs) {
-    const Scene scene(table_top());
     Film plain = new_film();
-    RenderSettings settings = settings_of(GetParam(), 31);
     render(scene, plain, settings);
-    const Rendered all = rendered(scene, settings);
     EXPECT_EQ(all.picture.image.pixels, plain.beauty().pixels);
 }
 

@@ -149,6 +149,9 @@ std::vector<Comparison> comparisons() {
     for (const char* preset :
          {"scatter", "distance", "distance+direction", "direction", "full", "roulette+splitting"}) {
         all.push_back({preset, false});
+    }
+    // Flights through grids are classical whatever guides them: of the presets that guide flights one is enough.
+    for (const char* preset : {"distance", "direction", "full", "roulette+splitting"}) {
         all.push_back({preset, true});
     }
     return all;

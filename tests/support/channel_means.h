@@ -1,12 +1,20 @@
 // Means of pictures by colour channel, over independent renders.
 #pragma once
 
+#include <tests/support/kept_means.h>
+
 #include <wend/render/render.h>
 #include <wend/stats/moments.h>
+#include <wend/stats/significance.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace wend::test {
 
@@ -34,7 +42,49 @@ struct ChannelMeans {
         }
         return worst;
     }
+
+    std::vector<KnownMean> known() const {
+        std::vector<KnownMean> means;
+        for (const Moments& m : channels) {
+            means.push_back({m.mean(), m.standard_error()});
+        }
+        return means;
+    }
+    /// Of the difference to what is known.
+    double error(const std::vector<KnownMean>& known, int channel) const {
+        return std::hypot((*this)[channel].standard_error(), known[static_cast<std::size_t>(channel)].standard_error);
+    }
+    /// Whether a bias of this size would be seen in each channel, at four standard errors.
+    bool would_see(double bias, const std::vector<KnownMean>& known) const {
+        bool seen = true;
+        for (int c = 0; c < 3; ++c) {
+            seen &= 4 * error(known, c) < bias * known[static_cast<std::size_t>(c)].mean;
+        }
+        return seen;
+    }
 };
+
+/// The means of picture(seed), with seeds from 1 on, until a bias of this size would be seen or there are `most`. There
+/// are at least 8: fewer do not tell their own noise.
+template <class Picture>
+ChannelMeans means_until_seen(double bias, const std::vector<KnownMean>& known, int most, const Picture& picture) {
+    constexpr int least = 8;
+    ChannelMeans means;
+    for (int i = 0; i < most && (i < least || !means.would_see(bias, known)); ++i) {
+        means.add(picture(static_cast<std::uint64_t>(1 + i)));
+    }
+    return means;
+}
+
+/// That means are right, and known well enough to see such a bias.
+inline void expect_known(const ChannelMeans& means, const std::vector<KnownMean>& known, double bias) {
+    for (int c = 0; c < 3; ++c) {
+        const double right = known[static_cast<std::size_t>(c)].mean;
+        EXPECT_TRUE(agrees(means[c].mean() - right, means.error(known, c), 0, 4))
+            << "channel " << c << ": " << means[c].mean() << " +- " << means.error(known, c) << ", not " << right;
+    }
+    EXPECT_TRUE(means.would_see(bias, known)) << "too few samples to see a bias of " << bias;
+}
 
 /// Square pictures with seeds from 1 on, until the worst error is at most `error` or there are `most`. There are at
 /// least 16: fewer do not tell their own noise.

@@ -11,4 +11,8 @@ namespace wend::test {
 /// time.
 std::vector<std::vector<int>> covering_array(const std::vector<int>& levels);
 
+/// Which of the rows are needed for each pair that meets in any of them, one flag a row: from the last one on, those
+/// are left out of which others have all pairs.
+std::vector<bool> needed_rows(const std::vector<std::vector<int>>& rows);
+
 }  // namespace wend::test

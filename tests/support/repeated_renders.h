@@ -1,6 +1,8 @@
 // Independent renders of a small scene: their mean, and how noisy they are.
 #pragma once
 
+#include <tests/support/kept_means.h>
+
 #include <wend/render/render.h>
 #include <wend/stats/moments.h>
 #include <wend/stats/significance.h>
@@ -16,11 +18,6 @@ namespace wend::test {
 struct RenderCount {
     int least = 16, most = 64;
     double error = 0.0015;  ///< of the mean, relative: enough to end
-};
-
-/// Of what is known beforehand.
-struct KnownMean {
-    double mean, standard_error;
 };
 
 /// Renders with seeds from `settings.seed` on.

@@ -1,9 +1,9 @@
 // Walks of a hundred thousand collisions: they end, and in bounded memory.
+#include <tests/support/peak_memory.h>
 #include <tests/support/scenes.h>
 
 #include <wend/transport/path_tracer.h>
 
-#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,6 @@ struct EndlessDecisions {
     ClassicalDirection direction;
     Immortal survival;
 };
-
-/// The most memory that the process has held so far.
-double peak_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 TEST(LongWalk, AHundredThousandCollisionsLeaveAFewRecords) {
     constexpr int collisions = 100000;
@@ -78,11 +71,11 @@ TEST_P(LongWalks, EndWithoutALimitOfDepthInBoundedMemory) {
     settings.samples = 15;
     settings.max_depth = 1 << 30;
     settings.threads = 2;
-    const double before = peak_bytes();
+    const test::PeakMemory memory;
     const RenderStatistics statistics = render(scene, film, settings);
     EXPECT_EQ(statistics.counts.rejected, 0u);
     // 16 MiB are one walk's vertices; a log for each thread, and the field.
-    EXPECT_LT(peak_bytes() - before, 256 << 20) << "bytes";
+    EXPECT_LT(memory.growth(), 256 << 20) << "bytes";
     for (const Rgb& pixel : film.beauty().pixels) {
         EXPECT_TRUE(is_finite(pixel) && min_value(pixel) >= 0);
     }

@@ -1,5 +1,6 @@
 // Guided walks inside dense media against known values and classical walks.
 #include <tests/support/channel_means.h>
+#include <tests/support/kept_means.h>
 #include <tests/support/scenes.h>
 #include <tests/support/slab_references.h>
 
@@ -11,13 +12,27 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace wend {
 namespace {
 
+using test::KnownMean;
 using test::Measured;
+
+/// Of unguided walks along the ray, or of others where their strategies are named.
+KnownMean kept_radiance(const std::string& name, const Scene& scene, const Ray& ray, int walks, int max_depth = 100000,
+                        const char* strategies = "classical") {
+    return test::kept_means(name,
+                            [&] {
+                                const Measured m = test::measure_radiance(scene, ray, walks, max_depth, 1000,
+                                                                          parse_subsurface(strategies));
+                                return std::vector{KnownMean{m.mean, m.standard_error}};
+                            })
+        .front();
+}
 
 constexpr const char* guided[] = {"dwivedi", "closest", "incident", "auto"};
 
@@ -173,10 +188,10 @@ class GuidedObject : public testing::TestWithParam<Object> {};
 TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     const Scene scene(lit(GetParam()));
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
-    const Measured classical = test::measure_radiance(scene, ray, {400000, 0.0022});
+    const KnownMean classical = kept_radiance(std::string("guided_object_") + GetParam().name, scene, ray, 1'000'000);
     for (const char* strategy : guided) {
         SCOPED_TRACE(strategy);
-        const Measured m = test::measure_radiance(scene, ray, {200000, 0.0044}, 100000, 2, parse_subsurface(strategy));
+        const Measured m = test::measure_radiance(scene, ray, {300000, 0.0048}, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
         EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
             << m.mean << " and " << classical.mean << " +- " << error;
@@ -203,10 +218,9 @@ TEST(SlowGuidedObject, MayHoldALampAndOtherObjects) {
     test::add_environment(s, Rgb(0.5f));
     const Scene scene(std::move(s));
     const Ray ray{{0.1f, 0.1f, -4}, {0, 0, 1}};
-    constexpr int walks = 60000;
-    const Measured classical = test::measure_radiance(scene, ray, walks);
+    const KnownMean classical = kept_radiance("holds_a_lamp", scene, ray, 400'000);
     for (const char* strategy : guided) {
-        const Measured m = test::measure_radiance(scene, ray, walks, 100000, 2, parse_subsurface(strategy));
+        const Measured m = test::measure_radiance(scene, ray, {60000, 0.024}, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
         EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
             << strategy << ": " << m.mean << " and " << classical.mean << " +- " << error;
@@ -229,37 +243,35 @@ SceneDescription back_lit() {
     return s;
 }
 
-struct Walks {
-    const char* subsurface;
-    std::uint64_t seed;
-};
-
 struct Limit {
     int max_depth, walks;
     double bias;  ///< that is seen
 };
 
 /// Walks that are connected to lights against those that are not.
-void expect_same_radiance(const Scene& scene, const Ray& ray, const Walks& connected, const Walks& unconnected,
+void expect_same_radiance(const Scene& scene, const Ray& ray, const char* connected, const KnownMean& unconnected,
                           const Limit& limit) {
     SCOPED_TRACE(limit.max_depth);
-    const auto measure = [&](const Walks& walks) {
-        return test::measure_radiance(scene, ray, limit.walks, limit.max_depth, walks.seed,
-                                      parse_subsurface(walks.subsurface));
-    };
-    const Measured a = measure(connected), b = measure(unconnected);
-    const double error = std::hypot(a.standard_error, b.standard_error);
-    EXPECT_TRUE(agrees(a.mean - b.mean, error, 0, 4)) << a.mean << " and " << b.mean << " +- " << error;
-    EXPECT_LT(8 * error, limit.bias * b.mean) << "too few walks to see a bias";
-    EXPECT_FALSE(agrees((1 + limit.bias) * a.mean - b.mean, error, 0, 4));
+    // Of both means together the bias is eight standard errors.
+    const double enough =
+        std::sqrt(std::pow(limit.bias / 8.2, 2) - std::pow(unconnected.standard_error / unconnected.mean, 2));
+    const Measured a =
+        test::measure_radiance(scene, ray, {limit.walks, enough}, limit.max_depth, 3, parse_subsurface(connected));
+    const double error = std::hypot(a.standard_error, unconnected.standard_error);
+    EXPECT_TRUE(agrees(a.mean - unconnected.mean, error, 0, 4))
+        << a.mean << " and " << unconnected.mean << " +- " << error;
+    EXPECT_LT(8 * error, limit.bias * unconnected.mean) << "too few walks to see a bias";
+    EXPECT_FALSE(agrees((1 + limit.bias) * a.mean - unconnected.mean, error, 0, 4));
 }
 
 TEST(SlowGuidedObject, ConnectsCollisionsToLampsAtARoughBoundary) {
     const Scene scene(back_lit());
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // Few walks get through in five collisions; to connect once too often would show there.
-    expect_same_radiance(scene, ray, {"learned", 3}, {"incident", 3}, {5, 300000, 0.08});
-    expect_same_radiance(scene, ray, {"learned", 3}, {"incident", 3}, {100000, 500000, 0.03});
+    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit_5", scene, ray, 1'000'000, 5, "incident"),
+                         {5, 300000, 0.08});
+    expect_same_radiance(scene, ray, "learned", kept_radiance("back_lit", scene, ray, 1'000'000, 100000, "incident"),
+                         {100000, 500000, 0.03});
 }
 
 /// A ball behind a smooth boundary, in thin fog and under a pane, a lamp and a sky with a bright spot.
@@ -282,8 +294,10 @@ TEST(SlowGuidedObject, ConnectsCollisionsToLightsThroughSmoothBoundaries) {
     const Scene scene(under_glass());
     const Ray ray{{0.1f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     // After the first collision a walk of five vertices has three left, of which two boundaries.
-    expect_same_radiance(scene, ray, {"auto", 5}, {"classical", 4}, {5, 1500000, 0.06});
-    expect_same_radiance(scene, ray, {"auto", 5}, {"classical", 4}, {100000, 300000, 0.04});
+    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass_5", scene, ray, 3'000'000, 5),
+                         {5, 1500000, 0.06});
+    expect_same_radiance(scene, ray, "auto", kept_radiance("under_glass", scene, ray, 1'000'000),
+                         {100000, 300000, 0.04});
 }
 
 /// An index-matched ball under a sky with a bright spot.
@@ -365,8 +379,8 @@ TEST(SlowGuidedObject, HasTheColourOfWhereItIsEntered) {
     constexpr float ior = 1.4f;
     const Scene both(two_coloured(ior, dark, red)), all_red(two_coloured(ior, red, red));
     const Ray to_the_right{{0.25f, 0.1f, -4}, {0, 0, 1}}, to_the_left{{-0.25f, 0.1f, -4}, {0, 0, 1}};
-    constexpr int walks = 100000;
-    const Measured expected = test::measure_radiance(all_red, to_the_right, walks);
+    const KnownMean expected = kept_radiance("all_red", all_red, to_the_right, 500'000);
+    const test::WalkBudget walks(100000, 0.007);
     const Measured elsewhere = test::measure_radiance(both, to_the_left, walks);
     EXPECT_LT(elsewhere.mean, 0.8 * expected.mean);
     for (const char* strategy : {"classical", "closest", "auto"}) {

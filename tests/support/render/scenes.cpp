@@ -3,6 +3,8 @@
 #include <wend/stats/moments.h>
 #include <wend/transport/path_tracer.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace wend::test {
@@ -106,18 +108,28 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, const WalkBudget& 
                           std::uint64_t seed, const SubsurfacePreset& strategies) {
     // Rare bright walks are not missed where it is asked no sooner whether there are enough.
     constexpr int least = 20000;
+    // Well spread samples of as many pixels as tell their noise: the mean of each is one value.
+    constexpr int least_pixels = 32, most_samples = 1024;
+    const int samples =
+        std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(walks.most / least_pixels))), 1, most_samples);
     const ClassicalDecisions decisions;
     const SubsurfaceGuides subsurface(scene, strategies, 0);
     const LightSelection lights(scene);
     const ReflectionProbability reflections(scene.bounds());
     const PathTracer tracer(scene, decisions, subsurface, lights, reflections, max_depth);
     Moments moments;
-    const auto enough = [&](int i) {
-        return i % least == 0 && i > 0 && moments.standard_error() <= walks.error * moments.mean();
+    const auto enough = [&] {
+        const auto pixels = static_cast<int>(moments.count());
+        return pixels >= least_pixels && pixels * samples >= least &&
+               moments.standard_error() <= walks.error * moments.mean();
     };
-    for (int i = 0; i < walks.most && !enough(i); ++i) {
-        Sampler sampler(SamplerKind::independent, seed, 0, static_cast<std::uint32_t>(i));
-        moments.add(mean(tracer.trace(ray, 0, sampler).sample.radiance));
+    for (int pixel = 0; (pixel + 1) * samples <= walks.most && !enough(); ++pixel) {
+        double sum = 0;
+        for (int i = 0; i < samples; ++i) {
+            Sampler sampler(SamplerKind::sobol, seed, static_cast<std::uint64_t>(pixel), static_cast<std::uint32_t>(i));
+            sum += mean(tracer.trace(ray, 0, sampler).sample.radiance);
+        }
+        moments.add(sum / samples);
     }
     return {moments.mean(), moments.standard_error()};
 }
