@@ -9,7 +9,6 @@
 
 namespace wend::guide {
 
-
 std::vector<std::uint32_t> RecordsByCell::leaves_of(const Field& field) {
     std::vector<std::uint32_t> leaves(field.size());
     for (std::uint32_t node = 0; node < field.nodes_.size(); ++node) {
