@@ -4,7 +4,6 @@
 
 #include <wend/transport/path_tracer.h>
 
-
 #include <gtest/gtest.h>
 
 #include <cmath>

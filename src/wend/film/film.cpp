@@ -188,8 +188,7 @@ double Film::stage_weight(double earlier_weight, const StageNoise& first, const 
     const double gain = first.variance > 0 ? std::log(first.variance / (variance * earlier_weight)) : 0.0;
     if (gain > 0) {
         const double scatter = std::max(least_scatter, first.scatter);
-        const double error =
-            scatter / first.freedom + std::max(scatter, shown.noise.scatter) / shown.noise.freedom;
+        const double error = scatter / first.freedom + std::max(scatter, shown.noise.scatter) / shown.noise.freedom;
         weight *= std::exp(std::max(0.0, gain - error / gain));
         variance = first.variance / weight;
     }

@@ -24,8 +24,8 @@ Image as_in_scene(const Film& film, const ColourMatrix& balance) {
     return picture;
 }
 
-/// Whether to learn from a pass costs more than it brings a render that keeps nothing: the last one, and any of a render
-/// that is not longer than the one that taught it, since what is new replaces a part of what was known.
+/// Whether to learn from a pass costs more than it brings a render that keeps nothing: the last one, and any of a
+/// render that is not longer than the one that taught it, since what is new replaces a part of what was known.
 bool learns_in_vain(const KnownSoFar& known, bool is_last) {
     return (is_last && known.choice.kinds().size() > 1) ||
            (known.taught && Schedule(known.context.settings).total() <= known.taught->samples);
