@@ -2,6 +2,7 @@
 #pragma once
 
 #include <wend/core/colour.h>
+#include <wend/core/vector.h>
 
 #include <algorithm>
 
