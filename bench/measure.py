@@ -33,6 +33,9 @@ ROOT = Path(__file__).resolve().parents[1]
 SCENES = ["shield-wall", "shield-duct", "fog-door", "cloud", "haze", "smoke-room", "candles", "liquid",
           "skin-rig", "wax-backlit", "milk-key", "marble-sky", "leaf"]
 PUBLIC = ["living-room-2", "living-room-2-fog", "veach-ajar", "veach-ajar-fog", "coffee", "volumetric-caustic"]
+# Of these the stored references are renders of an earlier program, whose rough coats reflected too much: blocks are up
+# to a third darker now, and against them no picture gets better than a relMSE of 0.05.
+OUTDATED = {"living-room-2", "living-room-2-fog", "coffee"}
 PEER_SCENES = ["door", "room", "lump"]
 PEERS = ["pbrt", "pbrt guided", "mitsuba volpath", "cycles", "cycles guided", "wend classical", "wend full"]
 PEER_THREADS = 2  # as in peers/renderers.py
@@ -208,7 +211,8 @@ def measure_public(arguments):
         if scene is None or not scene.exists() or not (references / f"{name}.ref-a.exr").exists():
             print(f"skipped: {name} or its reference is not in {arguments.public}")
             continue
-        scenes.append((name, scene, references / name if arguments.resolution == "160x90" else None))
+        is_stored = arguments.resolution == "160x90" and name not in OUTDATED
+        scenes.append((name, scene, references / name if is_stored else None))
     if scenes:
         measure(arguments, scenes)
 

@@ -69,7 +69,8 @@ def cases(arguments):
             continue
         stored = arguments.shared / "public/refs" / str(reference)
         kept = ROOT / "out/references" / f"{name}.{SIZE}"
-        found.append(Case(name, path, stored if reference else kept, has_media, SIZE))
+        is_stored = reference and reference not in measure.OUTDATED
+        found.append(Case(name, path, stored if is_stored else kept, has_media, SIZE))
     unknown = set(arguments.scenes or []) - {case.name for case in found}
     if unknown:
         sys.exit(f"no scene {', '.join(sorted(unknown))}; there are {', '.join(case.name for case in found)}")

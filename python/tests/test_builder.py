@@ -88,7 +88,6 @@ def test_a_large_mesh_goes_over_as_arrays():
         (("Shape", "trianglemesh", {"point3 P": [1, 2]}), "make no whole ones"),
         (("Shape", "trianglemesh", {"point3 P": []}), "make no whole ones"),
         (("Shape", "sphere", {"string alpha": [1.0]}), "TypeError|text|incompatible"),
-        (("NamedMaterial", "none"), "none"),
     ],
 )
 def test_what_is_wrong_is_named(directive, message):
@@ -96,6 +95,16 @@ def test_what_is_wrong_is_named(directive, message):
     b.add("WorldBegin")
     with pytest.raises((wend.InputError, TypeError), match=message):
         b.add(*directive)
+        b.scene()
+
+
+def test_a_material_that_is_not_there_is_named_by_the_shape_that_wants_it():
+    b = wend.SceneBuilder(name="told")
+    b.add("WorldBegin")
+    b.add("NamedMaterial", "none")
+    b.scene()  # as in pbrt: nothing wants it
+    b.add("Shape", "sphere")
+    with pytest.raises(wend.InputError, match="none"):
         b.scene()
 
 

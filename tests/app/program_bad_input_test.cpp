@@ -248,12 +248,13 @@ TEST_F(BadInput, ParametersOfTheWrongKind) {
     expect_refused_world("NamedMaterial \"nobody\"\nShape \"sphere\"\n", "nobody");
     expect_refused_world("Frobnicate \"x\"\n", "Frobnicate");
     expect_refused_world("LightSource \"frob\"\n", "frob");
-    expect_refused_world("AttributeEnd\n", "AttributeEnd");
     expect_refused_world("AttributeBegin\n", "AttributeBegin");
     expect_refused_world("ObjectInstance \"nothing\"\n", "nothing");
     expect_refused_world("Translate 1 2\n", "");
     expect_refused_world("WorldBegin\n", "WorldBegin");
     expect_refused_world("Camera \"perspective\"\n", "Camera");
+    // As pbrt does: with a warning.
+    expect_rendered(render_text(small_scene("AttributeEnd\n")));
 }
 
 TEST_F(BadInput, MeshesThatDoNotHoldTogether) {

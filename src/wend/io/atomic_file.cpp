@@ -28,6 +28,16 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     return temporary;
 }
 
+/// A message that names the temporary, with the file that its reader asked for in its stead.
+std::string with_name(std::string message, const std::filesystem::path& temporary,
+                      const std::filesystem::path& target) {
+    const std::string from = temporary.string(), to = target.string();
+    for (std::size_t at = message.find(from); at != std::string::npos; at = message.find(from, at + to.size())) {
+        message.replace(at, from.size(), to);
+    }
+    return message;
+}
+
 /// Gives the temporary the mode and, where that is allowed, the owner of what it replaces.
 void take_over_mode(const std::filesystem::path& temporary, const std::filesystem::path& target) {
     struct stat status;
@@ -110,7 +120,11 @@ void write_atomically(const std::filesystem::path& target,
     }
     const std::filesystem::path file = behind_links(target);
     const Temporary temporary(temporary_beside(file));
-    write(temporary.path());
+    try {
+        write(temporary.path());
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(with_name(error.what(), temporary.path(), target));
+    }
     take_over_mode(temporary.path(), file);
     std::filesystem::rename(temporary.path(), file);
 }

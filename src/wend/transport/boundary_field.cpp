@@ -15,6 +15,56 @@ int cell_of(float x, float low, float high, int side) {
                       : 0;
 }
 
+/// The points of a boundary as sources of exp(-decay r) / r. They stand outside by as much as they are apart: from
+/// inside they then look like a smooth surface. There are ten million pairs of cells and sources: numbers of the same
+/// kind lie side by side, so that loops over them vectorize.
+class Sources {
+public:
+    Sources(const std::vector<LitPoint>& points, float spacing) : least_distance_(1e-3f * spacing) {
+        for (const LitPoint& p : points) {
+            const Vec3 place = p.point.position + p.point.normal * spacing;
+            x_.push_back(place.x);
+            y_.push_back(place.y);
+            z_.push_back(place.z);
+            irradiance_.push_back(p.irradiance);
+        }
+    }
+
+    /// All up to one factor.
+    struct Light {
+        double lit = 0;             ///< of all sources, each as bright as its irradiance
+        double unlit = 0;           ///< were they all as bright as 1
+        Imath::V3d slope{0, 0, 0};  ///< the gradient of `lit`
+    };
+    Light at(const Vec3& position, float decay) const {
+        const std::size_t count = x_.size();
+        std::vector<float> distance(count), reach(count);
+        for (std::size_t p = 0; p < count; ++p) {
+            const float squared = sqr(x_[p] - position.x) + sqr(y_[p] - position.y) + sqr(z_[p] - position.z);
+            distance[p] = std::max(std::sqrt(squared), least_distance_);
+        }
+        // Relative to the nearest source: so it stays within the range of numbers.
+        const float nearest = count > 0 ? *std::min_element(distance.begin(), distance.end()) : 0;
+        for (std::size_t p = 0; p < count; ++p) {
+            reach[p] = fast_exp(-decay * (distance[p] - nearest)) / distance[p];
+        }
+        Light light;
+        for (std::size_t p = 0; p < count; ++p) {
+            const double value = static_cast<double>(irradiance_[p] * reach[p]);
+            const double r = static_cast<double>(distance[p]);
+            light.lit += value;
+            light.unlit += static_cast<double>(reach[p]);
+            const Vec3 way(x_[p] - position.x, y_[p] - position.y, z_[p] - position.z);
+            light.slope += Imath::V3d(way) * (value * (static_cast<double>(decay) + 1 / r) / r);
+        }
+        return light;
+    }
+
+private:
+    float least_distance_;
+    std::vector<float> x_, y_, z_, irradiance_;
+};
+
 }  // namespace
 
 float steepness(float decay, float curvature, float depth) {
@@ -35,52 +85,39 @@ BoundaryField::BoundaryField(const Box3& box, std::vector<LitPoint> points, floa
       cells_(side * side * side) {
     std::transform(points_.begin(), points_.end(), places_.begin(), [](const LitPoint& p) { return p.point; });
     const Vec3 step = box_.size() * (1.0f / side);
+    const Sources sources(points_, spacing_);
     parallel_for(cells_.size(), threads, [&](std::size_t i) {
         const int n = static_cast<int>(i);
         const Vec3 index(static_cast<float>(n % side), static_cast<float>(n / side % side),
                          static_cast<float>(n / side / side));
         const Vec3 centre = box_.min + (index + Vec3(0.5f)) * step;
-        std::vector<std::pair<float, std::uint16_t>> distances;
-        distances.reserve(points_.size());
-        for (std::size_t p = 0; p < points_.size(); ++p) {
-            distances.emplace_back(distance2_to(p, centre), static_cast<std::uint16_t>(p));
-        }
         Cell& cell = cells_[i];
-        double light = 0, unlit = 0;
-        Imath::V3d slope(0, 0, 0);
-        // The sources stand outside by as much as they are apart: from inside they then look like a smooth surface.
-        const auto way_to = [&](std::size_t p) {
-            return points_[p].point.position + points_[p].point.normal * spacing_ - centre;
-        };
-        float nearest = infinity;
-        for (std::size_t p = 0; p < points_.size(); ++p) {
-            nearest = std::min(nearest, length(way_to(p)));
-        }
-        for (std::size_t p = 0; p < points_.size(); ++p) {
-            const Vec3 way = way_to(p);
-            const double r = std::max(length(way), 1e-3f * spacing_);
-            // The gradient of exp(-decay r) / r, up to a factor that keeps it within the range of numbers.
-            const double reach = std::exp(-decay * (r - nearest)) / r;
-            const double value = points_[p].irradiance * reach;
-            light += value;
-            unlit += reach;
-            slope += Imath::V3d(way) * (value * (decay + 1 / r) / r);
-        }
-        const double size = slope.length();
-        cell.irradiance = static_cast<float>(light / unlit);
-        if (light > 0 && size > 0) {
-            cell.incident = {Vec3(slope / size),
-                             static_cast<float>(std::min(1.0, size / (light * static_cast<double>(decay))))};
+        const Sources::Light light = sources.at(centre, decay);
+        const double size = light.slope.length();
+        cell.irradiance = static_cast<float>(light.lit / light.unlit);
+        if (light.lit > 0 && size > 0) {
+            cell.incident = {Vec3(light.slope / size),
+                             static_cast<float>(std::min(1.0, size / (light.lit * static_cast<double>(decay))))};
         } else {
             cell.incident.steepness = 0;
         }
-        const auto few = std::min<std::ptrdiff_t>(candidates, std::ssize(distances));
-        std::partial_sort(distances.begin(), distances.begin() + few, distances.end());
-        for (std::ptrdiff_t k = 0; k < candidates; ++k) {
-            cell.nearest[static_cast<std::size_t>(k)] =
-                distances[static_cast<std::size_t>(std::min(k, few - 1))].second;
-        }
+        cell.nearest = nearest_to(centre);
     });
+}
+
+auto BoundaryField::nearest_to(const Vec3& position) const -> std::array<std::uint16_t, candidates> {
+    std::vector<std::pair<float, std::uint16_t>> distances;
+    distances.reserve(points_.size());
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        distances.emplace_back(distance2_to(p, position), static_cast<std::uint16_t>(p));
+    }
+    const auto few = std::min<std::ptrdiff_t>(candidates, std::ssize(distances));
+    std::partial_sort(distances.begin(), distances.begin() + few, distances.end());
+    std::array<std::uint16_t, candidates> nearest;
+    for (std::ptrdiff_t k = 0; k < candidates; ++k) {
+        nearest[static_cast<std::size_t>(k)] = distances[static_cast<std::size_t>(std::min(k, few - 1))].second;
+    }
+    return nearest;
 }
 
 std::size_t BoundaryField::cell_at(const Vec3& p) const {

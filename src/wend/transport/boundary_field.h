@@ -3,6 +3,9 @@
 
 #include <wend/transport/boundary_light.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace wend {
@@ -40,6 +43,7 @@ private:
         float irradiance = 0;  ///< mean over the boundary, as it counts from here
     };
     std::size_t cell_at(const Vec3& position) const;
+    std::array<std::uint16_t, candidates> nearest_to(const Vec3& position) const;
     std::size_t closest_point(const Cell& cell, const Vec3& position) const;
     /// Square of that to the flat piece of surface that a point stands for.
     float distance2_to(std::size_t point, const Vec3& position) const;
