@@ -2,15 +2,14 @@
 #include <tests/capi/support.h>
 
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/decision/learned_lights.h>
-#include <wend/decision/pixel_estimate.h>
 #include <wend/decision/roulette_splitting.h>
+#include <wend/guide/field.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/path_log.h>
 #include <wend/guide/scatter_fit.h>
-#include <wend/guide/serialization.h>
 #include <wend/sampling/warp.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
