@@ -109,7 +109,7 @@ public:
     /// used again within the lobe.
     Vec3 sample(Vec2 u) const;
 
-    /// The normalized product with lobes of what scatters (product.h).
+    /// The normalized product with lobes of what scatters.
     MixtureProduct product(const AxialLobes& lobes) const;
 
     /// The mixture as seen from a point displaced by -`offset`, where lobe i comes from a distance
