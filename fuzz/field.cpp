@@ -1,7 +1,7 @@
 // Feeds arbitrary bytes to what reads guiding fields.
 #include "sealed.h"
 
-#include <wend/guide/serialization.h>
+#include <wend/guide/field.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

@@ -53,7 +53,7 @@ const std::array<Wall, 11> walls = {{
 }};
 const std::array<const Wall*, 2> lamps = {&walls[9], &walls[10]};
 const wend::PhaseFunction fog_phase(wend::HenyeyGreenstein{0.6f});
-const wend::Medium fog(wend::HomogeneousMedium{Rgb(0.01f), Rgb(0.19f), black, fog_phase});
+const wend::HomogeneousMedium fog{Rgb(0.01f), Rgb(0.19f), black, fog_phase};
 const float extinction = 0.2f;
 const wend::Box3 bounds(Vec3(0, 0, 0), Vec3(6, 2.5f, 4));
 

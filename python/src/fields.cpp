@@ -2,7 +2,7 @@
 
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
-#include <wend/guide/serialization.h>
+#include <wend/guide/field.h>
 #include <wend/io/field_file.h>
 #include <wend/medium/phase.h>
 

@@ -9,13 +9,10 @@
 #include <wend/decision/direction.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/decision/learned_lights.h>
-#include <wend/decision/pixel_estimate.h>
 #include <wend/decision/roulette_splitting.h>
-#include <wend/decision/volume_scattering.h>
 #include <wend/guide/field.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/path_log.h>
-#include <wend/guide/serialization.h>
 
 /// Zero-variance-based path sampling: what walks ask, the decisions that they take, media and their walks inside.
 namespace wend {

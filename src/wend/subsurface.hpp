@@ -5,9 +5,8 @@
 #error "Wend's headers are C++20: compile with -std=c++20 or later"
 #endif
 
-#include <wend/core/frame.h>
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>

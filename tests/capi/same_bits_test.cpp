@@ -2,15 +2,14 @@
 #include <tests/capi/support.h>
 
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/decision/guided_distance.h>
 #include <wend/decision/learned_lights.h>
-#include <wend/decision/pixel_estimate.h>
 #include <wend/decision/roulette_splitting.h>
+#include <wend/guide/field.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/path_log.h>
 #include <wend/guide/scatter_fit.h>
-#include <wend/guide/serialization.h>
 #include <wend/sampling/warp.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
@@ -348,7 +347,7 @@ int expect_same_flights(const Twins& surface, const Twins& volume, int flights) 
     int guided = 0;
     for (int i = 0; i < flights; ++i) {
         const wend_medium c_medium = any_medium(random);
-        const Medium medium = medium_of(c_medium);
+        const HomogeneousMedium medium = medium_of(c_medium);
         const wend_flight_start start = any_start(random);
         const wend_flight_settings settings{0.05f + 0.9f * random.uniform(), coin(random)};
         const GuidedDistance<guide::Field> decision(&surface.cpp, &volume.cpp, settings.classical_share,

@@ -1,5 +1,5 @@
-#include <wend/core/frame.h>
 #include <wend/core/random.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 
 #include <gtest/gtest.h>

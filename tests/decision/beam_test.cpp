@@ -1,5 +1,5 @@
 #include <wend/core/random.h>
-#include <wend/decision/beam.h>
+#include <wend/decision/flight_pieces.h>
 #include <wend/sampling/warp.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/weight_window.h>
-#include <wend/guide/product.h>
+#include <wend/decision/roulette_splitting.h>
+#include <wend/guide/mixture.h>
 #include <wend/medium/phase.h>
 
 #include <gtest/gtest.h>

@@ -266,7 +266,7 @@ TEST(ClassicalDistance, EmissionOfAGridIsTheLineIntegral) {
 TEST(ClassicalDistance, PassProbabilityIsTheTransmittanceWhereItIsKnown) {
     const ClassicalDistance distance;
     EXPECT_FLOAT_EQ(distance.pass_probability(homogeneous(Rgb(1), Rgb(2, 0, 0)), ray, 0.5f).r, std::exp(-1.5f));
-    EXPECT_EQ(distance.pass_probability(test::smooth_medium(Rgb(1), Rgb(1)), ray, 0.5f), Rgb(1));
+    EXPECT_EQ(distance.pass_probability(Medium(test::smooth_medium(Rgb(1), Rgb(1))), ray, 0.5f), Rgb(1));
 }
 
 }  // namespace

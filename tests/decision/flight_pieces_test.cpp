@@ -2,7 +2,7 @@
 // one, and with a true estimate nothing is left to chance.
 #include <tests/sampling/verdicts.h>
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/decision/flight_pieces.h>
 #include <wend/numeric/quadrature.h>
 

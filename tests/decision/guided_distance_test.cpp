@@ -3,7 +3,7 @@
 #include <tests/medium/smooth_medium.h>
 #include <tests/sampling/verdicts.h>
 #include <wend/decision/guided_distance.h>
-#include <wend/guide/scattered_light.h>
+#include <wend/guide/region.h>
 
 #include <gtest/gtest.h>
 

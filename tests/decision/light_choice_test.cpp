@@ -1,5 +1,4 @@
 #include <wend/decision/learned_lights.h>
-#include <wend/decision/light_choice.h>
 
 #include <gtest/gtest.h>
 

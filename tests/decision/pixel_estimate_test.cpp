@@ -1,5 +1,5 @@
 #include <wend/core/random.h>
-#include <wend/decision/pixel_estimate.h>
+#include <wend/decision/roulette_splitting.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <wend/core/random.h>
-#include <wend/decision/weight_window.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/stats/moments.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include <tests/guide/sphere_integral.h>
 #include <wend/core/random.h>
 #include <wend/guide/fit.h>
-#include <wend/guide/lobe_colours.h>
+#include <wend/guide/region.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <tests/guide/mixtures.h>
 #include <tests/guide/sphere_integral.h>
 #include <tests/support/chi_square_sphere.h>
-#include <wend/guide/product.h>
+#include <wend/guide/mixture.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <tests/guide/sphere_integral.h>
 #include <tests/sampling/verdicts.h>
 #include <tests/support/chi_square_sphere.h>
-#include <wend/guide/product.h>
+#include <wend/guide/mixture.h>
 #include <wend/medium/phase.h>
 
 #include <gtest/gtest.h>

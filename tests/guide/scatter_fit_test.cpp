@@ -2,9 +2,9 @@
 #include <tests/guide/sphere_integral.h>
 #include <wend/core/error.h>
 #include <wend/core/random.h>
+#include <wend/guide/field.h>
 #include <wend/guide/fit.h>
 #include <wend/guide/scatter_fit.h>
-#include <wend/guide/serialization.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <wend/core/error.h>
 #include <wend/core/random.h>
+#include <wend/guide/field.h>
 #include <wend/guide/fit.h>
-#include <wend/guide/serialization.h>
 
 #include <gtest/gtest.h>
 

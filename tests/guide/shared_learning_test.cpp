@@ -1,7 +1,7 @@
 // Processes that fit their shares of the cells learn what one process learns from all records, bit for bit.
 #include <tests/support/thread_ranks.h>
 #include <wend/core/random.h>
-#include <wend/guide/serialization.h>
+#include <wend/guide/field.h>
 #include <wend/guide/shared_learning.h>
 #include <wend/sampling/vmf.h>
 

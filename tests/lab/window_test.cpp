@@ -1,6 +1,6 @@
 // Roulette and splitting inside the walk: by expected contribution, never by weight alone.
 #include <tests/lab/experiments.h>
-#include <wend/decision/weight_window.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/planar/half_space.h>
 
 namespace wend {

@@ -13,7 +13,7 @@ from pathlib import Path
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*<(wend/[^>]+)>", re.MULTILINE)
 MADE = "wend/version.h"
-MOST = 75
+MOST = 40
 
 
 def closure(source, headers):

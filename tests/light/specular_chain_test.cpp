@@ -2,7 +2,7 @@
 // one.
 #include <tests/support/scenes.h>
 
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/light/specular_chain.h>
 #include <wend/medium/fresnel.h>
 #include <wend/sampling/warp.h>

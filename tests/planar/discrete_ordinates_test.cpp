@@ -305,7 +305,7 @@ TEST(DiscreteOrdinates, BecomeSmoothAsRoughnessVanishes) {
 
 TEST(DiscreteOrdinates, StayFiniteAndBetweenNothingAndEverything) {
     for (const double albedo : {0.0, 1e-6, 0.5, 0.9999, 1.0}) {
-        for (const double thickness : {1e-4, 1.0, 60.0, 600.0, infinity}) {
+        for (const double thickness : {1e-4, 1.0, 60.0, 600.0, double{infinity}}) {
             for (const double g : {0.0, 0.9, -0.9}) {
                 const PlanarAdjoint adjoint = solved(planar_problem(albedo, g, thickness, 16));
                 for (const double mu0 : {1e-12, 1e-3, 1.0}) {

@@ -1,17 +1,15 @@
 // Plane-parallel problems and what is seen of them, for tests.
 #pragma once
 
+#include <wend/core/vector.h>
 #include <wend/medium/fresnel.h>
 #include <wend/numeric/quadrature.h>
 #include <wend/planar/adjoint.h>
 #include <wend/planar/discrete_ordinates.h>
 
 #include <cmath>
-#include <limits>
 
 namespace wend::test {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline double white(double /*cosine*/) {
     return 1;

@@ -4,7 +4,7 @@
 
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
-#include <wend/guide/serialization.h>
+#include <wend/guide/field.h>
 #include <wend/render/render.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Distances towards a light beside a ray.
 #include <tests/sampling/verdicts.h>
 #include <wend/core/random.h>
+#include <wend/decision/flight_pieces.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/sampling/equiangular.h>
 
 #include <gtest/gtest.h>
 

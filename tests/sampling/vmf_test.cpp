@@ -1,5 +1,5 @@
 #include <tests/support/chi_square_sphere.h>
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/vmf.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 #include <tests/sampling/verdicts.h>
 #include <tests/scene/small_scene.h>
 #include <tests/support/chi_square_sphere.h>
-#include <wend/core/frame.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/light.h>
 

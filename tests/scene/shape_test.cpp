@@ -1,6 +1,6 @@
 #include <tests/scene/small_scene.h>
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/shape.h>
 

@@ -1,6 +1,6 @@
 // Light from a disk of the sky: its irradiance is known.
 #include <tests/sampling/verdicts.h>
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/scene/light.h>
 #include <wend/stats/significance.h>
 

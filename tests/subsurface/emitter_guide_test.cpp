@@ -1,5 +1,5 @@
 // Lamps outside of a medium, as walks inside expect their light.
-#include <wend/subsurface/emitter_guide.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Guides of dense media, ready to use, from what theory says of a medium.
 #include <wend/core/error.h>
 #include <wend/subsurface/half_space_mode.h>
-#include <wend/subsurface/interior_guide.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <gtest/gtest.h>
 

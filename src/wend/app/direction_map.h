@@ -4,7 +4,7 @@
 #include <wend/core/vector.h>
 #include <wend/film/picture.h>
 #include <wend/guide/mixture.h>
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 // Between C and C++: checks of what comes in, and exceptions that must not go out.
 #pragma once
 
-#include <wend/capi/base.h>
+#include <wend/capi/field.h>
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
 

@@ -3,8 +3,8 @@
 #include <wend/capi/handles.h>
 #include <wend/capi/settings.h>
 #include <wend/core/error.h>
+#include <wend/guide/field.h>
 #include <wend/guide/scatter_fit.h>
-#include <wend/guide/serialization.h>
 
 #include <cstdint>
 #include <cstring>

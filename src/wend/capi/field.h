@@ -1,8 +1,19 @@
-/* The learned field for C: records in, incident radiance and distributions of directions out. */
+/* Errors and plain values of the interface for C; fields, and the records of walks that they learn from. */
 #ifndef WEND_CAPI_FIELD_H
 #define WEND_CAPI_FIELD_H
 
-#include <wend/capi/base.h>
+#include <wend/core/export.h>
+#include <wend/version.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+#define WEND_NOEXCEPT noexcept
+#else
+/** What C++ is told of every function: it throws nothing. */
+#define WEND_NOEXCEPT
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -10,6 +21,51 @@ extern "C" {
 
 /** @addtogroup wend_c
  * @{ */
+
+/** How a function ended. All but the first two are mistakes, of which wend_error::message tells more. */
+typedef enum wend_status {
+    /** All went well: results are written. */
+    WEND_OK = 0,
+    /** The field has not been fitted to any usable record: go on without a guide. Not a mistake. */
+    WEND_NOTHING_LEARNED = 1,
+    /** An argument is null, out of its range or not finite, or an object was not filled by this library. */
+    WEND_BAD_ARGUMENT = 2,
+    /** Bytes to load are no field, of another version, truncated, or were changed. */
+    WEND_BAD_BYTES = 3,
+    /** What was asked for is more than the caller's memory holds; the function has said how much. */
+    WEND_BUFFER_TOO_SMALL = 4,
+    /** Memory could not be had; nothing was made. */
+    WEND_OUT_OF_MEMORY = 5,
+    /** A mistake of the library. */
+    WEND_INTERNAL_ERROR = 6
+} wend_status;
+
+/** What went wrong. */
+typedef struct wend_error {
+    char message[256]; /**< a sentence that ends with a null byte; empty after success */
+} wend_error;
+
+/** The library's version, "MAJOR.MINOR.PATCH": that of wend/version.h unless another library was loaded. */
+WEND_API const char* wend_version(void) WEND_NOEXCEPT;
+
+/** A point in scene units, or a direction. */
+typedef struct wend_vec3 {
+    float x; /**< along the first axis */
+    float y; /**< along the second */
+    float z; /**< along the third */
+} wend_vec3;
+
+/** A part of a phase function, of Henyey and Greenstein's kind. */
+typedef struct wend_phase_part {
+    float weight; /**< relative to the other parts; positive */
+    float g;      /**< mean cosine, in (-1, 1) */
+} wend_phase_part;
+
+/** A box along the axes, finite. */
+typedef struct wend_bounds {
+    wend_vec3 min; /**< the corner of least coordinates */
+    wend_vec3 max; /**< the opposite one: no coordinate less than that of `min` */
+} wend_bounds;
 
 /** An estimate of the radiance that arrives at a point from one direction. Estimates of zero are as informative as
  * others and must not be left out. */
@@ -189,6 +245,42 @@ WEND_API wend_status wend_distribution_sample(const wend_distribution* distribut
 /** The density of any direction. */
 WEND_API wend_status wend_distribution_density(const wend_distribution* distribution, wend_vec3 direction,
                                                float* density, wend_error* error) WEND_NOEXCEPT;
+
+/** A place where a walk drew a direction. A walk that was split is a tree: several vertices name the same parent.
+ * Weights and radiances have three colour channels. */
+typedef struct wend_path_vertex {
+    wend_vec3 position;  /**< in scene units */
+    wend_vec3 direction; /**< drawn here, of unit length, towards where the walk went on */
+    float density;       /**< of the direction, in 1/sr; 0 for one of a discrete set, a mirror's */
+    float distance;      /**< along the direction to what the walk met first; INFINITY where there was nothing */
+    float arrival[3];    /**< weight gained since the parent's direction was drawn: flight, survival, 1 / copies */
+    float scattering[3]; /**< the scattering function, with its cosine, over the density of the direction */
+    float gathered[3];   /**< radiance found after this direction and before the next one was drawn, times the weight
+                            gained since: light met and the next vertex's connection to a light, each with its weight
+                            of multiple importance sampling */
+    float classical_density; /**< of the direction by your own sampling, where you mixed it with the guide's; otherwise
+                                0 */
+    float guided_density;    /**< of the direction by the guide, likewise */
+    int32_t parent;          /**< index of the vertex whose direction led here, lower than this one's; -1 for none */
+    float connected[3];      /**< what connections to lights brought at this vertex, the scattering function included,
+                                per unit of the walk's weight here; the parent has gathered it as well. This and the rest
+                                are for records of scattered light alone */
+    float light_fluence;     /**< the connections' estimate of the fluence of lights, in radiance times sr */
+    wend_vec3 to_light;      /**< towards the light that outweighs the others, of unit length; zero without one */
+    float light_distance;    /**< to that light; INFINITY for one that is far */
+    wend_vec3 normal;        /**< of a surface, on the side that the walk came from, of unit length; zero in a volume */
+} wend_path_vertex;
+
+/** Makes a record of each vertex, in the same order, in time proportional to their number. Those of mirrors have
+ * density 0: leave them out, and give the others to the field of surfaces or of volumes. Nothing is clamped;
+ * wend_field_fit() ignores and counts records that are not finite. */
+WEND_API wend_status wend_records_of_path(const wend_path_vertex* path, size_t count, wend_record* records,
+                                          wend_error* error) WEND_NOEXCEPT;
+
+/** What each vertex tells of the light that is scattered there, in the same order and time, mirrors included: for
+ * wend_field_fit_scattered() of surfaces or of volumes. Nothing is clamped. */
+WEND_API wend_status wend_scatter_records_of_path(const wend_path_vertex* path, size_t count,
+                                                  wend_scatter_record* records, wend_error* error) WEND_NOEXCEPT;
 
 /** @} */
 

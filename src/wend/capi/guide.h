@@ -4,13 +4,10 @@
  * All that the library decides, for C: the learned field of incident radiance, and the decisions of a walk that follow
  * it. It is C99, and C++ as well; link wend::guide. This header has the others:
  *
- *   - field.h: fields, their fitting, and distributions of directions that multiply with what scatters;
- *   - path.h: records of walks;
- *   - flight.h: how far walks fly, and what rays are told of the light on their way;
- *   - survival.h: roulette and splitting, and what pixels will be;
- *   - lights.h: which light a vertex is connected to;
- *   - interior.h: walks inside dense media;
- *   - technique_mix.h: how these are best drawn, learned by place.
+ *   - field.h: fields, their fitting, distributions of directions that multiply with what scatters, and records of
+ *     walks;
+ *   - decisions.h: how far walks fly, roulette and splitting, and which light a vertex is connected to;
+ *   - interior.h: walks inside dense media, and how these are best drawn, learned by place.
  *
  * A renderer uses it like this:
  *
@@ -48,13 +45,8 @@
 #ifndef WEND_CAPI_GUIDE_H
 #define WEND_CAPI_GUIDE_H
 
-#include <wend/capi/base.h>
+#include <wend/capi/decisions.h>
 #include <wend/capi/field.h>
-#include <wend/capi/flight.h>
 #include <wend/capi/interior.h>
-#include <wend/capi/lights.h>
-#include <wend/capi/path.h>
-#include <wend/capi/survival.h>
-#include <wend/capi/technique_mix.h>
 
 #endif

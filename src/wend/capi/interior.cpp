@@ -1,7 +1,7 @@
 #include <wend/capi/interior.h>
 #include <wend/capi/media.h>
 #include <wend/capi/opaque.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/subsurface/half_space_mode.h>
 #include <wend/subsurface/interior_walk.h>
 

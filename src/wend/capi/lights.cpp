@@ -1,5 +1,5 @@
 #include <wend/capi/boundary.h>
-#include <wend/capi/lights.h>
+#include <wend/capi/decisions.h>
 #include <wend/decision/learned_lights.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Media and phase functions, number by number.
 #pragma once
 
-#include <wend/capi/flight.h>
+#include <wend/capi/decisions.h>
 #include <wend/medium/homogeneous.h>
 
 #include <span>

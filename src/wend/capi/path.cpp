@@ -1,5 +1,5 @@
 #include <wend/capi/boundary.h>
-#include <wend/capi/path.h>
+#include <wend/capi/field.h>
 #include <wend/guide/path_records.h>
 
 #include <limits>

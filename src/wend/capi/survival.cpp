@@ -1,6 +1,5 @@
 #include <wend/capi/boundary.h>
-#include <wend/capi/survival.h>
-#include <wend/decision/pixel_estimate.h>
+#include <wend/capi/decisions.h>
 #include <wend/decision/roulette_splitting.h>
 
 #include <algorithm>

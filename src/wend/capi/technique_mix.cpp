@@ -1,5 +1,5 @@
 #include <wend/capi/boundary.h>
-#include <wend/capi/technique_mix.h>
+#include <wend/capi/interior.h>
 #include <wend/subsurface/technique_mixes.h>
 
 #include <cmath>

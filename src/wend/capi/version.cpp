@@ -1,4 +1,4 @@
-#include <wend/capi/base.h>
+#include <wend/capi/field.h>
 
 const char* wend_version() noexcept {
     return WEND_VERSION;

@@ -6,6 +6,7 @@
 #include <Imath/ImathVec.h>
 
 #include <cmath>
+#include <limits>
 
 namespace wend {
 
@@ -66,5 +67,42 @@ inline float sqr(float x) {
 inline float safe_sqrt(float x) {
     return x > 0 ? std::sqrt(x) : 0.0f;
 }
+
+/// A right-handed orthonormal basis.
+struct Frame {
+    Vec3 s{1, 0, 0};  ///< local x, unit length
+    Vec3 t{0, 1, 0};  ///< local y, unit length
+    Vec3 n{0, 0, 1};  ///< local z, unit length: a normal, or a direction of propagation
+
+    /// A basis around a unit vector, without branches or singularities (duff2017, listing 3).
+    static Frame from_z(const Vec3& n) {
+        const float sign = std::copysign(1.0f, n.z);
+        const float a = -1.0f / (sign + n.z);
+        const float b = n.x * n.y * a;
+        return {Vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3(b, sign + n.y * n.y * a, -n.y), n};
+    }
+
+    /// Coordinates of a vector in the basis.
+    Vec3 to_local(const Vec3& v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
+    /// The vector that has these coordinates in the basis.
+    Vec3 to_world(const Vec3& v) const { return s * v.x + t * v.y + n * v.z; }
+};
+
+/// The distance to what is not there.
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// How long a ray's segment is where nothing is near: further than any scene reaches, and finite, so that it can be
+/// multiplied.
+inline constexpr float longest_segment = 1e30f;
+
+/// A half-line.
+struct Ray {
+    Vec3 origin;     ///< where it begins, in scene units
+    Vec3 direction;  ///< of unit length, so that distances along the ray are in scene units
+    float time = 0;  ///< from 0, where what moves is at its start, to 1, where it is at its end
+
+    /// The point at a distance along the ray.
+    Vec3 at(float t) const { return origin + direction * t; }
+};
 
 }  // namespace wend

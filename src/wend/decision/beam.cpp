@@ -1,4 +1,4 @@
-#include <wend/decision/beam.h>
+#include <wend/decision/flight_pieces.h>
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 
 #include <wend/decision/distance.h>
 #include <wend/medium/dense_cells.h>
+#include <wend/medium/majorant_grid.h>
 
 namespace wend {
 

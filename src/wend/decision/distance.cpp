@@ -1,6 +1,7 @@
 #include <wend/decision/channels.h>
 #include <wend/decision/dense_flight.h>
 #include <wend/decision/distance.h>
+#include <wend/medium/medium.h>
 #include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>
 
@@ -12,6 +13,14 @@ void pick_up_along(Flight& flight, const HomogeneousMedium& medium, float length
         // It comes from about a mean free path away, unless the segment is shorter.
         pick_up(flight, emitted, std::min(1 / mean_value(medium.extinction()), length / 2));
     }
+}
+
+float EmissionShare::operator()(const Vec3& position) const {
+    if (!glow) {
+        return 1;
+    }
+    const float other = connected * glow->seen_from(from, position, glow->density(position));
+    return own > 0 ? own / (own + other) : 0.0f;
 }
 
 namespace {
@@ -165,16 +174,13 @@ Flight ClassicalDistance::sample(const GridMedium& medium, const FlightStart& st
     return flight;
 }
 
-Flight ClassicalDistance::sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
-    if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
-        return fly(*homogeneous, start.length, start.throughput, u);
-    }
-    return sample(std::get<GridMedium>(medium), start, random);
+Flight ClassicalDistance::sample(const HomogeneousMedium& medium, const FlightStart& start, float u,
+                                 Pcg32& /*random*/) const {
+    return fly(medium, start.length, start.throughput, u);
 }
 
-Rgb ClassicalDistance::pass_probability(const Medium& medium, const Ray&, float length) const {
-    const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium);
-    return homogeneous && scatters(medium) ? transmittance(*homogeneous, length) : Rgb(1.0f);
+Rgb ClassicalDistance::pass_probability(const HomogeneousMedium& medium, const Ray& /*ray*/, float length) const {
+    return is_black(medium.scattering) ? Rgb(1.0f) : transmittance(medium, length);
 }
 
 }  // namespace wend

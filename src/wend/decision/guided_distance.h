@@ -1,17 +1,17 @@
 // Decision 1, guided: scatter or reach the end, and where, in proportion to the light that comes from there.
 #pragma once
 
-#include <wend/decision/beam.h>
 #include <wend/decision/distance.h>
 #include <wend/decision/flight_pieces.h>
-#include <wend/decision/weight_window.h>
-#include <wend/medium/transmittance.h>
+#include <wend/decision/roulette_splitting.h>
+#include <wend/medium/homogeneous.h>
 
 #include <algorithm>
 #include <concepts>
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace wend {
 
@@ -56,27 +56,41 @@ public:
         : GuidedDistance(&fields.surface, &fields.volume, defensive_fraction, guiding) {}
 
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
-    bool looks_ahead(const Medium& medium, const FlightStart& start) const {
-        return std::holds_alternative<HomogeneousMedium>(medium) && scatters(medium) && start.weight < weight_bound &&
-               start.length > 0;
+    bool looks_ahead(const HomogeneousMedium& medium, const FlightStart& start) const {
+        return !is_black(medium.scattering) && start.weight < weight_bound && start.length > 0;
+    }
+    /// Of either kind (medium.h).
+    template <std::same_as<Medium> AnyMedium>
+    bool looks_ahead(const AnyMedium& medium, const FlightStart& start) const {
+        const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium);
+        return homogeneous && looks_ahead(*homogeneous, start);
     }
 
     /// A flight, from `u` in [0,1); classical ones may want more random numbers.
-    Flight sample(const Medium& medium, const FlightStart& start, float u, Pcg32& random) const {
+    Flight sample(const HomogeneousMedium& medium, const FlightStart& start, float u, Pcg32& random) const {
         if (!looks_ahead(medium, start) || (!volume_->is_trained() && beams_.empty())) {
             return classical_.sample(medium, start, u, random);
         }
-        return fly(std::get<HomogeneousMedium>(medium), start, u);
+        return fly(medium, start, u);
     }
-
+    /// Of either kind (medium.h).
+    template <std::same_as<Medium> AnyMedium>
+    Flight sample(const AnyMedium& medium, const FlightStart& start, float u, Pcg32& random) const {
+        if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium)) {
+            return sample(*homogeneous, start, u, random);
+        }
+        return classical_.sample(std::get<GridMedium>(medium), start, random);
+    }
     /// The same by the next numbers of a generator alone.
-    Flight sample(const Medium& medium, const FlightStart& start, Pcg32& random) const {
+    template <class AnyMedium>
+    Flight sample(const AnyMedium& medium, const FlightStart& start, Pcg32& random) const {
         const float u = random.uniform();
         return sample(medium, start, u, random);
     }
 
     /// That of classical flights: a guided one's would take a walk through all cells for every connection.
-    Rgb pass_probability(const Medium& medium, const Ray& ray, float length) const {
+    template <class AnyMedium>
+    Rgb pass_probability(const AnyMedium& medium, const Ray& ray, float length) const {
         return classical_.pass_probability(medium, ray, length);
     }
 

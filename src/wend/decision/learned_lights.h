@@ -2,16 +2,143 @@
 #pragma once
 
 #include <wend/core/export.h>
-#include <wend/decision/light_choice.h>
-#include <wend/decision/vertex_cells.h>
+#include <wend/core/vector.h>
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wend {
+
+/// A vertex that wants light.
+struct LightReceiver {
+    /// In scene units.
+    Vec3 position;
+    /// Of a surface, unit length, on the side where light arrives; zero in a medium.
+    Vec3 normal{0, 0, 0};
+
+    /// Whether it is in a medium.
+    bool in_volume() const { return normal == Vec3(0, 0, 0); }
+};
+
+/// A light that was chosen.
+struct ChosenLight {
+    /// Which one; negative: none reaches the receiver.
+    int index = -1;
+    /// That it is chosen.
+    float probability = 0;
+};
+
+/// Chooses lights by what is known of them before anything is learned: their power, and perhaps where they are and
+/// which way they face.
+template <class S>
+concept LightChoice = requires(const S& choice, const LightReceiver& receiver, float u, int light) {
+    /// From a number of [0,1).
+    { choice.sample(receiver, u) } -> std::same_as<ChosenLight>;
+    /// With which sample() chooses that light.
+    { choice.probability(receiver, light) } -> std::same_as<float>;
+};
+
+/// Everywhere in proportion to given weights, such as the lights' power.
+class WeightedLights {
+public:
+    /// One a light: finite, none of them negative, and one at least positive.
+    explicit WeightedLights(std::vector<float> weights) : probabilities_(std::move(weights)) {
+        float total = 0;
+        for (const float weight : probabilities_) {
+            total += weight;
+        }
+        for (float& probability : probabilities_) {
+            probability /= total;
+        }
+    }
+
+    /// LightChoice; linear in the number of lights.
+    ChosenLight sample(const LightReceiver& /*receiver*/, float u) const {
+        int last = 0;
+        float sum = 0;
+        for (int light = 0; light < static_cast<int>(probabilities_.size()); ++light) {
+            const float probability = probabilities_[static_cast<std::size_t>(light)];
+            sum += probability;
+            // Rounding may leave the end below u.
+            last = probability > 0 ? light : last;
+            if (u < sum) {
+                break;
+            }
+        }
+        return {last, probabilities_[static_cast<std::size_t>(last)]};
+    }
+    /// LightChoice.
+    float probability(const LightReceiver& /*receiver*/, int light) const {
+        return probabilities_[static_cast<std::size_t>(light)];
+    }
+
+private:
+    std::vector<float> probabilities_;
+};
+
+static_assert(LightChoice<WeightedLights>);
+
+/// 12³ cells over a box, for vertices in volumes and for those on surfaces by the axis that is closest to the normal
+/// and its direction.
+class VertexCells {
+public:
+    /// Of all cells.
+    static constexpr std::size_t count = 7 * 12 * 12 * 12;
+
+    /// Over that box.
+    explicit VertexCells(const Box3& box) : box_(box) {}
+
+    /// Positions outside the box, and those that are not numbers, belong to cells at the rim.
+    std::size_t at(const LightReceiver& vertex) const {
+        int cell = kind_of(vertex.normal);
+        for (int axis = 0; axis < 3; ++axis) {
+            const float size = box_.max[axis] - box_.min[axis];
+            const float u = size > 0 ? (vertex.position[axis] - box_.min[axis]) / size : 0.0f;
+            // In this order a position that is not a number gives 0.
+            cell = cell * side + static_cast<int>(std::min(std::max(0.0f, u * side), side - 1.0f));
+        }
+        return static_cast<std::size_t>(cell);
+    }
+
+    /// In the middle of a cell.
+    LightReceiver centre_of(std::size_t cell) const {
+        auto rest = static_cast<int>(cell);
+        LightReceiver vertex{box_.min};
+        for (int axis = 2; axis >= 0; --axis) {
+            const float step = (box_.max[axis] - box_.min[axis]) / side;
+            vertex.position[axis] += step * (static_cast<float>(rest % side) + 0.5f);
+            rest /= side;
+        }
+        if (rest > 0) {
+            vertex.normal[(rest - 1) / 2] = rest % 2 == 1 ? 1.0f : -1.0f;
+        }
+        return vertex;
+    }
+
+private:
+    static constexpr int side = 12;
+
+    /// 0 in a volume.
+    static int kind_of(const Vec3& normal) {
+        if (normal == Vec3(0, 0, 0)) {
+            return 0;
+        }
+        int axis = 0;
+        for (int i = 1; i < 3; ++i) {
+            axis = std::abs(normal[i]) > std::abs(normal[axis]) ? i : axis;
+        }
+        return 1 + 2 * axis + (normal[axis] < 0 ? 1 : 0);
+    }
+
+    Box3 box_;
+};
 
 /// What one connection brought, however often its light was chosen: over the probability of that choice it would be an
 /// estimate of all light. 0 where something was in the way.

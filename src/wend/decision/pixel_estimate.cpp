@@ -1,4 +1,4 @@
-#include <wend/decision/pixel_estimate.h>
+#include <wend/decision/roulette_splitting.h>
 
 #include <algorithm>
 #include <cmath>

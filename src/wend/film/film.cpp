@@ -1,6 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
-#include <wend/decision/pixel_estimate.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/film/chess_board.h>
 #include <wend/film/film.h>
 

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <wend/core/export.h>
-#include <wend/core/ray.h>
 #include <wend/core/vector.h>
 #include <wend/guide/region.h>
-#include <wend/guide/scattered_light.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace wend::guide {
@@ -164,5 +164,12 @@ void Field::walk(const Ray& ray, float t0, float t1, Visit&& visit, float finest
         }
     }
 }
+
+/// All that a field knows, so that field_from_bytes() gives one that answers the same, bit for bit, and learns on the
+/// same. The bytes begin with a signature and a version and end with a checksum; numbers are in this machine's order.
+WEND_API std::string to_bytes(const Field& field);
+
+/// The field again. Throws InputError for bytes of another kind or version, truncated ones, or ones that were changed.
+WEND_API Field field_from_bytes(std::string_view bytes);
 
 }  // namespace wend::guide

@@ -4,7 +4,6 @@
 #include <wend/core/export.h>
 #include <wend/guide/field.h>
 #include <wend/guide/path_records.h>
-#include <wend/guide/records.h>
 
 #include <cstddef>
 #include <span>

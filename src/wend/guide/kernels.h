@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/guide/lobe_lanes.h>
-#include <wend/guide/product.h>
+#include <wend/guide/mixture.h>
 
 #include <span>
 

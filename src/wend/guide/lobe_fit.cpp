@@ -1,7 +1,7 @@
 #include <wend/guide/lobe_fit.h>
 
 #include <wend/core/contracts.h>
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/guide/kernels.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/guide/lanes.h>
+#include <wend/guide/mixture.h>
 
 namespace wend::guide {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <wend/guide/fit.h>
-#include <wend/guide/lobe_colours.h>
 #include <wend/guide/lobe_revision.h>
+#include <wend/guide/region.h>
 
 #include <array>
 #include <span>

@@ -1,6 +1,6 @@
 #include <wend/guide/lobe_revision.h>
 
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <wend/guide/product.h>
+#include <wend/guide/mixture.h>
 
 #include <wend/guide/kernels.h>
 

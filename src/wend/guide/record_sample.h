@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/core/random.h>
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/guide/field.h>
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 
 #include <span>
 

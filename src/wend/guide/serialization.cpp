@@ -1,9 +1,9 @@
 #include <wend/core/error.h>
+#include <wend/guide/field.h>
 #include <wend/guide/field_bytes.h>
 #include <wend/guide/field_memory.h>
 #include <wend/guide/scatter_fit.h>
 #include <wend/guide/sealed_bytes.h>
-#include <wend/guide/serialization.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // How much of classical sampling a cell should keep: the share with the least second moment, as measured.
 #pragma once
 
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 #include <wend/guide/region.h>
 
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <wend/core/vector.h>
-#include <wend/guide/lanes.h>
-#include <wend/guide/lobe_colours.h>
+#include <wend/guide/mixture.h>
+#include <wend/guide/region.h>
 #include <wend/guide/share.h>
 
 #include <array>

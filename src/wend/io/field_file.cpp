@@ -1,5 +1,5 @@
+#include <wend/guide/field.h>
 #include <wend/guide/sealed_bytes.h>
-#include <wend/guide/serialization.h>
 #include <wend/io/field_file.h>
 #include <wend/io/parts_file.h>
 

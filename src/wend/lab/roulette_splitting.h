@@ -1,7 +1,7 @@
 // What ends or splits a planar walk beyond absorption.
 #pragma once
 
-#include <wend/decision/weight_window.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/planar/adjoint.h>
 
 #include <cstdint>

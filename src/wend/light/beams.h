@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wend/decision/beam.h>
+#include <wend/decision/flight_pieces.h>
 #include <wend/scene/light.h>
 
 #include <span>

@@ -1,9 +1,9 @@
 // What scatters at a walk's vertices, as decision/direction.h wants it: one argument, the direction of propagation.
 #pragma once
 
-#include <wend/core/frame.h>
-#include <wend/decision/volume_scattering.h>
-#include <wend/decision/weight_window.h>
+#include <wend/core/vector.h>
+#include <wend/decision/direction.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/scene/bsdf/bsdf.h>
 
 #include <algorithm>

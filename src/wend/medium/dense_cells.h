@@ -3,7 +3,7 @@
 // Tracking would make a step in proportion to the largest density around.
 #pragma once
 
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/medium/grid.h>
 
 #include <algorithm>

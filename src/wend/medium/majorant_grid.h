@@ -1,7 +1,6 @@
 #pragma once
 
 #include <wend/core/export.h>
-#include <wend/core/ray.h>
 #include <wend/core/vector.h>
 #include <wend/medium/grid.h>
 

@@ -3,8 +3,8 @@
 
 #include <wend/core/colour.h>
 #include <wend/core/export.h>
-#include <wend/core/ray.h>
 #include <wend/core/transform.h>
+#include <wend/core/vector.h>
 #include <wend/medium/colour_grid.h>
 #include <wend/medium/emission_sampler.h>
 #include <wend/medium/grid.h>
@@ -119,9 +119,6 @@ private:
     std::shared_ptr<const GridEmission> emission_;
     std::shared_ptr<const EmissionSampler> glow_;
 };
-
-/// The closed set of media.
-using Medium = std::variant<HomogeneousMedium, GridMedium>;
 
 /// Of either kind.
 inline const PhaseFunction& phase_function(const Medium& medium) {

@@ -1,7 +1,6 @@
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/medium/phase.h>
-#include <wend/medium/tabulated_phase.h>
 #include <wend/numeric/legendre.h>
 #include <wend/sampling/vmf.h>
 

@@ -4,7 +4,7 @@
 #include <wend/core/colour.h>
 #include <wend/core/vector.h>
 #include <wend/guide/field.h>
-#include <wend/guide/product.h>
+#include <wend/guide/mixture.h>
 #include <wend/guide/region.h>
 #include <wend/sampling/axial_lobes.h>
 

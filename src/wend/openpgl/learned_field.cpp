@@ -2,8 +2,8 @@
 
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
+#include <wend/guide/field.h>
 #include <wend/guide/sealed_bytes.h>
-#include <wend/guide/serialization.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <openpgl/data.h>
 #include <wend/core/colour.h>
-#include <wend/guide/records.h>
+#include <wend/guide/path_records.h>
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Planar decisions in three dimensions.
 #pragma once
 
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/medium/averaged_phase.h>
 #include <wend/planar/decisions.h>
 

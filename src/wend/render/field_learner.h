@@ -1,8 +1,8 @@
 // The learned fields of directions and light.
 #pragma once
 
+#include <wend/guide/field.h>
 #include <wend/guide/fit.h>
-#include <wend/guide/serialization.h>
 #include <wend/light/caustic_photons.h>
 #include <wend/render/learner.h>
 #include <wend/render/record_budget.h>

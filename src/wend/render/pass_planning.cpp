@@ -1,4 +1,4 @@
-#include <wend/decision/pixel_estimate.h>
+#include <wend/decision/roulette_splitting.h>
 #include <wend/render/pass_planning.h>
 #include <wend/render/sample_budget.h>
 #include <wend/render/schedule.h>

@@ -1,7 +1,7 @@
 #include <wend/sampling/vmf.h>
 
 #include <wend/core/contracts.h>
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/numeric/fast_math.h>
 
 #include <algorithm>

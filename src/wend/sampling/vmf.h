@@ -3,7 +3,6 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/export.h>
-#include <wend/core/frame.h>
 #include <wend/core/vector.h>
 #include <wend/numeric/fast_math.h>
 

@@ -1,4 +1,4 @@
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>

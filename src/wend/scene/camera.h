@@ -3,7 +3,7 @@
 #pragma once
 
 #include <wend/core/motion.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/core/view_matrices.h>
 #include <wend/scene/lens_system.h>
 #include <wend/scene/panorama.h>

@@ -1,4 +1,4 @@
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/scene/curve.h>
 
 #include <algorithm>

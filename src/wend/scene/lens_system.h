@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/core/image.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 
 #include <Imath/ImathVec.h>
 

@@ -1,5 +1,4 @@
-#include <wend/core/frame.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
 #include <wend/scene/light.h>
 #include <wend/scene/moving_light.h>

@@ -1,4 +1,4 @@
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/scene/light_sampler.h>
 #include <wend/scene/moving_light.h>
 

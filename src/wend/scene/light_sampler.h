@@ -1,7 +1,7 @@
 // Which light to connect to: by power, or by a hierarchy that weighs power, distance and orientation (estevez2018).
 #pragma once
 
-#include <wend/decision/light_choice.h>
+#include <wend/decision/learned_lights.h>
 #include <wend/sampling/discrete.h>
 #include <wend/scene/light.h>
 

@@ -1,9 +1,9 @@
 // Light from infinity that comes through a window.
 #pragma once
 
-#include <wend/core/frame.h>
 #include <wend/core/image.h>
 #include <wend/core/transform.h>
+#include <wend/core/vector.h>
 #include <wend/sampling/windowed.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/scene/acceleration.h>
 #include <wend/scene/embree.h>
 #include <wend/scene/scene.h>

@@ -1,10 +1,9 @@
 // The scene that integrators see: immutable once built.
 #pragma once
 
-#include <wend/core/frame.h>
 #include <wend/core/motion.h>
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/medium/medium.h>
 #include <wend/scene/camera.h>
 #include <wend/scene/light.h>

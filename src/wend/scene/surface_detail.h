@@ -1,8 +1,8 @@
 // Shading normals that a surface's material gives it beyond its shape: bumps and normal maps.
 #pragma once
 
-#include <wend/core/frame.h>
 #include <wend/core/image.h>
+#include <wend/core/vector.h>
 #include <wend/scene/texture.h>
 
 #include <memory>

@@ -1,7 +1,7 @@
 // Rays that know what they have met: what touches is told apart by what it is, not by where it is.
 #pragma once
 
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <wend/numeric/fast_math.h>
-#include <wend/subsurface/emitter_guide.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #include <wend/core/error.h>
-#include <wend/subsurface/interior_guide.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <string>
 #include <utility>

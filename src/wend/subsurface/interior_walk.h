@@ -2,18 +2,123 @@
 // sampling.
 #pragma once
 
+#include <wend/core/colour.h>
 #include <wend/core/export.h>
 #include <wend/core/random.h>
 #include <wend/decision/direction.h>
-#include <wend/decision/flight.h>
-#include <wend/subsurface/emitter_guide.h>
-#include <wend/subsurface/interior_guide.h>
+#include <wend/decision/distance.h>
+#include <wend/medium/homogeneous.h>
+#include <wend/medium/phase.h>
+#include <wend/sampling/vmf.h>
+#include <wend/subsurface/half_space_mode.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace wend {
+
+/// How to guide a walk in a dense homogeneous medium: along a mode of the tangent half-space whose outward normal the
+/// walk is told, mixed with classical sampling.
+struct InteriorGuide {
+    /// One number each for classical and for guided sampling.
+    using PerTechnique = std::array<float, 2>;
+
+    /// What walks go through.
+    HomogeneousMedium medium;
+    /// Modes that decay ever faster, the first not at all and the last as the medium's own; for one channel where all
+    /// channels are alike, or for three.
+    std::vector<std::vector<HalfSpaceMode>> modes;
+    /// Probability of classical sampling where no other is given, in (0, 1]; 1: walks are not guided.
+    float defensive_fraction = 1;
+    /// Whether walks head for lamps outside as well as along their mode.
+    bool heads_for_emitters = false;
+    /// Whether walks can be connected to lamps where they meet the boundary, as they can if it is rough.
+    bool connects_at_boundary = false;
+
+    /// Colour channels that are distinguished: 1 or 3.
+    int channels() const { return static_cast<int>(modes.size()); }
+    /// The mode of a channel for a decay of `steepness`, in [0, 1], times that of the last.
+    int level(float steepness) const {
+        const auto last = static_cast<float>(modes[0].size() - 1);
+        return static_cast<int>(std::lround(std::clamp(steepness, 0.0f, 1.0f) * last));
+    }
+    /// A mode by its channel and its level().
+    const HalfSpaceMode& mode(int channel, int level) const {
+        return modes[static_cast<std::size_t>(channel)][static_cast<std::size_t>(level)];
+    }
+};
+
+/// `share_of_a` of the first, the rest of the second.
+inline InteriorGuide::PerTechnique mix(const InteriorGuide::PerTechnique& a, const InteriorGuide::PerTechnique& b,
+                                       float share_of_a) {
+    InteriorGuide::PerTechnique result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = share_of_a * a[i] + (1 - share_of_a) * b[i];
+    }
+    return result;
+}
+
+/// A guide with this probability of classical sampling, in (0, 1]; `modes` are those of the medium
+/// (subsurface/half_space_mode.h has them). Throws InputError for numbers out of range, and for modes that are not as
+/// InteriorGuide has them.
+WEND_API InteriorGuide interior_guide(const HomogeneousMedium& medium, std::vector<std::vector<HalfSpaceMode>> modes,
+                                      float defensive_fraction = 0.25f);
+
+/// A lamp outside as it is seen just inside of a boundary.
+struct BoundaryEmitter {
+    Vmf lobe;           ///< of the directions in which a walk flies out to it
+    float cosine = 1;   ///< of the lobe's mean to the outward normal, in (0, 1]
+    float fluence = 0;  ///< radiance over all directions
+    float peak = 0;     ///< vmf_peak() of the lobe
+};
+
+/// What a walk inside a medium may expect of the light outside, where it is.
+struct EmitterView {
+    std::span<const BoundaryEmitter> lamps;  ///< at the closest boundary; referred to; EmitterGuide::most at most
+    float depth = 0;                         ///< below it, in scene units
+    Rgb diffuse{1.0f};                       ///< radiance that a walk may expect that turns away from it
+};
+
+/// The part of the light that has not been scattered yet: that of each lamp falls off as exp(-extinction depth /
+/// cosine), and is seen within its lobe.
+class WEND_API EmitterGuide {
+public:
+    /// Most lamps; those beyond are left out.
+    static constexpr std::size_t most = 4;
+    /// One number a lamp, 0 for those that are not there.
+    using PerEmitter = std::array<float, most>;
+
+    /// Of no lamp.
+    EmitterGuide() = default;
+    /// What a view becomes in a medium of this extinction, of which the first `channels` channels, 1 or 3, are asked
+    /// for. Refers to the view's lamps.
+    EmitterGuide(const EmitterView& view, const Rgb& extinction, int channels);
+
+    /// EmitterView::diffuse, at least 1e-20, so that walks always have somewhere to go.
+    const Rgb& diffuse() const { return diffuse_; }
+    /// How many lamps there are.
+    std::size_t size() const { return size_; }
+    /// Directions in which a walk flies out to a lamp.
+    const Vmf& lobe(std::size_t lamp) const { return lamps_[lamp].lobe; }
+
+    /// The densities of the lobes in a direction.
+    PerEmitter densities(const Vec3& w) const;
+    /// The phase function for each lamp, of a walk that arrives along `before`.
+    PerEmitter phases(const PhaseFunction& phase, const Vec3& before) const;
+    /// The fluence of a lamp where the walk is.
+    float fluence(int channel, std::size_t lamp) const { return arriving_[static_cast<std::size_t>(channel)][lamp]; }
+
+private:
+    const BoundaryEmitter* lamps_ = nullptr;
+    std::size_t size_ = 0;
+    std::array<PerEmitter, 3> arriving_{};  // by channel, fluence of each lamp
+    Rgb diffuse_;
+};
 
 /// How far a walk got, and how likely it was to get through.
 struct InteriorFlight {

@@ -1,4 +1,4 @@
-#include <wend/subsurface/interior_walk_record.h>
+#include <wend/subsurface/technique_mixes.h>
 
 namespace wend {
 

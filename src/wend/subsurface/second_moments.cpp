@@ -1,4 +1,4 @@
-#include <wend/subsurface/second_moments.h>
+#include <wend/subsurface/technique_mixes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,7 @@
 // walks themselves.
 #pragma once
 
-#include <wend/subsurface/second_moments.h>
-#include <wend/subsurface/technique_mix.h>
+#include <wend/subsurface/technique_mixes.h>
 
 namespace wend {
 

@@ -4,7 +4,7 @@
 #include <wend/scene/boundary_points.h>
 #include <wend/scene/bsdf/bsdf.h>
 #include <wend/scene/scene.h>
-#include <wend/subsurface/emitter_guide.h>
+#include <wend/subsurface/interior_walk.h>
 
 #include <span>
 #include <vector>

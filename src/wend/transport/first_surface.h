@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/core/random.h>
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/film/cryptomatte.h>
 #include <wend/film/film.h>
 #include <wend/scene/scene.h>

@@ -1,7 +1,7 @@
 // Records of walks inside dense media, for the technique mix.
 #pragma once
 
-#include <wend/subsurface/interior_walk_record.h>
+#include <wend/subsurface/technique_mixes.h>
 #include <wend/transport/walk_events.h>
 
 #include <vector>

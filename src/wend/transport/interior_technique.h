@@ -2,7 +2,7 @@
 #pragma once
 
 #include <wend/decision/channels.h>
-#include <wend/decision/volume_scattering.h>
+#include <wend/decision/direction.h>
 #include <wend/sampling/sampler.h>
 #include <wend/scene/scene.h>
 #include <wend/subsurface/interior_walk.h>

@@ -5,7 +5,7 @@
 #include <wend/light/emitter_hit.h>
 #include <wend/scene/scene.h>
 #include <wend/scene/traced_ray.h>
-#include <wend/subsurface/technique_mix.h>
+#include <wend/subsurface/technique_mixes.h>
 #include <wend/transport/path_technique.h>
 
 #include <algorithm>

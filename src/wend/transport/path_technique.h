@@ -2,8 +2,7 @@
 #pragma once
 
 #include <wend/decision/direction.h>
-#include <wend/decision/volume_scattering.h>
-#include <wend/subsurface/technique_mix.h>
+#include <wend/subsurface/technique_mixes.h>
 #include <wend/transport/interior_technique.h>
 #include <wend/transport/vertex.h>
 

@@ -1,7 +1,7 @@
 // Whether a walk is reflected or refracted by a dielectric boundary, learned by place from what either brought.
 #pragma once
 
-#include <wend/decision/vertex_cells.h>
+#include <wend/decision/learned_lights.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The surface that a walk's flight may end at.
 #pragma once
 
-#include <wend/core/ray.h>
+#include <wend/core/vector.h>
 #include <wend/scene/scene.h>
 
 #include <optional>

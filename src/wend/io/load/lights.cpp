@@ -1,4 +1,4 @@
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>

@@ -1,5 +1,4 @@
 #include <wend/core/error.h>
-#include <wend/core/frame.h>
 #include <wend/core/vector.h>
 #include <wend/io/mitsuba/directive.h>
 #include <wend/io/mitsuba/media.h>

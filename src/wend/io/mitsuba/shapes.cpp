@@ -1,5 +1,5 @@
 #include <wend/core/error.h>
-#include <wend/core/frame.h>
+#include <wend/core/vector.h>
 #include <wend/io/mitsuba/curves.h>
 #include <wend/io/mitsuba/emitters.h>
 #include <wend/io/mitsuba/meshes.h>
