@@ -395,6 +395,9 @@ TEST(LoadTextures, Pictures) {
     // A pixel beyond the right border of a sphere is one at the border, mirrored up and down.
     expect_near(loaded("\"string wrap\" \"octahedralsphere\" \"string filter\" \"point\"").reflectance({1.1f, 0.75f}),
                 Rgb(0.5f), 0.01f);
+    // Beyond the left border it is one in the second column, as in pbrt.
+    expect_near(loaded("\"string wrap\" \"octahedralsphere\" \"string filter\" \"point\"").reflectance({-0.1f, 0.75f}),
+                Rgb(0.5f), 0.01f);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"sRGB\"", "wend_load_texture.exr").scene, "not PNG"), 1);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"linear\"", "wend_load_texture.exr").scene, "not PNG"), 0);
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string filter\" \"frob\""); }), "the filter \"frob\"");
@@ -442,6 +445,15 @@ TEST(LoadTextures, MappingsAreInTheSpaceOfTheTexture) {
     expect_near(value("cylindrical\"", {1, 4, 3.7f}), {0.75f, 0.7f, 0});
     expect_near(value("planar\" \"vector3 v1\" [0 .5 0] \"vector3 v2\" [0 0 2] \"float udelta\" .1", {9, 3, 3.2f}),
                 {0.6f, 0.4f, 0});
+}
+
+TEST(LoadTextures, UnknownMappingsAreTheCoordinatesAsTheyAre) {
+    const Loaded loaded(
+        "Texture \"t\" \"spectrum\" \"bilerp\" \"rgb v00\" [0 0 0] \"rgb v01\" [0 1 0] \"rgb v10\" [1 0 0] "
+        "\"rgb v11\" [1 1 0] \"string mapping\" \"cubic\" \"float uscale\" 2 "
+        "Material \"diffuse\" \"texture reflectance\" \"t\"");
+    expect_near(loaded.reflectance({0.1f, 0.2f}), {0.1f, 0.2f, 0});
+    EXPECT_EQ(warnings_with(loaded.scene, "the texture mapping \"cubic\" is unknown"), 1);
 }
 
 TEST(LoadTextures, PatternsOfNoise) {

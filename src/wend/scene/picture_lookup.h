@@ -21,9 +21,10 @@ Rgb bilinear(const Vec2& place, const Pixel& pixel) {
 }
 
 /// The pixel of an octahedral picture of a sphere at a place that may be beyond one of its borders: there the sphere
-/// goes on behind that border, mirrored about its middle.
+/// goes on behind that border, mirrored about its middle. As in pbrt it begins there with the second row or column
+/// where a coordinate is negative, and with the first beyond the other borders.
 inline const Rgb& octahedral_pixel(const Image& image, int x, int y) {
-    const auto mirrored = [](int i, int n) { return i < 0 ? -i - 1 : 2 * n - 1 - i; };
+    const auto mirrored = [](int i, int n) { return i < 0 ? -i : 2 * n - 1 - i; };
     if (x < 0 || x >= image.width) {
         x = mirrored(x, image.width);
         y = image.height - 1 - y;

@@ -299,9 +299,11 @@ TextureMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
                              p.get_vector3("v2", {0, 1, 0}), finite_float(p, "udelta", 0),
                              finite_float(p, "vdelta", 0)};
     }
-    throw InputError(
-        p.place_of("mapping"),
-        fmt::format("the texture mapping \"{}\" is unknown; known are uv, spherical, cylindrical, planar", kind));
+    context_.warnings.add(p.place_of("mapping"),
+                          fmt::format("the texture mapping \"{}\" is unknown; known are uv, spherical, cylindrical, "
+                                      "planar: the texture coordinates as they are take its place, as in pbrt",
+                                      kind));
+    return UvMapping{};
 }
 
 TextureId TextureLoader::add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place) {
