@@ -295,8 +295,7 @@ private:
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
         const std::size_t first = scene_.lights.size();
-        attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface,
-               scene_.lights);
+        attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface, scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
     }
 
