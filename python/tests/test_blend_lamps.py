@@ -158,3 +158,15 @@ def test_what_the_camera_does_not_see_casts_its_shadow(scene, tmp_path, how):
         collection.objects.link(made)
         bpy.context.view_layer.layer_collection.children["unseen"].indirect_only = True
     check(scene, tmp_path, 1000)
+
+
+@pytest.mark.parametrize("seen", [False, True])
+def test_lamps_are_seen_by_mirrors_and_are_in_nobodys_way(scene, tmp_path, seen):
+    floor(scene)
+    sky(scene, (0.1, 0.1, 0.1))
+    mirror = material("BsdfPrincipled", base_color=(0.9, 0.8, 0.7), metallic=1.0, roughness=0.0)
+    mesh(scene, "uv_sphere", mirror, smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
+    # The sun is behind the panel, which hangs in the picture.
+    lamp(scene, "AREA", 100, (-1, -1, 3), (0.3, -0.3, 0), size=1.5).visible_camera = seen
+    lamp(scene, "SUN", 1, (0, 0, 9), (0.3, -0.3, 0), angle=0.6)
+    check(scene, tmp_path, 4000)

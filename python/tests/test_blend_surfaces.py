@@ -1,14 +1,20 @@
 """What artists add to Blender's surfaces, against Cycles."""
 
+import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
 from blender_scene import (  # noqa: E402, F401
+    add,
     check,
+    floor,
     lamp,
+    link,
     material,
     mesh,
+    node,
     scene,
+    set_input,
     sky,
 )
 
@@ -69,3 +75,63 @@ def test_others(scene, tmp_path, kind, inputs):
 def test_flat_faces_are_brushed_around_the_object(scene, tmp_path):
     ball(scene, material("BsdfPrincipled", base_color=(0.9, 0.6, 0.3), metallic=1.0, roughness=0.4, anisotropic=0.8), flat=True)
     check(scene, tmp_path, 1000)
+
+
+def test_metal_by_index(scene, tmp_path):
+    """Between what is seen from above and the edge, colours are Schlick's."""
+    made = material("BsdfMetallic", fresnel_type="PHYSICAL_CONDUCTOR", roughness=0.4)
+    gold = next(n for n in made.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfMetallic")
+    gold.inputs["IOR"].default_value, gold.inputs["Extinction"].default_value = (0.18, 0.42, 1.37), (3.42, 2.35, 1.77)
+    ball(scene, made)
+    check(scene, tmp_path, 1000, tolerance=0.02)
+
+
+def test_bumps_of_glass(scene, tmp_path):
+    """Under a lamp that it shows, and whose light it gathers on the floor."""
+    made = material("BsdfGlass", distribution="GGX", roughness=0.2)
+    tree = made.node_tree
+    noise, bump = node(tree, "TexNoise", scale=2.0), node(tree, "Bump", strength=0.5)
+    link(tree, node(tree, "TexCoord"), noise.inputs["Vector"], "Object")
+    link(tree, noise, bump.inputs["Height"])
+    link(tree, bump, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfGlass").inputs["Normal"])
+    sky(scene, (0.3, 0.5, 0.9))
+    floor(scene)
+    mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
+    lamp(scene, "AREA", 200, (2, -3, 3), (0.9, 0.2, 0.5), size=2)
+    check(scene, tmp_path, 4000)
+
+
+#: Light goes to and fro among strands.
+HAIR = 0.025
+
+
+@pytest.mark.parametrize(
+    ("kind", "inputs"),
+    [
+        ("MELANIN", {"melanin": 0.6}),
+        ("MELANIN", {"melanin": 0.3, "melanin_redness": 0.9, "offset": 0.2}),
+    ],
+    ids=["brown", "red, tilted"],
+)
+def test_hair(scene, tmp_path, kind, inputs):
+    made = material("BsdfHairPrincipled")
+    shader = next(n for n in made.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfHairPrincipled")
+    shader.model, shader.parametrization = "CHIANG", kind
+    for name, value in inputs.items():
+        set_input(shader, name, value)
+    strands = 30
+    curves = bpy.data.hair_curves.new("hair")
+    curves.add_curves([4] * strands)
+    points = [
+        (x, y, z)
+        for i, x in enumerate(np.linspace(-2, 2, strands))
+        for y, z in ((0, -1.5), (0.2 * (i % 3), 0), (0.1 * (i % 2), 1), (0, 2.5))
+    ]
+    curves.attributes["position"].data.foreach_set("vector", np.array(points, dtype=np.float32).ravel())
+    curves.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", np.full(4 * strands, 0.05, dtype=np.float32))
+    curves.materials.append(made)
+    add(scene, "hair", curves)
+    scene.cycles_curves.shape = "THICK"
+    sky(scene, (0.3, 0.4, 0.5))
+    lamp(scene, "AREA", 150, (2, -3, 3), (0.9, 0.2, 0.5), size=2)
+    check(scene, tmp_path, 1500, tolerance=HAIR)

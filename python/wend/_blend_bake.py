@@ -46,6 +46,7 @@ class Bakery:
         self._all, self._object, self._number = all_, object_, number
         self._mesh: Any = None
         self._place = object_.matrix_world.copy()
+        self._like = object_.original
         self._slots = [slot.material.name if slot.material else "" for slot in object_.material_slots]
         self._made: dict[Wanted, str] = {}
         self._rect: Rect | None = None
@@ -146,7 +147,7 @@ class Bakery:
         """Black where that fails, as for a mesh without faces."""
         if len(mesh.polygons):
             try:
-                return _baked(scene, mesh, slots, self._place, wanted, self.side)
+                return _baked(scene, mesh, slots, self._place, wanted, self.side, self._like)
             except RuntimeError as error:
                 self._all.reader.tell(f"object '{self.name}'", f"what cannot be baked is black: {str(error).strip()}")
         return np.zeros((1, 1, 3), dtype=np.float32)
@@ -235,11 +236,22 @@ def _studio(before: Any) -> Iterator[Any]:
 
 
 @contextmanager
-def _shown(scene: Any, mesh: Any, place: Any) -> Iterator[Any]:
-    """An object of the mesh, alone, active and selected."""
+def _shown(scene: Any, mesh: Any, place: Any, like: Any = None) -> Iterator[Any]:
+    """An object of the mesh, alone, active and selected. Nodes that ask for its name, colour, number or properties get
+    those of the object that it is `like`."""
     made = bpy.data.objects.new("wend.bake", mesh)
+    name = like.name if like is not None and not like.library else None
     try:
         made.matrix_world = place
+        if like is not None:
+            made.color, made.pass_index = like.color, like.pass_index
+            for key, value in like.items():
+                if isinstance(value, (int, float)) or hasattr(value, "to_list"):
+                    made[key] = value
+        if name is not None:
+            # A random number of an object is made of its name.
+            like.name = "wend.aside"
+            made.name = name
         scene.collection.objects.link(made)
         layer = scene.view_layers[0]
         layer.objects.active = made
@@ -247,9 +259,11 @@ def _shown(scene: Any, mesh: Any, place: Any) -> Iterator[Any]:
         yield made
     finally:
         bpy.data.objects.remove(made)
+        if name is not None:
+            like.name = name
 
 
-def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Wanted, side: int) -> Floats:
+def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Wanted, side: int, like: Any) -> Floats:
     """(side, side, 3), rows from above."""
     image = bpy.data.images.new("wend.bake", side, side, alpha=False, float_buffer=True)
     image.colorspace_settings.name = "Non-Color"
@@ -265,7 +279,7 @@ def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Want
                 mesh.materials[i] = chosen
             else:
                 mesh.materials.append(chosen)
-        with _shown(scene, mesh, place):
+        with _shown(scene, mesh, place, like):
             bpy.ops.object.bake(
                 type="EMIT", margin=_MARGIN, margin_type="EXTEND", use_clear=True, target="IMAGE_TEXTURES",
                 save_mode="INTERNAL", use_selected_to_active=False,

@@ -8,6 +8,7 @@ import numpy as np
 
 from ._blend_motion import Motion
 from ._blend_panorama import panorama_of
+from ._blend_settings import tell_of_camera
 from ._errors import InputError
 from ._scene_reader import SceneReader
 
@@ -56,7 +57,8 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
     camera = eye.data
     place = f"camera '{eye.name}'"
     reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
-    parameters = _lens_of(reader, place, eye)
+    tell_of_camera(reader, place, camera)
+    parameters = _lens_of(eye)
     if camera.type == "PANO":
         reader.builder.add("Camera", "panorama", parameters | panorama_of(reader, place, scene, camera, resolution))
         return
@@ -67,14 +69,12 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
         reader.builder.add("Camera", "perspective", parameters | {"float fov": 90})
 
 
-def _lens_of(reader: SceneReader, place: str, eye: Any) -> dict[str, Any]:
+def _lens_of(eye: Any) -> dict[str, Any]:
     """Of the depth of field."""
     camera = eye.data
     dof = camera.dof
     if not dof.use_dof:
         return {}
-    if dof.aperture_blades > 2:
-        reader.tell(place, "the aperture is round")
     distance = float(dof.focus_distance)
     if dof.focus_object is not None:
         matrix = np.array(eye.matrix_world.normalized(), dtype=np.float64)

@@ -8,12 +8,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_nodes import Nodes, output_node
 from ._scene_reader import Places, SceneReader
 
 Matrix = npt.NDArray[np.float64]
 
 #: Half a turn around x: Blender's lamps shine along -z, pbrt's along z.
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
+
+#: The area that Cycles takes lamps without a size for.
+_OF_POINTS = 4.0
 
 
 def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool) -> None:
@@ -27,8 +31,11 @@ def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool
     power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength
     if getattr(lamp, "use_temperature", False):
         power = power * np.array(lamp.temperature_color, dtype=np.float64)
-    if not getattr(lamp, "normalize", True) and lamp.type in ("POINT", "SPOT", "AREA"):
-        reader.tell(place, "a light's strength that is not normalised is taken as a power")
+    if getattr(getattr(lamp, "cycles", None), "is_portal", False) and lamp.type == "AREA":
+        reader.tell(place, "a portal is left out")
+        return
+    if not lamp.use_shadow:
+        reader.tell(place, "a light without shadows has them")
     if power.max() <= 0:
         return
     with reader.builder.block():
@@ -37,28 +44,36 @@ def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool
 
 def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArray[np.float64]:
     """Colour and strength of the emission that a lamp's nodes are, where they are no more than that."""
-    for node in lamp.node_tree.nodes:
-        if node.bl_idname == "ShaderNodeEmission" and not any(socket.is_linked for socket in node.inputs):
-            return np.array(node.inputs["Color"].default_value[:3]) * float(node.inputs["Strength"].default_value)
-    reader.tell(place, "the nodes of a light are left out, but for an emission that is constant")
+    nodes = Nodes(reader, place, "")
+    output = output_node(lamp.node_tree)
+    node = nodes.shader(output.inputs["Surface"]) if output is not None else None
+    if node is None:
+        return np.zeros(3)
+    if node.bl_idname == "ShaderNodeEmission":
+        return nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"])
+    reader.tell(place, "the nodes of a light are left out, but for an emission")
     return np.ones(3)
 
 
 def _shine(
     reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any], profile: dict[str, Any]
 ) -> None:
-    # Lamps reflect nothing.
-    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance} | profile)
-    reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
-    reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"float alpha": 0.0})
+    # Lamps are in nobody's way.
+    around = reader.around or ""
+    reader.builder.add("MediumInterface", around, around)
+    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance, "bool solid": False} | profile)
+    reader.builder.add("Material", "interface")
+    reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"string cameraview": "hidden"})
 
 
 def _point(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
     radius = float(lamp.shadow_soft_size)
     if radius > 0:
+        power = power * _unnormalised(lamp, 4 * math.pi * radius**2)
         reader.put(_unscaled(places))
         _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius}, {})
     else:
+        power = power * _unnormalised(lamp, _OF_POINTS)
         reader.builder.add("Transform", _unscaled(reader.held(places, place)))
         reader.builder.add("LightSource", "point", {"rgb I": power / (4 * math.pi)})
 
@@ -68,6 +83,8 @@ def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     edge = math.cos(half)
     # Cycles blends by the cosine, over this part of it.
     inner = math.acos(min(edge + float(lamp.spot_blend) * (1 - edge), 1.0))
+    if lamp.use_square:
+        reader.tell(place, "a square spot is round")
     cone = {"float coneangle": math.degrees(half), "float conedeltaangle": math.degrees(half - inner)}
     radius = float(lamp.shadow_soft_size)
     if radius > 0:
@@ -75,9 +92,10 @@ def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
         turns = np.abs(places[0, :3, :3] - places[1, :3, :3]).max() > 1e-6
         held = np.array([reader.held(places, place)] * 2) if turns else places
         reader.put(_TURNED @ _unscaled(held))
-        radiance = power / (4 * math.pi**2 * radius**2)
+        radiance = power * _unnormalised(lamp, 4 * math.pi * radius**2) / (4 * math.pi**2 * radius**2)
         _shine(reader, radiance, is_seen, "sphere", {"float radius": radius}, cone)
         return
+    power = power * _unnormalised(lamp, _OF_POINTS)
     reader.builder.add("Transform", _TURNED @ _unscaled(reader.held(places, place)))
     towards = {"point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
     reader.builder.add("LightSource", "spot", {"rgb I": power / (4 * math.pi)} | towards | cone)
@@ -85,6 +103,7 @@ def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
 
 def _sun(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
     reader.builder.add("Transform", _TURNED @ _unscaled(reader.held(places, place)))
+    power = power * _unnormalised(lamp, math.pi * math.sin(min(lamp.angle / 2, math.pi / 2)) ** 2)
     parameters: dict[str, Any] = {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
     reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(lamp.angle), 180.0)})
 
@@ -98,7 +117,7 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     stretched = float(np.linalg.norm(np.cross(across, up)))
     is_round = lamp.shape in ("DISK", "ELLIPSE")
     area = (math.pi if is_round else 4.0) * x * y * stretched
-    radiance = power / (math.pi * max(area, 1e-30))
+    radiance = power * _unnormalised(lamp, area) / (math.pi * max(area, 1e-30))
     if is_round:
         reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ places)
         _shine(reader, radiance, is_seen, "disk", {"float radius": 1}, profile)
@@ -108,6 +127,11 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     reader.put(places)
     flat = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
     _shine(reader, radiance, is_seen, "trianglemesh", flat, profile)
+
+
+def _unnormalised(lamp: Any, area: float) -> float:
+    """What multiplies the power of a lamp whose radiance does not depend on its size."""
+    return 1.0 if getattr(lamp, "normalize", True) or area <= 0 else area
 
 
 def _unscaled(world: Matrix) -> Matrix:

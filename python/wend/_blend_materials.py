@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._blend_chalk import add_roughness
+from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
+from ._blend_hair import hair_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
 from ._blend_subsurface import add_inside
@@ -104,7 +106,14 @@ def _look(
         named = key
     shown = picture["string filename"] if picture is not None else None
     shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
-    return Look(named, emission, key if medium is not None else None, shape, _brush_of(surface), shown)
+    inside = key if medium is not None else None
+    return Look(named, emission, inside, shape, _brush_of(surface), shown, _refracts(surface))
+
+
+def _refracts(surface: _Surface) -> bool:
+    if surface.mixed is not None:
+        return any(_refracts(part) for part in surface.mixed[:2])
+    return surface.material is not None and surface.material["string type"] == "dielectric"
 
 
 def _brush_of(surface: _Surface) -> Brush | None:
@@ -143,6 +152,9 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
         "ShaderNodeEmission": _emission,
         "ShaderNodeBackground": _emission,
         "ShaderNodeHoldout": _held_out,
+        "ShaderNodeBsdfHairPrincipled": _hair,
+        "ShaderNodeBsdfHair": _as_matt,
+        "ShaderNodeBsdfToon": _as_matt,
     }
     if node is None:
         return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
@@ -159,46 +171,21 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
     return _Surface({"string type": "diffuse", "rgb reflectance": (0.5, 0.5, 0.5)})
 
 
-def _detail(nodes: Nodes, node: Any, parameters: dict[str, Any]) -> None:
-    """Normals beyond those of the shape: of normal maps, bumps, and displacement that is one."""
-    socket = node.inputs.get("Normal")
-    found = nodes.source(socket) if socket is not None else None
-    if found is None or not found.is_output:
-        found, socket = None, nodes.displacement
-    file = _normal_map(nodes, found.node) if found is not None else None
-    if file is None and socket is not None and (found is not None or nodes.displacement is not None):
-        picture = nodes.baked(socket, "normal")
-        file = picture["string filename"] if picture is not None else None
-    if file is not None:
-        parameters["string normalmap"] = file
-    elif found is not None:
-        nodes.warn(found.node, f"{found.node.bl_idname.removeprefix('ShaderNode')} as Normal is left out")
+def _hair(nodes: Nodes, node: Any) -> _Surface:
+    return _Surface(hair_of(nodes, node))
 
 
-def _normal_map(nodes: Nodes, node: Any) -> str | None:
-    """The file of one that can be taken as it is."""
-    if node.bl_idname != "ShaderNodeNormalMap" or node.space != "TANGENT" or nodes.bakes_all:
-        return None
-    picture = nodes.source(node.inputs["Color"])
-    if picture is None or not picture.is_output or picture.node.bl_idname != "ShaderNodeTexImage" or not picture.node.image:
-        return None
-    texture, uv_name = picture.node, nodes.bakery.uv_name if nodes.bakery is not None else ""
-    is_plain = texture.extension == "REPEAT" and texture.projection == "FLAT" and node.uv_map in ("", uv_name)
-    strength = nodes.known(node.inputs["Strength"])
-    faults: list[str] = []
-    mapping = nodes.mapping_of(texture, faults)
-    if nodes.bakery is None:
-        if strength is None or strength[0] != 1:
-            nodes.warn(node, "the strength of a normal map is taken as 1")
-    elif not is_plain or faults or mapping or strength is None or strength[0] != 1:
-        return None
-    return nodes.file_of(texture, texture.image)
+def _as_matt(nodes: Nodes, node: Any) -> _Surface:
+    nodes.warn(node, f"{node.bl_idname.removeprefix('ShaderNodeBsdf')} is taken as a diffuse surface of its colour")
+    material: dict[str, Any] = {"string type": "diffuse"}
+    nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+    add_detail(nodes, node, material)
+    return _Surface(material)
 
 
 def _principled(nodes: Nodes, node: Any) -> _Surface:
     inputs = node.inputs
-    if "Thin Film Thickness" in inputs and (inputs["Thin Film Thickness"].is_linked or inputs["Thin Film Thickness"].default_value != 0):
-        nodes.warn(node, "Thin Film Thickness is left out")
+    tell_of_films(nodes, node)
     ior = max(nodes.number(inputs["IOR"]), 1e-3)
     emission, varies = _emitted(nodes, inputs["Emission Color"], inputs["Emission Strength"])
     material: dict[str, Any] = {"string type": "principled", "float eta": ior}
@@ -209,7 +196,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     normal = ((ior - 1) / (ior + 1)) ** 2 * 2 * max(nodes.number(inputs["Specular IOR Level"]), 0)
     root = min(normal, 0.99) ** 0.5
     material["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
-    _add_tint(nodes, material, inputs["Specular Tint"], "speculartint")
+    add_tint(nodes, material, inputs["Specular Tint"], "speculartint")
     if "Diffuse Roughness" in inputs and material.get("float metallic") == 0:
         add_roughness(nodes, material, inputs["Diffuse Roughness"], inputs["Base Color"])
     coat = nodes.number(inputs["Coat Weight"])
@@ -217,10 +204,13 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, inputs["Coat Weight"], "coat", "float")
         nodes.add_to(material, inputs["Coat Roughness"], "coatroughness", "float")
         material["float coateta"] = max(nodes.number(inputs["Coat IOR"]), 1e-3)
-        _add_tint(nodes, material, inputs["Coat Tint"], "coattint")
+        add_tint(nodes, material, inputs["Coat Tint"], "coattint")
+        if linked_to(nodes, inputs["Coat Normal"]) != linked_to(nodes, inputs["Normal"]):
+            nodes.warn(node, "a coat has the normals of what it covers")
     has_sheen = add_sheen(nodes, material, inputs)
-    brushed = _brush(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
-    _detail(nodes, node, material)
+    brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
+    tell_of_facets(nodes, node, inputs["Roughness"], "MULTI_GGX")
+    add_detail(nodes, node, material)
     result = _Surface(material, emission=emission, brushed=brushed)
     # Metal comes first, glass gets of the rest.
     transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
@@ -232,14 +222,17 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     waxen = nodes.known(inputs["Subsurface Weight"])
     if clear < 1 and (waxen is None or waxen[0] > 0):
         nodes.add_to(material, inputs["Subsurface Weight"], "subsurface", "float")
-        names = {key: inputs[f"Subsurface {key.capitalize()}"] for key in ("radius", "scale", "anisotropy")}
+        names = {key: nodes.input(node, f"Subsurface {key.capitalize()}") for key in ("radius", "scale", "anisotropy")}
         is_skin = node.subsurface_method == "RANDOM_WALK_SKIN"
-        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(inputs["Subsurface IOR"]) if is_skin else material["float eta"]}
+        names |= {"roughness": inputs["Roughness"], "ior": nodes.number(nodes.input(node, "Subsurface IOR")) if is_skin else material["float eta"]}
         add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
         glass = _dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
+        add_detail(nodes, node, glass)
+        if node.distribution == "MULTI_GGX":
+            tell_of_facets(nodes, node, inputs["Roughness"], "GGX")
         if has_sheen:
             nodes.warn(node, "the sheen of glass is left out")
         result = _blended(result, _Surface(glass), clear, emission)
@@ -247,34 +240,6 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
         nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
     return result
-
-
-def _add_tint(nodes: Nodes, material: dict[str, Any], socket: Any, name: str) -> None:
-    value = nodes.known(socket)
-    if value is None or np.abs(value - 1).max() > 1e-6:
-        nodes.add_to(material, socket, name, "rgb")
-
-
-def _brush(nodes: Nodes, node: Any, amount: Any, turn: Any, material: dict[str, Any]) -> Brush | None:
-    """How a surface is brushed; None: it is not, or along its texture coordinates."""
-    value = nodes.known(amount)
-    if value is not None and value[0] == 0:
-        return None
-    if value is not None and value[0] < 0:
-        nodes.warn(node, f"{amount.name} below 0 is taken as 0")
-        return None
-    nodes.add_to(material, amount, "anisotropy", "float")
-    found = nodes.source(node.inputs["Tangent"])
-    turns = nodes.number(turn)
-    if found is None or not found.is_output:
-        return Brush(2, turns)
-    if found.node.bl_idname == "ShaderNodeTangent" and found.node.direction_type == "RADIAL":
-        return Brush("XYZ".index(found.node.axis), turns)
-    if found.node.bl_idname != "ShaderNodeTangent":
-        nodes.warn(node, f"{found.node.bl_idname.removeprefix('ShaderNode')} as Tangent is taken as that of the texture coordinates")
-    if turns != 0:
-        nodes.warn(node, f"{turn.name} of a tangent by texture coordinates is left out")
-    return None
 
 
 def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour) -> _Surface:
@@ -292,22 +257,25 @@ def _diffuse(nodes: Nodes, node: Any) -> _Surface:
         add_roughness(nodes, material, node.inputs["Roughness"], node.inputs["Color"])
     else:
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
-    _detail(nodes, node, material)
+    add_detail(nodes, node, material)
     return _Surface(material)
 
 
 def _sheen(nodes: Nodes, node: Any) -> _Surface:
     material = fibres(nodes, node)
-    _detail(nodes, node, material)
+    add_detail(nodes, node, material)
     return _Surface(material)
 
 
 def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
     material: dict[str, Any] = {"string type": "principled", "float metallic": 1.0}
-    nodes.add_to(material, node.inputs[colour], "reflectance", "rgb")
+    if colour:
+        nodes.add_to(material, node.inputs[colour], "reflectance", "rgb")
+    tell_of_films(nodes, node)
+    tell_of_facets(nodes, node, node.inputs["Roughness"], "MULTI_GGX")
     nodes.add_to(material, node.inputs["Roughness"], "roughness", "float")
-    brushed = _brush(nodes, node, node.inputs["Anisotropy"], node.inputs["Rotation"], material)
-    _detail(nodes, node, material)
+    brushed = brush_of(nodes, node, node.inputs["Anisotropy"], node.inputs["Rotation"], material)
+    add_detail(nodes, node, material)
     return _Surface(material, brushed=brushed)
 
 
@@ -326,11 +294,13 @@ def _glossy(nodes: Nodes, node: Any) -> _Surface:
 
 def _metallic(nodes: Nodes, node: Any) -> _Surface:
     if node.fresnel_type != "F82":
-        nodes.warn(node, "a metal by index and extinction is taken by its base colour")
-        return _metal(nodes, node, "Base Color")
+        surface = _metal(nodes, node, "")
+        if surface.material is not None:
+            surface.material |= conductor(*(nodes.colour(node.inputs[name]) for name in ("IOR", "Extinction")))
+        return surface
     surface = _metal(nodes, node, "Base Color")
     if surface.material is not None:
-        _add_tint(nodes, surface.material, node.inputs["Edge Tint"], "speculartint")
+        add_tint(nodes, surface.material, node.inputs["Edge Tint"], "speculartint")
     return surface
 
 
@@ -345,6 +315,9 @@ def _glass(nodes: Nodes, node: Any) -> _Surface:
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     else:
         material["rgb reflectance"] = (0, 0, 0)
+    tell_of_films(nodes, node)
+    tell_of_facets(nodes, node, node.inputs["Roughness"], "GGX")
+    add_detail(nodes, node, material)
     return _Surface(material)
 
 
@@ -363,6 +336,7 @@ def _transparent(nodes: Nodes, node: Any) -> _Surface:
 def _translucent(nodes: Nodes, node: Any) -> _Surface:
     material: dict[str, Any] = {"string type": "diffusetransmission", "rgb reflectance": (0, 0, 0)}
     nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
+    add_detail(nodes, node, material)
     return _Surface(material)
 
 
@@ -370,10 +344,10 @@ def _subsurface(nodes: Nodes, node: Any) -> _Surface:
     # It has no surface of its own.
     material: dict[str, Any] = {"string type": "principled", "float specular": 0, "float roughness": 1, "float subsurface": 1}
     nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
-    names = {key: node.inputs[key.capitalize()] for key in ("radius", "scale", "anisotropy", "roughness")}
-    names["ior"] = nodes.number(node.inputs["IOR"])
+    names = {key: nodes.input(node, key.capitalize()) for key in ("radius", "scale", "anisotropy", "roughness")}
+    names["ior"] = nodes.number(nodes.input(node, "IOR"))
     add_inside(nodes, node, material, node.inputs["Color"], node.falloff, names)
-    _detail(nodes, node, material)
+    add_detail(nodes, node, material)
     return _Surface(material)
 
 

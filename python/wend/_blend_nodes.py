@@ -22,8 +22,8 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def output_node(tree: Any) -> Any:
-    """The material's or the world's output that Cycles takes; None where there is none."""
-    kinds = ("ShaderNodeOutputMaterial", "ShaderNodeOutputWorld")
+    """The output of a material, a world or a lamp that Cycles takes; None where there is none."""
+    kinds = ("ShaderNodeOutputMaterial", "ShaderNodeOutputWorld", "ShaderNodeOutputLight")
     found = [n for n in tree.nodes if n.bl_idname in kinds and n.target in ("ALL", "CYCLES")]
     return next((n for n in found if n.is_active_output), found[0] if found else None)
 
@@ -88,6 +88,11 @@ class Nodes:
         found = self.source(socket)
         return found.node if found is not None and found.is_output else None
 
+    @staticmethod
+    def input(node: Any, label: str) -> Any:
+        """The input of that name, also where a setting of the node has put it out of use."""
+        return next(socket for socket in node.inputs if socket.name == label)
+
     # ---- Values ----
 
     def number(self, socket: Any, depth: int = 0) -> float:
@@ -150,6 +155,8 @@ class Nodes:
         label = f"{socket.name} of node '{socket.node.name}'"
         if reach.sees:
             self.warn(reach.sees, f"{label} depends on from where it is seen, and is baked as seen from above")
+        if reach.feels:
+            self.warn(reach.feels, f"{label} depends on what is near, and is baked without other objects")
         if reach.is_by_place and self.bakery.is_shared:
             self.warn(socket.node, f"{label} is baked at the first of several instances")
         node = socket.node
@@ -209,6 +216,8 @@ class Nodes:
         inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
             return blackbody(float(inputs[0][0]))
+        if kind == "ShaderNodeLightFalloff" and found.name == "Quadratic" and inputs[1] is not None and inputs[1][0] == 0:
+            return inputs[0]
         if kind == "ShaderNodeMath":
             return _math(node.operation, [None if x is None else float(x[0]) for x in inputs], node.use_clamp)
         if kind == "ShaderNodeGamma" and inputs[0] is not None and inputs[1] is not None:
@@ -228,7 +237,7 @@ class Nodes:
             values = [self.known(s, depth + 1) for s in (factor, a, b)]
             if any(v is None for v in values):
                 return None
-            return _blend(node.blend_type if hasattr(node, "blend_type") else "MIX", *values)  # type: ignore[arg-type]
+            return _blend(node, *values)  # type: ignore[arg-type]
         return None
 
     @staticmethod
@@ -236,7 +245,8 @@ class Nodes:
         if node.bl_idname == "ShaderNodeMixRGB":
             return node.inputs[0], node.inputs[1], node.inputs[2]
         first = {"FLOAT": 2, "VECTOR": 4, "RGBA": 6}.get(node.data_type, 6)
-        return node.inputs[0], node.inputs[first], node.inputs[first + 1]
+        by_axis = node.data_type == "VECTOR" and node.factor_mode == "NON_UNIFORM"
+        return node.inputs[1 if by_axis else 0], node.inputs[first], node.inputs[first + 1]
 
     # ---- Textures ----
 
@@ -246,7 +256,9 @@ class Nodes:
 
     def _mixed(self, node: Any, kind: str) -> str | None:
         factor, a, b = self._mix_inputs(node)
-        mode = getattr(node, "blend_type", "MIX")
+        mode = _mode_of(node)
+        if _clamps_result(node) or not _clamps_factor(node) or getattr(node, "factor_mode", "UNIFORM") != "UNIFORM":
+            return None
         parameters: dict[str, Any] = {}
         if mode == "MIX":
             self.add_to(parameters, factor, "amount", "float")
@@ -361,12 +373,28 @@ def blackbody(kelvin: float) -> Colour:
     return np.asarray(np.maximum(from_xyz @ xyz, 0), dtype=np.float64)
 
 
-def _blend(mode: str, factor: Colour, a: Colour, b: Colour) -> Colour | None:
-    t = np.clip(factor, 0, 1)
+def _mode_of(node: Any) -> str:
+    """How a node mixes; numbers and vectors have one way alone."""
+    return str(node.blend_type) if getattr(node, "data_type", "RGBA") == "RGBA" else "MIX"
+
+
+def _clamps_factor(node: Any) -> bool:
+    return bool(getattr(node, "clamp_factor", True))
+
+
+def _clamps_result(node: Any) -> bool:
+    is_colour = getattr(node, "data_type", "RGBA") == "RGBA"
+    return is_colour and bool(getattr(node, "clamp_result", False) or getattr(node, "use_clamp", False))
+
+
+def _blend(node: Any, factor: Colour, a: Colour, b: Colour) -> Colour | None:
+    mode = _mode_of(node)
+    t = np.clip(factor, 0, 1) if _clamps_factor(node) else factor
     mixed = {"MIX": b, "MULTIPLY": a * b, "ADD": a + b, "SUBTRACT": a - b, "SCREEN": 1 - (1 - a) * (1 - b)}.get(mode)
     if mixed is None:
         return None
-    return np.asarray((1 - t) * a + t * mixed, dtype=np.float64)
+    result = np.asarray((1 - t) * a + t * mixed, dtype=np.float64)
+    return np.clip(result, 0, 1) if _clamps_result(node) else result
 
 
 def _math(operation: str, values: list[float | None], clamp: bool) -> Colour | None:

@@ -20,6 +20,8 @@ _PLAIN = {
 }  # fmt: skip
 #: That differ between instances of one object.
 _PLACED = {"ShaderNode" + name for name in ("NewGeometry", "ObjectInfo", "ParticleInfo", "HairInfo")}
+#: That depend on what is around an object.
+_AROUND = {"ShaderNodeAmbientOcclusion", "ShaderNodeBevel"}
 #: That depend on from where they are seen.
 _SEEING = {"ShaderNode" + name for name in ("Fresnel", "LayerWeight", "CameraData", "LightPath")}
 
@@ -44,6 +46,7 @@ class Reach:
         self.is_by_uv = True  #: whether they depend on that and nothing else
         self.has_bumps = False
         self.is_by_place = False  #: whether instances of one object differ
+        self.feels: Any = None  #: a node that depends on what is around the object
         self.sees: Any = None  #: a node that depends on from where it is seen
         self._nodes, self._uv_name = nodes, uv_name
         self._seen: set[int] = set()
@@ -59,8 +62,11 @@ class Reach:
         node = found.node
         kind = node.bl_idname
         self.has_bumps = self.has_bumps or kind == "ShaderNodeBump"
-        by_other = kind == "ShaderNodeTexCoord" and found.name == "Object" and node.object is not None
+        by_object = kind == "ShaderNodeAttribute" and node.attribute_type in ("OBJECT", "INSTANCER")
+        by_other = by_object or (kind == "ShaderNodeTexCoord" and found.name == "Object" and node.object is not None)
         self.is_by_place = self.is_by_place or kind in _PLACED or by_other
+        if kind in _AROUND and not getattr(node, "only_local", False):
+            self.feels = self.feels or node
         if kind in _SEEING or (kind == "ShaderNodeTexCoord" and found.name in ("Camera", "Window", "Reflection")):
             self.sees = self.sees or node
             self.is_by_uv = False

@@ -11,6 +11,8 @@ def view_of(reader: SceneReader, instance: Any) -> str:
     """What an instance of the depsgraph is to rays of the camera: a shape's "cameraview". What is asked of other rays is
     named."""
     object_ = instance.object
+    if object_.type in ("CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"):
+        return "shown"
     where = f"object '{object_.name}'"
     is_lamp = object_.type == "LIGHT"
     # The lamp of a default file is one, without an effect.

@@ -59,6 +59,12 @@ class Geometry:
         return parameters
 
 
+def is_open(mesh: Any) -> bool:
+    """Whether it has a rim: an edge of one face alone."""
+    edges = _taken(mesh.loops, "edge_index", 1, np.int32)
+    return bool((np.bincount(edges) == 1).any()) if len(edges) else False
+
+
 def mesh_parts(
     mesh: Any, ends: tuple[Geometry, Geometry] | None, uvs: npt.NDArray[np.float32] | None = None
 ) -> Iterator[tuple[int, Parameters]]:
@@ -143,9 +149,19 @@ def strands(system: Any, modifier: Any, object_: Any) -> Iterator[Parameters]:
     settings = system.settings
     steps = 2**settings.render_step + 1
     root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
+    radii = _tapered(root, tip, settings.shape, steps)
+    if settings.use_close_tip:
+        radii[-1] = 0
     for particle in range(len(system.particles) + len(system.child_particles)):
         points = [system.co_hair(object=object_, particle_no=particle, step=step) for step in range(steps)]
-        yield from _segments(np.array(points, dtype=np.float32), np.linspace(root, tip, steps, dtype=np.float32))
+        yield from _segments(np.array(points, dtype=np.float32), radii)
+
+
+def _tapered(root: float, tip: float, shape: float, steps: int) -> npt.NDArray[np.float32]:
+    """Radii along a strand: as Cycles has it, straight where the shape is 0."""
+    left = np.linspace(1, 0, steps)
+    power = 1 + shape if shape < 0 else 1 / (1 - min(shape, 0.999999))
+    return np.asarray(left**power * (root - tip) + tip, dtype=np.float32)
 
 
 def _segments(points: npt.NDArray[np.float32], radii: npt.NDArray[np.float32]) -> Iterator[Parameters]:

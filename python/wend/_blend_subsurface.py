@@ -57,7 +57,8 @@ def add_inside(nodes: Nodes, node: Any, material: dict[str, Any], colour: Any, m
     """
     if method == "BURLEY":
         nodes.warn(node, "the method of Christensen and Burley is taken as a random walk")
-    anisotropy = min(max(nodes.number(names["anisotropy"]), 0.0), 0.9)
+    # Christensen and Burley's has none.
+    anisotropy = min(max(nodes.number(names["anisotropy"]), 0.0), 0.9) if method != "BURLEY" else 0.0
     ior = min(max(float(names["ior"]), 1.01), 3.8)
     given = np.maximum(nodes.colour(names["radius"]) * nodes.number(names["scale"]), 0)
     value = nodes.known(colour)

@@ -156,7 +156,16 @@ def _phase(nodes: Nodes, node: Any) -> dict[str, Any]:
             nodes.warn(node, "droplets are taken as 5 to 50 micrometres wide")
         return {"string phase": "fog", "float diameter": min(max(diameter, 5.0), 50.0)}
     if kind == "FOURNIER_FORAND":
-        nodes.warn(node, "of Fournier and Forand's function the index counts; the slope of the sizes is 3.5835")
-        return {"string phase": "fournierforand", "float index": max(nodes.number(node.inputs["IOR"]), 1.001)}
+        index, back = max(nodes.number(node.inputs["IOR"]), 1.001), nodes.number(node.inputs["Backscatter"])
+        return {"string phase": "fournierforand", "float index": index, "float slope": _slope(index, back)}
     nodes.warn(node, f"the phase function {kind} is taken as even")
     return {}
+
+
+def _slope(index: float, back: float) -> float:
+    """Of the sizes of particles that send this share backwards, by Fournier and Forand's function."""
+    delta = 2 / (3 * (index - 1) ** 2)
+    if abs(delta - 1) < 1e-6:
+        delta = 1 + 1e-6
+    power = -np.log(max(1 + 2 * back * (delta - 1), 1e-6)) / np.log(delta)
+    return float(np.clip(3 - 2 * power, 3.0, 5.0))

@@ -39,6 +39,7 @@ class Look:
     shape_parameters: dict[str, Any] = field(default_factory=dict)
     brushed: Brush | None = None  #: None: along its texture coordinates, if at all
     shown: str | None = None  #: file of a picture that it shines with, in place of the emission
+    refracts: bool = False
 
 
 class SceneReader:
@@ -52,6 +53,7 @@ class SceneReader:
     def __init__(self, file: str, maps: str | os.PathLike[str] | None) -> None:
         self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
         self.materials: dict[str, Look] = {}
+        self.around: str | None = None  #: the medium that fills the world
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)
 

@@ -72,7 +72,7 @@ def is_unseen(reader: Any, prim: Any) -> bool:
     """Blender's lamps are not seen, unless it is asked for, which is not written."""
     if not defined(prim):
         return False
-    reader.warn(prim, "a lamp of Blender's is not seen, as there: it shines alone")
+    reader.warn(prim, "a lamp of Blender's is not seen by the camera, and in nobody's way, as there")
     return True
 
 

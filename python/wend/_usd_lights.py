@@ -65,8 +65,15 @@ def _tell_of_others(reader: Any, prim: Any) -> None:
         reader.warn(prim, "filters of lights are left out")
     if any(attribute.Get(reader.time) != 1 for attribute in (light.GetDiffuseAttr(), light.GetSpecularAttr())):
         reader.warn(prim, "a light's factors of what is diffuse or specular are left out")
+    shadow = UsdLux.ShadowAPI(prim)
+    limits = (shadow.GetShadowDistanceAttr(), shadow.GetShadowFalloffAttr(), shadow.GetShadowColorAttr())
+    if prim.HasAPI(UsdLux.ShadowAPI) and (
+        not shadow.GetShadowEnableAttr().Get(reader.time) or any(attribute.HasAuthoredValue() for attribute in limits)
+    ):
+        reader.warn(prim, "shadows are black, reach everywhere, and are there where they are asked not to be")
     for collection in (light.GetLightLinkCollectionAPI(), light.GetShadowLinkCollectionAPI()):
-        if collection.GetExcludesRel().GetTargets() or collection.GetIncludesRel().GetTargets():
+        is_for_some = not collection.GetIncludeRootAttr().Get() or collection.GetMembershipExpressionAttr().HasAuthoredValue()
+        if is_for_some or collection.GetExcludesRel().GetTargets() or collection.GetIncludesRel().GetTargets():
             reader.warn(prim, "lights that are for some things alone shine on all")
 
 
@@ -197,7 +204,7 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
         reader.builder.add("LightSource", "infinite", {"rgb L": radiance * picture[0, 0]})
         return
     local = np.array(UsdGeom.Xformable(prim).GetLocalTransformation(reader.time))
-    _stand(reader, prim, _LATLONG @ blender.turned_sky(reader, prim, local) @ world)
+    _stand(reader, prim, _LATLONG @ _pole(reader, prim) @ blender.turned_sky(reader, prim, local) @ world)
     if format_ not in ("automatic", "latlong"):
         reader.warn(prim, f"a {format_} picture of a dome is taken as a latlong one")
     sky: dict[str, Any] = {"string filename": file, "string mapping": "equirectangular"}
@@ -207,6 +214,15 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
         sky["string filename"] = reader.map_file(f"dome{len(reader.builder)}.exr")
         Film.of(picture * radiance.astype(np.float32)).save(sky["string filename"])
     reader.builder.add("LightSource", "infinite", sky)
+
+
+def _pole(reader: Any, prim: Any) -> Matrix:
+    """What turns the pole of a dome, which is y, to where it is asked to be."""
+    if str(prim.GetTypeName()) != "DomeLight_1":
+        return np.eye(4)
+    axis = UsdLux.DomeLight_1(prim).GetPoleAxisAttr().Get()
+    is_z = axis == "Z" or (axis == "scene" and UsdGeom.GetStageUpAxis(reader.stage) == UsdGeom.Tokens.z)
+    return np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]]) if is_z else np.eye(4)
 
 
 def _sphere(reader: Any, prim: Any, world: Places) -> None:
@@ -262,12 +278,15 @@ def _scales(world: Matrix) -> npt.NDArray[np.float64]:
 def _shine(
     reader: Any, prim: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]
 ) -> None:
-    if blender.is_unseen(reader, prim):
-        parameters = parameters | {"float alpha": 0.0}
     reader.put(world)
-    reader.builder.add("AreaLightSource", "diffuse", light)
-    # Lights reflect nothing.
-    reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
+    if blender.is_unseen(reader, prim):
+        reader.builder.add("AreaLightSource", "diffuse", light | {"bool solid": False})
+        reader.builder.add("Material", "interface")
+        parameters = parameters | {"string cameraview": "hidden"}
+    else:
+        reader.builder.add("AreaLightSource", "diffuse", light)
+        # Lights reflect nothing.
+        reader.builder.add("Material", "diffuse", {"rgb reflectance": (0, 0, 0)})
     reader.builder.add("Shape", kind, parameters)
 
 

@@ -67,6 +67,7 @@ _WORDS: dict[str, dict[str, str]] = {
         "coat": "clearcoat",
         "coat_roughness": "clearcoatRoughness",
         "shine_colour": "emissiveColor",
+        "tint": "specularColor",
     },
     "ND_standard_surface_surfaceshader": {
         "colour": "base_color",
@@ -79,6 +80,10 @@ _WORDS: dict[str, dict[str, str]] = {
         "coat": "coat",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_IOR",
+        "coat_colour": "coat_color",
+        "tint": "specular_color",
+        "chalk": "diffuse_roughness",
+        "brushed": "specular_anisotropy",
         "sheen": "sheen",
         "sheen_colour": "sheen_color",
         "sheen_roughness": "sheen_roughness",
@@ -106,6 +111,10 @@ _WORDS: dict[str, dict[str, str]] = {
         "coat": "coat_weight",
         "coat_roughness": "coat_roughness",
         "coat_ior": "coat_ior",
+        "coat_colour": "coat_color",
+        "tint": "specular_color",
+        "chalk": "base_diffuse_roughness",
+        "brushed": "specular_roughness_anisotropy",
         "sheen": "fuzz_weight",
         "sheen_colour": "fuzz_color",
         "sheen_roughness": "fuzz_roughness",
@@ -125,11 +134,33 @@ _WORDS: dict[str, dict[str, str]] = {
 }
 
 
-#: What has no counterpart; it is off where it is 0.
-_NOT_HERE = {
-    "UsdPreviewSurface": ("displacement", "useSpecularWorkflow"),
-    "ND_standard_surface_surfaceshader": ("thin_film_thickness",),
-    "ND_open_pbr_surface_surfaceshader": ("thin_film_weight",),
+#: What has no counterpart, and the value at which it does nothing; none: it does so where nothing is connected.
+_NOT_HERE: dict[str, dict[str, float | None]] = {
+    "UsdPreviewSurface": {"displacement": 0},
+    "ND_standard_surface_surfaceshader": {
+        "specular_rotation": 0,
+        "transmission_dispersion": 0,
+        "transmission_extra_roughness": 0,
+        "coat_anisotropy": 0,
+        "coat_affect_color": 0,
+        "coat_affect_roughness": 0,
+        "thin_film_thickness": 0,
+        "thin_walled": 0,
+        "normal": None,
+        "coat_normal": None,
+        "tangent": None,
+    },
+    "ND_open_pbr_surface_surfaceshader": {
+        "transmission_dispersion_scale": 0,
+        "coat_roughness_anisotropy": 0,
+        "coat_darkening": 1,
+        "thin_film_weight": 0,
+        "geometry_thin_walled": 0,
+        "geometry_normal": None,
+        "geometry_coat_normal": None,
+        "geometry_tangent": None,
+        "geometry_coat_tangent": None,
+    },
 }
 
 #: What is not OpenPBR's value where none is given.
@@ -164,9 +195,13 @@ class _Surface:
 
     def made(self) -> UsdLook:
         """The look, after its material was made."""
-        for name in _NOT_HERE[self.kind]:
-            if float(self.inputs.constant(name, 0)) != 0:
+        for name, idle in _NOT_HERE[self.kind].items():
+            if self.inputs.is_connected(name) or (idle is not None and float(self.inputs.constant(name, idle)) != idle):
                 self.reader.warn(self.inputs.shader.GetPrim(), f"{name} is left out")
+        for word in ("clear", "inside"):
+            if 0 < float(self.constant(word, 0)) < 1:
+                whole = "all or nothing, by whether it is above 1/2"
+                self.reader.warn(self.inputs.shader.GetPrim(), f"{self.words[word]} is taken as {whole}")
         self._shine()
         is_clear = self._opacity() if self.is_preview else float(self.constant("clear", 0)) > 0.5
         ior = float(self.constant("ior", 1.5))
@@ -181,6 +216,10 @@ class _Surface:
             parameters = self._solid(ior)
         if parameters["string type"] != "principled" and self._has_sheen():
             self.reader.warn(self.inputs.shader.GetPrim(), "the sheen of what is clear or waxen is left out")
+        if "opacity" in self.words:
+            opacity = self.constant("opacity", 1)
+            if np.min(opacity) < 1:
+                self.look.shape_parameters["float alpha"] = float(np.clip(np.mean(opacity), 0, 1))
         self._normals(parameters)
         self.reader.builder.add("MakeNamedMaterial", self.key, parameters)
         named = self.inputs.coordinates
@@ -207,6 +246,7 @@ class _Surface:
     def _opacity(self) -> bool:
         """Of a preview surface: whether it is clear."""
         threshold = float(self.inputs.constant("opacityThreshold", 0))
+        is_presence = str(self.inputs.constant("opacityMode", "transparent")) == "presence"
         if self.inputs.is_connected("opacity"):
             if threshold > 0:
                 self.reader.warn(self.inputs.shader.GetPrim(), "the opacityThreshold of a picture is left out")
@@ -217,9 +257,9 @@ class _Surface:
             opacity = 1.0 if opacity >= threshold else 0.0
             self.look.shape_parameters["float alpha"] = opacity
             return False
-        if 0.01 < opacity < 1:
+        if opacity < 1 and (is_presence or opacity > 0.01):
             self.look.shape_parameters["float alpha"] = opacity
-        return opacity <= 0.01
+        return opacity <= 0.01 and not is_presence
 
     def _add_alpha(self, name: str) -> None:
         self.inputs.add_to(self.look.shape_parameters, name, "alpha", "float", 1.0)
@@ -279,13 +319,39 @@ class _Surface:
             # Another index, which reflects so much more.
             root = min(((ior - 1) / (ior + 1)) ** 2 * max(specular, 0.0), 0.99) ** 0.5
             parameters["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
+        self._details(parameters, ior)
         if "rgb reflectance" in parameters:
             parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(self.constant("weight", 1))
-        if not self.is_preview and "opacity" in self.words:
-            opacity = self.inputs.constant(self.words["opacity"], 1)
-            if np.min(opacity) < 1:
-                self.look.shape_parameters["float alpha"] = float(np.clip(np.mean(opacity), 0, 1))
         return parameters
+
+    def _details(self, parameters: dict[str, Any], ior: float) -> None:
+        """Tints, chalk, and how it is brushed."""
+        if self.is_preview:
+            self._reflected_colour(parameters)
+            return
+        for word, ours in (("tint", "speculartint"), ("coat_colour", "coattint")):
+            if self.inputs.is_connected(self.words[word]) or np.min(self.constant(word, 1)) < 1:
+                self.add_to(parameters, word, ours, "rgb", (1.0, 1.0, 1.0))
+        if self.inputs.is_connected(self.words["chalk"]) or float(self.constant("chalk", 0)) > 0:
+            self.add_to(parameters, "chalk", "diffuseroughness", "float", 0.0)
+        brushed = float(self.constant("brushed", 0))
+        if brushed > 0:
+            # The square of how much rougher facets are along one direction than across it.
+            parameters["float anisotropy"] = min(brushed / 0.9, 1.0)
+            if self.kind == "ND_open_pbr_surface_surfaceshader" and "float roughness" in parameters:
+                mean = 2 * max(1 - brushed, 0.1) / (1 + (1 - brushed) ** 2)
+                parameters["float roughness"] = float(parameters["float roughness"]) * mean**0.25
+
+    def _reflected_colour(self, parameters: dict[str, Any]) -> None:
+        """Of a preview surface that is given by what it reflects from above."""
+        if int(self.inputs.constant("useSpecularWorkflow", 0)) == 0:
+            return
+        colour = np.clip(np.array(self.constant("tint", (0, 0, 0)), dtype=np.float64), 0, 1)
+        root = min(max(float(colour.max()), 1e-6), 0.99) ** 0.5
+        parameters.pop("texture metallic", None)
+        parameters |= {"float metallic": 0.0, "float eta": (1 + root) / (1 - root)}
+        if colour.max() > 0:
+            parameters["rgb speculartint"] = colour / colour.max()
 
     def _normals(self, parameters: dict[str, Any]) -> None:
         if not self.is_preview or not self.inputs.is_connected("normal"):

@@ -34,7 +34,8 @@ from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
 from ._blend_render_mode import as_rendered
 from ._blend_roles import view_of
-from ._blend_shapes import Geometry, box_of, brush, hair_segments, mesh_parts, strands
+from ._blend_settings import tell_of_object, tell_of_scene
+from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, strands
 from ._blend_volumes import glow_parameters, volume_parameters
 from ._blend_world import add_world, add_world_volume
 
@@ -159,7 +160,6 @@ class _Reader(SceneReader):
         self.bake_resolution = bake_resolution
         self.bakeries: Bakeries | None = None  #: where Cycles may be called
         self.can_render = can_render
-        self.around: str | None = None  #: the medium of the world
         self.has_light = False
         self._objects: dict[str, str] = {}
         #: of the object at hand, where it changes its shape
@@ -170,6 +170,7 @@ class _Reader(SceneReader):
         self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion, progress: bool
     ) -> SceneBuilder:
         add = self.builder.add
+        tell_of_scene(self, self.scene, depsgraph.view_layer)
         self.around = add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
@@ -185,6 +186,7 @@ class _Reader(SceneReader):
         for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
             if shown:
                 object_ = instance.object
+                tell_of_object(self, object_)
                 bar.update(i / len(seen), object_.name)
                 place = motion.places(instance)
                 self.view = view_of(self, instance)
@@ -239,7 +241,7 @@ class _Reader(SceneReader):
                 self.add_shape(place, look, ("curve", segment), name)
         elif kind == "VOLUME":
             self.add_volume(object_, place, name)
-        elif kind not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "GREASEPENCIL"):
+        elif kind not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"):
             self.tell(f"object '{name}'", f"a {kind} is left out")
 
     def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
@@ -271,6 +273,11 @@ class _Reader(SceneReader):
                 (look_of(self, materials[min(number, len(materials) - 1)] if materials else None, bakery), parameters)
                 for number, parameters in mesh_parts(mesh, ends, bakery.uvs if bakery is not None else None)
             ]
+            if any(look.refracts for look, _ in parts) and is_open(mesh):
+                self.tell(
+                    f"object '{name}'",
+                    "glass with a rim, such as a pane without thickness, shows what is behind it by its index: darker or brighter",
+                )
         finally:
             object_.to_mesh_clear()
         brush(self, name, parts, np.eye(4) if is_copied else place[0])
@@ -325,6 +332,8 @@ class _Reader(SceneReader):
         grid, grids = "density", [g.name for g in volume.grids]
         if node.bl_idname == "ShaderNodeVolumePrincipled":
             grid = node.inputs["Density Attribute"].default_value or "density"
+            if node.inputs["Color Attribute"].default_value in grids:
+                self.tell(where, "the colours of a volume's grid are left out: it has that of the shader")
         elif "density" not in grids:
             grid = grids[0]
         place = self.held(place, where)

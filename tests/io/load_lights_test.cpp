@@ -361,6 +361,20 @@ TEST(LoadLights, AreaLightsShineByDirection) {
     }
 }
 
+TEST(LoadLights, LampsThatAreNotSolidArePassed) {
+    const std::string lamp = "AreaLightSource \"diffuse\" \"bool solid\" false ";
+    const Scene scene(load_text("Material \"interface\" " + lamp + "Shape \"sphere\"").scene);
+    ASSERT_EQ(scene.lights().size(), 1u);
+    EXPECT_EQ(presence_of(scene.lights()[0]), Presence::passed);
+    EXPECT_FALSE(scene.has_point_like_lights()) << "rays meet it";
+    EXPECT_FALSE(scene.is_occluded(TracedRay(Ray{{0, 0, -5}, {0, 0, 1}}), 10));
+    const std::optional<Hit> hit = scene.intersect(TracedRay(Ray{{0, 0, -5}, {0, 0, 1}}));
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->light, 0);
+    EXPECT_TRUE(scene.is_interface(*hit));
+    EXPECT_THROW(load_text(lamp + "Shape \"sphere\""), InputError) << "of another material";
+}
+
 TEST(LoadLights, InterfacesDoNotShine) {
     const LoadedScene loaded =
         load_text("Material \"interface\" AreaLightSource \"diffuse\" Shape \"sphere\" Shape \"disk\"");

@@ -392,7 +392,7 @@ TEST(Dielectric, RoughReflectanceTendsToFresnels) {
 
 TEST(SlowPrincipled, AWhiteSurfaceLosesNothing) {
     for (const float metallic : {0.0f, 0.4f, 1.0f}) {
-        for (const float alpha : {0.05f, 0.3f, 0.6f}) {
+        for (const float alpha : {PrincipledBsdf::least_alpha, 0.05f, 0.3f, 0.6f}) {
             PrincipledBsdf white = principled(metallic, alpha);
             white.base = Rgb(1.0f);
             for (const Vec3& wo : incidences()) {

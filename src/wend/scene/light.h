@@ -83,6 +83,7 @@ private:
 enum class Presence {
     solid,
     partly,  ///< with the probability that its surface has
+    passed,  ///< always, and they go on behind it
     unseen   ///< never: it shines, and only connections find it
 };
 

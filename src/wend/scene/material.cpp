@@ -209,7 +209,9 @@ Bsdf bsdf_of(const PrincipledMaterial& m, const Textures& textures, const Textur
         b.has_inside = true;
         b.subsurface = share(m.subsurface);
         b.entry_ior = m.entry_ior;
-        b.entry_alpha = alpha(m.entry_roughness);
+        // What is smoother is a mirror to DielectricBsdf, and has no density.
+        constexpr float least_entry_alpha = 2e-3f;
+        b.entry_alpha = std::max(alpha(m.entry_roughness), least_entry_alpha);
         b.entry_even = m.entry_even;
     }
     b.below = m.below.get();

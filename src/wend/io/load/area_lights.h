@@ -20,6 +20,8 @@ struct AreaLight {
     /// luminance 1, and whatever the picture's is.
     float power = 0;
     bool two_sided = false;
+    /// Whether it is in the way of others; if not, its shape is of an interface.
+    bool is_solid = true;
     /// Multiplies the radiance, by direction; the axis is that of the shape's own space. None: 1.
     std::optional<EmissionProfile> profile;
 

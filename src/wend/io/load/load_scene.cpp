@@ -278,18 +278,24 @@ private:
     }
 
     void add_area_light(const pbrt::ShapeEntity& entity, std::size_t patches, Surface& surface) {
-        if (std::holds_alternative<InterfaceMaterial>(scene_.materials[entity.material])) {
+        const AreaLight& light = area_lights_[*entity.area_light];
+        const bool is_interface = std::holds_alternative<InterfaceMaterial>(scene_.materials[entity.material]);
+        if (!light.is_solid && !is_interface) {
+            throw InputError(entity.place,
+                             "an AreaLightSource that is not \"solid\" wants a shape of \"interface\" material");
+        }
+        if (light.is_solid && is_interface) {
             context_.warnings.add(entity.place,
                                   "an AreaLightSource on a shape of \"interface\" material is ignored, as by pbrt");
             return;
         }
         const Rgb* alpha = surface.alpha >= 0 ? scene_.textures.constant(surface.alpha) : nullptr;
-        const Presence presence = surface.alpha < 0          ? Presence::solid
+        const Presence presence = is_interface               ? Presence::passed
+                                  : surface.alpha < 0        ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
         const std::size_t first = scene_.lights.size();
-        attach(area_lights_[*entity.area_light], {presence, patches, entity.world_from_object, entity.motion}, surface,
-               scene_.lights);
+        attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface, scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
     }
 

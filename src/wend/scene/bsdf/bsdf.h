@@ -225,7 +225,7 @@ struct PrincipledBsdf {
     const FacetAlbedo* above = nullptr;  ///< of `coat_ior`, where there is a coat
 
     /// Facets are no smoother.
-    static constexpr float least_alpha = 2e-3f;
+    static constexpr float least_alpha = 5e-4f;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
