@@ -224,11 +224,17 @@ def page(results, baseline):
     tuned_on = set(names[::2])
     media = {name: name not in OTHERS or OTHERS[name][2] for name in names}
     budgets = sorted({budget for _, budget in found})
+    by_budget = {b: [len(of) for (_, other), of in pairs(results["rows"]).items() if other == b] for b in budgets}
+    notes = ["Scenes and fewest seeds of a scene: "
+             + ", ".join(f"{len(of)} and {min(of)} at {b}" for b, of in by_budget.items()) + "."]
+    missing = [name for name in names if name not in {scene for scene, _ in found}]
+    if missing:
+        notes.append(f"Not measured: {', '.join(missing)}.")
     lines = ["# Never worse" if baseline == "classical" else f"# The default and {baseline}", "",
              f"Sampling `{baseline}` over the default: relMSE × processor time, medians of seeds (without the worst "
              "0.1 % of pixels in brackets). Above 1 the default is ahead. A budget is the time of so many samples of "
              f"`{baseline}`. {results['machine']['cpu']}, one thread for each picture, commit {results['commit']}. "
-             "`bench/never_worse.py` measures and writes this page.", "",
+             "`bench/never_worse.py` measures and writes this page.", "", *notes, "",
              "## Geometric means", "", "| scenes | " + " | ".join(str(b) for b in budgets) + " |",
              "|---|" + "---|" * len(budgets)]
     groups = [("others', with media", lambda n: n in OTHERS and media[n]),
