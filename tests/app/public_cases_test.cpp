@@ -1,10 +1,8 @@
 // Scenes of tests/cases: what was reported to other renderers, each with its right mean, rendered as anybody would.
 #include "program_support.h"
 #include "tests/support/channel_means.h"
+#include "tests/support/loaded_settings.h"
 #include "tests/support/paths.h"
-
-#include <wend/io/load/load_scene.h>
-#include <wend/render/render.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -54,13 +52,8 @@ Expected read_expected(const std::string& scene) {
 void expect_right_mean(const std::filesystem::path& file, const char* preset = "full") {
     const Expected expected = read_expected(test::read_text(file));
     LoadedScene loaded = load_scene(file);
-    RenderSettings settings;
-    settings.preset = parse_preset(preset);
+    RenderSettings settings = test::settings_of(loaded, preset, loaded.samples);
     settings.subsurface = parse_subsurface("auto");
-    settings.samples = loaded.samples;
-    settings.sampler = loaded.sampler;
-    settings.max_depth = loaded.max_depth;
-    settings.filter = loaded.filter;
     settings.exposure = loaded.exposure;
     settings.balance = loaded.balance;
     const Scene scene(std::move(loaded.scene));

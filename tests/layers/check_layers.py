@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Refuses an include that goes up: a module of src/wend may include itself and lower modules only (docs/architecture.md).
-Open PGL's headers in src/openpgl include nothing of Wend, and only the module of that name includes them.
+Open PGL's headers in src/openpgl include nothing of Wend, and only the module of that name includes them. The tables of
+files in docs/architecture.md name files that there are.
 
 usage: check_layers.py ROOT    checks ROOT/src; exit status 1 and one line per offence
 """
@@ -56,7 +57,21 @@ def offence_of_line(module, line):
     return None
 
 
+def names_without_file(root):
+    page, module = Path(root) / "docs" / "architecture.md", None
+    for number, line in enumerate(page.read_text().splitlines() if page.exists() else [], 1):
+        if title := re.match(r"Files of `(\w+)`:", line):
+            module = title.group(1)
+        elif line and not line.startswith("|"):
+            module = None
+        elif module and line:
+            for name in re.findall(r"`(\w+)`", line.split("|")[1]):
+                if not list((Path(root) / "src" / "wend" / module).glob(f"{name}.*")):
+                    yield f"{page}:{number}: {module} has no file {name}"
+
+
 def offences(root):
+    yield from names_without_file(root)
     for file in sorted((Path(root) / "src" / "openpgl").rglob("*.h")):
         for number, line in enumerate(file.read_text().splitlines(), 1):
             match = INCLUDE.match(line)

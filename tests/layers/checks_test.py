@@ -54,6 +54,13 @@ class Layers(Tree):
         text = "#include <wend/medium/phase.h>\n#include <wend/core/ray.h>\n#include <vector>\n#include <Imath/ImathVec.h>\n"
         self.assertEqual(self.offences("src/wend/medium/grid.cpp", text), [])
 
+    def test_tables_of_files_name_what_there_is(self):
+        self.write("docs/architecture.md", "Files of `core`:\n\n| files | what |\n|---|---|\n| `ray`, `gone` | `x` |\n\n"
+                                           "Beside them `others`:\n| `more` | |\n")
+        found = self.offences("src/wend/core/ray.h", "")
+        self.assertEqual(len(found), 1)
+        self.assertIn("architecture.md:5: core has no file gone", found[0])
+
     def test_up_is_refused_with_its_place(self):
         found = self.offences("src/wend/medium/grid.cpp", "#include <vector>\n#include <wend/io/volume.h>\n")
         self.assertEqual(len(found), 1)

@@ -1,6 +1,6 @@
 // Pictures of what moves while the shutter is open.
 #include <tests/support/channel_means.h>
-#include <wend/io/load/load_scene.h>
+#include <tests/support/loaded_settings.h>
 #include <wend/io/pbrt/parser.h>
 #include <wend/render/render.h>
 #include <wend/stats/significance.h>
@@ -27,13 +27,9 @@ template <class Take>
 void render_each(const std::string& text, const char* preset, int samples, int count, std::uint64_t seed,
                  const Take& take, SamplerKind sampler = SamplerKind::independent) {
     LoadedScene loaded = load(text);
-    RenderSettings settings;
-    settings.preset = parse_preset(preset);
+    RenderSettings settings = test::settings_of(loaded, preset, samples);
     settings.subsurface = parse_subsurface(settings.preset.is_classical() ? "classical" : "auto");
-    settings.samples = samples;
     settings.sampler = sampler;
-    settings.max_depth = loaded.max_depth;
-    settings.filter = loaded.filter;
     const Scene scene(std::move(loaded.scene));
     settings.seed = seed;
     for (int i = 0; i < count; ++i, ++settings.seed) {

@@ -1,8 +1,7 @@
 // Lamps that move while the shutter is open: what they light, and how they are seen.
 #include <tests/support/channel_means.h>
-#include <wend/io/load/load_scene.h>
+#include <tests/support/loaded_settings.h>
 #include <wend/io/pbrt/parser.h>
-#include <wend/render/render.h>
 #include <wend/stats/significance.h>
 
 #include <Imath/ImathVec.h>
@@ -29,12 +28,7 @@ void render_each(const std::string& text, const char* preset, int samples, int c
                  const Take& take) {
     LoadedScene loaded = load_scene(pbrt::parse_string("Sampler \"independent\"\n" + text, ".", "test.pbrt"));
     EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings[0];
-    RenderSettings settings;
-    settings.preset = parse_preset(preset);
-    settings.samples = samples;
-    settings.sampler = loaded.sampler;
-    settings.max_depth = loaded.max_depth;
-    settings.filter = loaded.filter;
+    RenderSettings settings = test::settings_of(loaded, preset, samples);
     const Scene scene(std::move(loaded.scene));
     EXPECT_EQ(scene.lights().empty(), false);
     for (settings.seed = seed; settings.seed < seed + static_cast<std::uint64_t>(count); ++settings.seed) {

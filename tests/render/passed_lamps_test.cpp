@@ -1,7 +1,7 @@
 // Lamps that rays see and pass, against lamps that only connections find: where no camera and no mirror sees them both
 // light alike.
 #include <tests/support/channel_means.h>
-#include <wend/io/load/load_scene.h>
+#include <tests/support/loaded_settings.h>
 #include <wend/io/pbrt/parser.h>
 
 #include <fmt/format.h>
@@ -51,12 +51,7 @@ AttributeEnd
 Image render_once(const std::string& text, const char* preset, int samples, std::uint64_t seed) {
     LoadedScene loaded = load_scene(pbrt::parse_string(text, ".", "test.pbrt"));
     EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings[0];
-    RenderSettings settings;
-    settings.preset = parse_preset(preset);
-    settings.samples = samples;
-    settings.sampler = loaded.sampler;
-    settings.max_depth = loaded.max_depth;
-    settings.filter = loaded.filter;
+    RenderSettings settings = test::settings_of(loaded, preset, samples);
     settings.seed = seed;
     const Scene scene(std::move(loaded.scene));
     Film film(loaded.resolution, loaded.crop);

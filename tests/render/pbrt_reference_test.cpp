@@ -1,9 +1,8 @@
 // Pictures against those of pbrt-v4, another renderer with its own theory, code and random numbers.
+#include "tests/support/loaded_settings.h"
 #include "tests/support/paths.h"
 
 #include <wend/io/image_file.h>
-#include <wend/io/load/load_scene.h>
-#include <wend/render/render.h>
 
 #include <gtest/gtest.h>
 
@@ -119,13 +118,8 @@ TEST_P(PbrtReference, AgreesBlockByBlock) {
 
     LoadedScene loaded = load_scene(scene_file);
     Film film(loaded.resolution, loaded.crop);
-    RenderSettings settings;
-    settings.preset = parse_preset(c.preset);
-    settings.samples = c.samples;
+    RenderSettings settings = test::settings_of(loaded, c.preset, c.samples);
     settings.seed = 1;
-    settings.sampler = loaded.sampler;
-    settings.max_depth = loaded.max_depth;
-    settings.filter = loaded.filter;
     settings.exposure = loaded.exposure;
     settings.balance = loaded.balance;
     ASSERT_EQ(settings.sampler, SamplerKind::independent) << "or else the variance layer is an overestimate";

@@ -28,14 +28,19 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target) {
     return temporary;
 }
 
-/// A message that names the temporary, with the file that its reader asked for in its stead.
-std::string with_name(std::string message, const std::filesystem::path& temporary,
-                      const std::filesystem::path& target) {
-    const std::string from = temporary.string(), to = target.string();
-    for (std::size_t at = message.find(from); at != std::string::npos; at = message.find(from, at + to.size())) {
-        message.replace(at, from.size(), to);
+/// What goes wrong names the file that was asked for, where the writer named the temporary.
+void write_for(const std::filesystem::path& target, const std::filesystem::path& temporary,
+               const std::function<void(const std::filesystem::path&)>& write) {
+    try {
+        write(temporary);
+    } catch (const std::runtime_error& error) {
+        const std::string from = temporary.string(), to = target.string();
+        std::string message = error.what();
+        for (std::size_t at = message.find(from); at != std::string::npos; at = message.find(from, at + to.size())) {
+            message.replace(at, from.size(), to);
+        }
+        throw std::runtime_error(message);
     }
-    return message;
 }
 
 /// Gives the temporary the mode and, where that is allowed, the owner of what it replaces.
@@ -114,17 +119,13 @@ void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
     if (is_device(target)) {
         const Temporary temporary(temporary_beside(std::filesystem::temp_directory_path() / target.filename()));
-        write(temporary.path());
+        write_for(target, temporary.path(), write);
         copy_into(target, temporary.path());
         return;
     }
     const std::filesystem::path file = behind_links(target);
     const Temporary temporary(temporary_beside(file));
-    try {
-        write(temporary.path());
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(with_name(error.what(), temporary.path(), target));
-    }
+    write_for(target, temporary.path(), write);
     take_over_mode(temporary.path(), file);
     std::filesystem::rename(temporary.path(), file);
 }
