@@ -1,6 +1,7 @@
 // What walks inside a dense object are told of its boundary and of the lights around it.
 #include <tests/support/scenes.h>
 
+#include <wend/core/parallel.h>
 #include <wend/medium/fresnel.h>
 #include <wend/transport/boundary_field.h>
 
@@ -145,14 +146,17 @@ TEST(LitPoints, BlurGrazingLampsMost) {
     EXPECT_LT(grazing / grazing_count, 0.6 * straight / straight_count);
 }
 
-TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
-    const Scene scene(lit_ball());
-    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+BoundaryField field_of(const std::vector<LitPoint>& all) {
     std::vector<BoundaryPoint> on;
     for (const LitPoint& p : all) {
         on.push_back(p.point);
     }
-    const BoundaryField field(bounds_of(on), all, 5, 2);
+    return {bounds_of(on), all, 5};
+}
+
+TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
+    const Scene scene(lit_ball());
+    const BoundaryField field = field_of(lit(scene, {ior, 0}));
     for (const Vec3& direction : {Vec3(1, 0, 0), normalize(Vec3(1, 1, 1)), normalize(lamp_at), normalize(-lamp_at)}) {
         const BoundaryField::View view = field.at(direction * 0.9f);
         EXPECT_GT(dot(view.closest().normal, direction), 0.97f);
@@ -169,6 +173,41 @@ TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
     EXPECT_NEAR(lit_side.diffuse.b / lit_side.diffuse.r, 3 * std::exp(-3 * lit_side.depth), 1e-4f);
     const BoundaryField::View view = field.at(bright);
     EXPECT_NEAR(view.closest().steepness, steepness(5, 1, 0.1f), 0.02f);
+}
+
+TEST(BoundaryField, KnowsTheNearestOfAllPoints) {
+    const Scene scene(lit_ball());
+    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const BoundaryField field = field_of(all);
+    Pcg32 random(5);
+    for (int k = 0; k < 200; ++k) {
+        // Beneath the surface by less than the points are apart: the nearest is next to the place.
+        const Vec3 position = to_sphere(random.uniform2()) * (0.9f + 0.1f * random.uniform());
+        const Vec3 normal = field.at(position).closest().normal;
+        float best = -1;
+        for (const LitPoint& p : all) {
+            best = std::max(best, dot(p.point.normal, normalize(position)));
+        }
+        EXPECT_GT(dot(normal, normalize(position)), best - 0.02f) << k;
+    }
+}
+
+TEST(BoundaryField, TellsTheSameWhoeverAsksFirst) {
+    const Scene scene(lit_ball());
+    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const BoundaryField by_many = field_of(all), by_one = field_of(all);
+    constexpr std::size_t places = 4000;
+    std::vector<InteriorAim> aims(places);
+    const auto place = [](std::size_t k) {
+        Pcg32 random(k / 4);  // several ask for the same cell
+        return to_sphere(random.uniform2()) * random.uniform();
+    };
+    parallel_for(places, 4, [&](std::size_t k) { aims[k] = by_many.at(place(k)).incident(); });
+    for (std::size_t k = places; k-- > 0;) {
+        const InteriorAim aim = by_one.at(place(k)).incident();
+        EXPECT_EQ(aims[k].normal, aim.normal);
+        EXPECT_EQ(aims[k].steepness, aim.steepness);
+    }
 }
 
 /// -d ln(sinh(decay r) / r) / dr over the decay.

@@ -33,7 +33,7 @@ protected:
     }
 
     Scene scene_{ball()};
-    SubsurfaceGuides guides_{scene_, parse_subsurface("auto"), 1};
+    SubsurfaceGuides guides_{scene_, parse_subsurface("auto")};
     ClassicalDecisions decisions_;
 };
 

@@ -318,7 +318,7 @@ TEST(SlowGuidedObject, StaysKnowHowTheLightTheyBringDependsOnShares) {
     for (const SceneDescription& description : {under_spot(), under_glass(), back_lit()}) {
         const Scene scene(description);
         const ClassicalDecisions decisions;
-        const SubsurfaceGuides subsurface(scene, parse_subsurface("auto"), 0);
+        const SubsurfaceGuides subsurface(scene, parse_subsurface("auto"));
         const LightSelection lights(scene);
         const ReflectionProbability reflections(scene.bounds());
         const PathTracer tracer(scene, decisions, subsurface, lights, reflections, 100000);

@@ -96,7 +96,7 @@ public:
 private:
     void explore() {
         if (can_guide_ && guides_.is_empty()) {
-            guides_ = SubsurfaceGuides(context_.scene, context_.settings.subsurface, context_.settings.threads);
+            guides_ = SubsurfaceGuides(context_.scene, context_.settings.subsurface);
         }
     }
 

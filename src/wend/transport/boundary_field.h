@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace wend {
@@ -21,15 +23,17 @@ struct InteriorAim {
 /// fast, L(x) = coth x - 1/x. 1 in hollows.
 float steepness(float decay, float curvature, float depth);
 
-/// Tables over a grid around an object, made once from points of its boundary. They only guide: an object may be open
-/// or badly oriented.
+/// Tables over a grid around an object, from points of its boundary. They only guide: an object may be open or badly
+/// oriented. A cell is worked out when a walk first asks for it: few of the cells of a leaf's box are within the leaf.
 class BoundaryField {
 public:
     /// `box` holds all points; `decay`, per scene unit: how fast light falls off inside.
-    BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay, int threads);
+    BoundaryField(const Box3& box, std::vector<LitPoint> points, float decay);
+    BoundaryField(BoundaryField&&) noexcept;
+    ~BoundaryField();
 
     class View;
-    /// What is known where a walk is; the field is referred to.
+    /// What is known where a walk is; the field is referred to. Many threads may ask.
     View at(const Vec3& position) const;
     /// Whether a lamp shines on any of its points.
     bool sees_emitters() const;
@@ -37,23 +41,24 @@ public:
 private:
     static constexpr int side = 24;
     static constexpr int candidates = 6;
+    class Pieces;
+    class Sources;
     struct Cell {
+        std::once_flag once;  ///< the rest is worked out
         std::array<std::uint16_t, candidates> nearest;
         InteriorAim incident;
         float irradiance = 0;  ///< mean over the boundary, as it counts from here
     };
-    std::size_t cell_at(const Vec3& position) const;
-    std::array<std::uint16_t, candidates> nearest_to(const Vec3& position) const;
+    const Cell& cell_at(const Vec3& position) const;
+    void work_out(Cell& cell, const Vec3& centre) const;
     std::size_t closest_point(const Cell& cell, const Vec3& position) const;
-    /// Square of that to the flat piece of surface that a point stands for.
-    float distance2_to(std::size_t point, const Vec3& position) const;
 
     Box3 box_;
     float decay_;    ///< beneath a plane
-    float spacing_;  ///< of the points
     std::vector<LitPoint> points_;
-    std::vector<BoundaryPoint> places_;  ///< of the points, side by side for the search
-    std::vector<Cell> cells_;
+    std::unique_ptr<const Pieces> pieces_;
+    std::unique_ptr<const Sources> sources_;
+    std::unique_ptr<Cell[]> cells_;
 };
 
 /// A place within the field.

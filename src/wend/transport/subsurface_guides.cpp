@@ -99,8 +99,7 @@ bool SubsurfaceGuides::has_dense_medium(const Scene& scene) {
     return false;
 }
 
-SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads)
-    : strategy_(preset.strategy) {
+SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset) : strategy_(preset.strategy) {
     if (preset.is_classical()) {
         return;
     }
@@ -110,13 +109,13 @@ SubsurfaceGuides::SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& p
         const auto points = points_of_dense_medium(scene, static_cast<MediumId>(id), random);
         if (!points.empty()) {
             const auto& medium = std::get<HomogeneousMedium>(scene.media()[id]);
-            media_[id] = explore(scene, static_cast<MediumId>(id), medium, points, random, threads);
+            media_[id] = explore(scene, static_cast<MediumId>(id), medium, points, random);
         }
     }
 }
 
 auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
-                               const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const
+                               const std::vector<BoundaryPoint>& points, Pcg32& random) const
     -> std::unique_ptr<Dense> {
     InteriorGuide guide = interior_guide(medium, half_space_modes(medium), defensive_fraction);
     const Box3 box = bounds_of(points);
@@ -124,7 +123,7 @@ auto SubsurfaceGuides::explore(const Scene& scene, MediumId id, const Homogeneou
     const Rgb decay = decay_of(guide);
     std::optional<BoundaryField> field;
     if (strategy_ != InteriorStrategy::entry) {
-        field.emplace(box, lit_points(scene, points, boundary, rays_to_lights, random), min_value(decay), threads);
+        field.emplace(box, lit_points(scene, points, boundary, rays_to_lights, random), min_value(decay));
     }
     guide.heads_for_emitters = strategy_ == InteriorStrategy::learned && field->sees_emitters();
     guide.connects_at_boundary = !boundary.bsdf().is_specular();

@@ -20,7 +20,7 @@ public:
     /// No medium is guided.
     SubsurfaceGuides() = default;
     /// The scene must outlive it.
-    SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset, int threads);
+    SubsurfaceGuides(const Scene& scene, const SubsurfacePreset& preset);
 
     /// Whether a scene has a medium to be guided: soon known, long before there are guides.
     static bool has_dense_medium(const Scene& scene);
@@ -73,7 +73,7 @@ private:
 
     /// What there is to know of a dense medium behind these points of its boundary.
     std::unique_ptr<Dense> explore(const Scene& scene, MediumId id, const HomogeneousMedium& medium,
-                                   const std::vector<BoundaryPoint>& points, Pcg32& random, int threads) const;
+                                   const std::vector<BoundaryPoint>& points, Pcg32& random) const;
 
     std::optional<InteriorStrategy> strategy_;
     std::vector<std::unique_ptr<Dense>> media_;  // by medium; null: not guided

@@ -113,7 +113,7 @@ Measured measure_radiance(const Scene& scene, const Ray& ray, const WalkBudget& 
     const int samples =
         std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(walks.most / least_pixels))), 1, most_samples);
     const ClassicalDecisions decisions;
-    const SubsurfaceGuides subsurface(scene, strategies, 0);
+    const SubsurfaceGuides subsurface(scene, strategies);
     const LightSelection lights(scene);
     const ReflectionProbability reflections(scene.bounds());
     const PathTracer tracer(scene, decisions, subsurface, lights, reflections, max_depth);
