@@ -133,6 +133,18 @@ def test_cameras_see_what_usd_says(stage):
     assert centre(size=(160, 160)) == pytest.approx((0.75, 0.375), abs=0.01)
 
 
+def test_an_exposure_multiplies(stage):
+    prim = stage.stage.DefinePrim("/sky", "DomeLight")
+    prim.GetAttribute("inputs:intensity").Set(3.0)
+    before = middle(stage.image())
+    # A stop and a half.
+    stage.camera.CreateExposureAttr(1.5)
+    assert middle(stage.image()) == pytest.approx(before * 2**1.5, rel=1e-4)
+    stage.camera.GetExposureAttr().Set(float("inf"))
+    with pytest.raises(wend.InputError, match="exposure"):
+        stage.read()
+
+
 @pytest.mark.parametrize(
     ("kind", "values", "share"),
     [

@@ -22,7 +22,7 @@ VALUES = {"color": (0.17, 0.43, 0.71), "bool": True, "int": 1, "token": "presenc
 
 SURFACES = {
     "UsdPreviewSurface": """diffuseColor:color emissiveColor:color useSpecularWorkflow:int specularColor:color metallic
-        roughness clearcoat clearcoatRoughness opacity opacityMode:token opacityThreshold ior displacement""",
+        roughness clearcoat clearcoatRoughness opacity opacityMode:token opacityThreshold ior displacement normal:color""",
     "ND_standard_surface_surfaceshader": """base base_color:color diffuse_roughness metalness specular specular_color:color
         specular_roughness specular_IOR specular_anisotropy specular_rotation transmission transmission_color:color
         transmission_depth transmission_scatter:color transmission_scatter_anisotropy transmission_dispersion
@@ -118,6 +118,33 @@ def test_lights(tmp_path, change):
     prim = stage.lamp("RectLight", width=3.0)
     before = told(stage, tmp_path)
     change(prim)
+    assert told(stage, tmp_path) != before
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda c: c.CreateExposureAttr(1.0),
+        lambda c: c.CreateExposureIsoAttr(200.0),
+        lambda c: c.CreateExposureFStopAttr(2.0),
+        lambda c: c.CreateExposureTimeAttr(0.01),
+        lambda c: c.CreateExposureResponsivityAttr(0.5),
+        lambda c: c.CreateClippingRangeAttr(Gf.Vec2f(20, 1000)),
+        lambda c: c.CreateClippingPlanesAttr([(0, 0, -1, -1)]),
+        lambda c: c.CreateFStopAttr(2.0),
+        lambda c: c.CreateVerticalApertureOffsetAttr(1.0),
+        lambda c: c.CreateFocalLengthAttr(12.0),
+    ],
+    ids=["exposure", "iso", "f-stop", "time", "responsivity", "near", "planes", "lens", "offset", "focal length"],
+)
+def test_cameras(tmp_path, change):
+    stage = Stage(tmp_path)
+    stage.card()
+    before = told(stage, tmp_path)
+    try:
+        change(stage.camera)
+    except AttributeError:
+        pytest.skip("this USD has no such attribute")
     assert told(stage, tmp_path) != before
 
 

@@ -37,6 +37,7 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
     if shutter[0] < shutter[1] and not reader.time.IsDefault():
         reader.shutter = [Usd.TimeCode(reader.time.GetValue() + offset) for offset in shutter]
         reader.transforms = [UsdGeom.XformCache(time) for time in reader.shutter]
+    _tell_of_clipping(reader, prim, camera)
     sizes = np.array([lens.horizontalAperture, lens.verticalAperture, lens.focalLength])
     if not (np.isfinite(sizes).all() and sizes.min() > 0):
         raise InputError(f"{prim.GetPath()}: error: a camera needs apertures and a focal length above 0, not {sizes.tolist()}")
@@ -63,6 +64,34 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
         parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
         parameters["float focaldistance"] = lens.focusDistance
     reader.builder.add("Camera", "perspective", parameters)
+
+
+def exposure(reader: Any, prim: Any) -> float:
+    """What a camera multiplies radiance with.
+
+    Raises:
+        InputError: where that is no number above 0.
+    """
+    if prim is None:
+        return 1.0
+    camera = UsdGeom.Camera(prim)
+    if hasattr(camera, "ComputeLinearExposureScale"):
+        factor = float(camera.ComputeLinearExposureScale(reader.time))
+    else:
+        # Before USD 25.05 all of a camera's exposure was this.
+        factor = 2.0 ** float(camera.GetExposureAttr().Get(reader.time))
+    if not (math.isfinite(factor) and factor > 0):
+        raise InputError(f"{prim.GetPath()}: error: the camera's exposure multiplies with {factor:.4g}")
+    return factor
+
+
+def _tell_of_clipping(reader: Any, prim: Any, camera: Any) -> None:
+    near = camera.GetClippingRangeAttr()
+    # A tenth of a metre is what Blender's cameras have by themselves.
+    if near.HasAuthoredValue() and near.Get(reader.time)[0] * UsdGeom.GetStageMetersPerUnit(reader.stage) > 0.1001:
+        reader.warn(prim, f"what is nearer than {near.Get(reader.time)[0]:.4g} is not clipped")
+    if camera.GetClippingPlanesAttr().Get(reader.time):
+        reader.warn(prim, "planes that clip are left out")
 
 
 def view_of_all(reader: Any, resolution: tuple[int, int]) -> None:

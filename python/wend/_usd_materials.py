@@ -354,7 +354,11 @@ class _Surface:
             parameters["rgb speculartint"] = colour / colour.max()
 
     def _normals(self, parameters: dict[str, Any]) -> None:
-        if not self.is_preview or not self.inputs.is_connected("normal"):
+        if not self.is_preview:
+            return
+        if not self.inputs.is_connected("normal"):
+            if not np.allclose(self.inputs.constant("normal", (0, 0, 1)), (0, 0, 1)):
+                self.reader.warn(self.inputs.shader.GetPrim(), "a normal that is the same everywhere is left out")
             return
         picture = self.inputs.picture("normal")
         if picture is None:

@@ -124,7 +124,11 @@ class _Reader(SceneReader):
         eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
-        add("Film", "rgb", {"integer xresolution": resolution[0], "integer yresolution": resolution[1]})
+            film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
+            exposure = cameras.exposure(self, eye)
+        if exposure != 1:
+            film["float iso"] = 100 * exposure
+        add("Film", "rgb", film)
         add("Sampler", "sobol", {"integer pixelsamples": spp})
         add("Integrator", "volpath", {"integer maxdepth": 64})
         add("WorldBegin")
