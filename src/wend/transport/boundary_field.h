@@ -54,7 +54,7 @@ private:
     std::size_t closest_point(const Cell& cell, const Vec3& position) const;
 
     Box3 box_;
-    float decay_;    ///< beneath a plane
+    float decay_;  ///< beneath a plane
     std::vector<LitPoint> points_;
     std::unique_ptr<const Pieces> pieces_;
     std::unique_ptr<const Sources> sources_;
