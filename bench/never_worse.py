@@ -5,7 +5,8 @@ render to bench/results/NAME.json and, from all rows, the page docs/never_worse.
 A budget is the processor time of so many classical samples a pixel, on one thread. The default is given as many samples
 as it takes for that time, by what the budget before it cost; what is left of the difference is multiplied out: judged
 is relMSE times processor time, of classical sampling over that of the default. Processor time of reading the scene is
-not counted. Short renders are timed several times, and the least counts. References that are not stored are rendered first and kept (out/references).
+not counted. Short renders are timed several times, and the least counts. References that are not stored are rendered
+first and kept (out/references).
 
 With --baseline another way of sampling takes the place of the classical one, with its own name for the results.
 
@@ -30,7 +31,7 @@ from measure import ROOT
 
 BUDGETS = [4, 16, 64, 256, 1024]
 DEFAULT = ("full", "auto")
-# Renders of fewer seconds are timed so often, and the least counts.
+# Renders that take less, in seconds, are timed so often.
 SHORT, REPEATS = 2, 3
 CLASSICAL = ("classical", "classical")
 SIZE = "160x90"

@@ -79,7 +79,7 @@ def exposure(reader: Any, prim: Any) -> float:
         factor = float(camera.ComputeLinearExposureScale(reader.time))
     else:
         # Before USD 25.05 all of a camera's exposure was this.
-        factor = 2.0 ** float(camera.GetExposureAttr().Get(reader.time))
+        factor = float(np.exp2(camera.GetExposureAttr().Get(reader.time)))
     if not (math.isfinite(factor) and factor > 0):
         raise InputError(f"{prim.GetPath()}: error: the camera's exposure multiplies with {factor:.4g}")
     return factor

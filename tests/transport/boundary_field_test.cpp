@@ -146,12 +146,12 @@ TEST(LitPoints, BlurGrazingLampsMost) {
     EXPECT_LT(grazing / grazing_count, 0.6 * straight / straight_count);
 }
 
-BoundaryField field_of(const std::vector<LitPoint>& all) {
+BoundaryField field_of(const std::vector<LitPoint>& all, float decay = 5) {
     std::vector<BoundaryPoint> on;
     for (const LitPoint& p : all) {
         on.push_back(p.point);
     }
-    return {bounds_of(on), all, 5};
+    return {bounds_of(on), all, decay};
 }
 
 TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
@@ -189,6 +189,27 @@ TEST(BoundaryField, KnowsTheNearestOfAllPoints) {
             best = std::max(best, dot(p.point.normal, normalize(position)));
         }
         EXPECT_GT(dot(normal, normalize(position)), best - 0.02f) << k;
+    }
+}
+
+TEST(BoundaryField, TellsTheSameInAnyUnit) {
+    const Scene scene(lit_ball());
+    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const BoundaryField field = field_of(all);
+    for (const auto& [unit, brightness] : {std::pair(1e6f, 1e-24f), std::pair(1e-6f, 1e20f)}) {
+        std::vector<LitPoint> other = all;
+        for (LitPoint& p : other) {
+            p.point.position *= unit;
+            p.irradiance *= brightness;
+        }
+        const BoundaryField scaled = field_of(other, 5 / unit);
+        Pcg32 random(7);
+        for (int k = 0; k < 100; ++k) {
+            const Vec3 position = to_sphere(random.uniform2()) * 0.95f * random.uniform();
+            const InteriorAim aim = field.at(position).incident(), there = scaled.at(position * unit).incident();
+            EXPECT_GT(dot(aim.normal, there.normal), 0.9999f) << unit << " " << k;
+            EXPECT_NEAR(aim.steepness, there.steepness, 1e-4f) << unit << " " << k;
+        }
     }
 }
 

@@ -96,15 +96,16 @@ public:
             const float squared = sqr(x_[p] - position.x) + sqr(y_[p] - position.y) + sqr(z_[p] - position.z);
             distance[p] = std::max(std::sqrt(squared), least_distance_);
         }
-        // Relative to the nearest source: so it stays within the range of numbers.
+        // Relative to the nearest source: so it stays within the range of numbers, in any unit of length.
         const float nearest = count > 0 ? *std::min_element(distance.begin(), distance.end()) : 0;
         // Sums of every eighth source side by side.
         constexpr std::size_t lanes = 8;
         std::array<float, lanes> lit{}, unlit{}, slope_x{}, slope_y{}, slope_z{};
         const auto add = [&](std::size_t p, std::size_t lane) {
-            const float reach = fast_exp(-decay * (distance[p] - nearest)) / distance[p];
+            const float closeness = nearest / distance[p];
+            const float reach = fast_exp(-decay * (distance[p] - nearest)) * closeness;
             const float value = irradiance_[p] * reach;
-            const float steep = value * (decay + 1 / distance[p]) / distance[p];
+            const float steep = value * (decay * nearest + closeness) / distance[p];
             lit[lane] += value;
             unlit[lane] += reach;
             slope_x[lane] += (x_[p] - position.x) * steep;
@@ -124,7 +125,7 @@ public:
         Light light;
         light.lit = sum(lit);
         light.unlit = sum(unlit);
-        light.slope = {sum(slope_x), sum(slope_y), sum(slope_z)};
+        light.slope = Imath::V3d(sum(slope_x), sum(slope_y), sum(slope_z)) / static_cast<double>(nearest);
         return light;
     }
 
