@@ -74,12 +74,13 @@ TEST(GuidingChoice, FlightsAreGuidedInFogAlone) {
     EXPECT_EQ(in_fog.kinds()[3], (WalkKind{parse_preset("distance+direction+roulette+splitting"), false}));
 }
 
-TEST(GuidingChoice, GuidesOfDenseMediaAreAskedForThemselves) {
+TEST(GuidingChoice, GuidesOfDenseMediaAreAskedFromTheStart) {
     const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many);
-    ASSERT_EQ(choice.kinds().size(), 4u);
-    EXPECT_TRUE(choice.kinds()[0].is_classical());
-    EXPECT_EQ(choice.kinds()[1], (WalkKind{Preset(), true}));
-    EXPECT_EQ(choice.kinds()[3], (WalkKind{parse_preset("direction+roulette+splitting"), true}));
+    ASSERT_EQ(choice.kinds().size(), 3u);
+    EXPECT_EQ(choice.kinds()[0], (WalkKind{Preset(), true}));
+    EXPECT_EQ(choice.kinds()[2], (WalkKind{parse_preset("direction+roulette+splitting"), true}));
+    EXPECT_EQ(choice.shares(0, 1), WalkShares{1});
+    EXPECT_TRUE(choice.guides(1)) << "they are to be explored before the first walk";
 }
 
 TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
@@ -166,17 +167,6 @@ TEST(GuidingChoice, ClassicalWalksThatHaveMissedWhatGuidedOnesMeetAreNotTakenToB
     two.learn(std::vector<WalkTallies>{easy, hard}, 15, false);
     EXPECT_LT(two.shares(0, 8)[directions], 0.1f);
     EXPECT_GT(two.shares(1, 8)[directions], 0.9f);
-}
-
-TEST(GuidingChoice, WalksInDenseMediaThatAreUnguidedAreNoBetterThanGuidedOnes) {
-    GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many);
-    choice.learn(std::vector<WalkTallies>(1), 1, true);
-    choice.learn(std::vector<WalkTallies>(1), warm_up_samples, true);
-    // Classical walks have missed what comes with one walk in many.
-    choice.learn(std::vector<WalkTallies>{{walks(1000, 1, 1, 1), walks(1000, 40, 2, 40), walks(1000, 30, 2, 40),
-                                           walks(1000, 1, 4, 40)}},
-                 15, false);
-    EXPECT_GT(choice.shares(0, 8)[3], 0.9f);
 }
 
 TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {

@@ -55,12 +55,7 @@ GuidingChoice::GuidingChoice(const Preset& preset, const Guidable& guidable, boo
         const Preset survival{.roulette = preset.roulette, .splitting = preset.splitting};
         Preset directions = survival;
         directions.direction = preset.direction;
-        kinds_ = {{}};
-        if (dense) {
-            kinds_.push_back({Preset(), true});
-        }
-        kinds_.push_back({survival, dense});
-        kinds_.push_back({directions, dense});
+        kinds_ = {{Preset(), dense}, {survival, dense}, {directions, dense}};
         if (guidable.flights) {
             kinds_.push_back({everywhere, dense});
         }
@@ -92,21 +87,14 @@ double GuidingChoice::cost_of_segment(const WalkKind& kind) {
 }
 
 TallyProducts GuidingChoice::unguided_squares() const {
-    std::vector<WalkTallies> by_base(tallies_.size());
+    std::vector<WalkTallies> of_all(tallies_.size());
     for (std::size_t tile = 0; tile < tallies_.size(); ++tile) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-            by_base[tile][base_of(kind)] += tallies_[tile][kind];
+            of_all[tile][0] += tallies_[tile][kind];
         }
+        of_all[tile][0].unguided = std::max(of_all[tile][0].unguided, 0.0);
     }
-    for (WalkTallies& tile : by_base) {
-        for (WalkTally& base : tile) {
-            base.unguided = std::max(base.unguided, 0.0);
-        }
-    }
-    TallyProducts p(by_base, most_walk_kinds, &WalkTally::unguided);
-    // Guides of dense media do not make walks noisier. Few walks without them may have met less of what all have.
-    p.kind[0] = std::max(p.kind[0], p.kind[base_of(kinds_.size() - 1)]);
-    return p;
+    return {of_all, 1, &WalkTally::unguided};
 }
 
 TallyProducts GuidingChoice::squared_errors(const TallyProducts& unguided) const {
@@ -114,7 +102,7 @@ TallyProducts GuidingChoice::squared_errors(const TallyProducts& unguided) const
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
         // By its own walks, which share most of their noise.
         squares.kind[kind] =
-            unguided.kind[base_of(kind)] * tally_ratio(tallies_, kind, &WalkTally::square, &WalkTally::unguided);
+            unguided.kind[0] * tally_ratio(tallies_, kind, &WalkTally::square, &WalkTally::unguided);
     }
     const TallyProducts values = products(&WalkTally::value), spreads = products(&WalkTally::spread);
     const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles(), spread = spreads.mean_of_tiles();
@@ -169,7 +157,7 @@ void GuidingChoice::remember(std::span<const WalkTallies> pass, bool learns) {
     for (std::size_t tile = 0; tile < pass.size(); ++tile) {
         for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
             WalkTally& known = tallies_[tile][kind];
-            known = known.scaled(learns && kind > 0 ? age : 1.0);
+            known = known.scaled(learns && !kinds_[kind].is_classical() ? age : 1.0);
             known += pass[tile][kind];
         }
     }
@@ -245,24 +233,11 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
 }
 
 bool GuidingChoice::guides(int samples) const {
-    if (kinds_.size() == 1) {
-        return !kinds_[0].is_classical();
-    }
-    switch (state_) {
-        case State::classical:
-            return shares_.front()[0] < 1;
-        case State::probe:
-            return shares_.front()[0] < 1 || probed_share(samples) > 0;
-        case State::trial:
-            return samples >= static_cast<int>(kinds_.size());
-        case State::chosen:
-            return true;
-    }
-    return true;
+    return !kinds_[0].is_classical() || state_ == State::chosen || shares(0, samples)[0] < 1;
 }
 
 WalkShares GuidingChoice::shares(std::size_t tile, int samples) const {
-    if (kinds_.size() > 1 && !guides(samples)) {
+    if (state_ == State::trial && samples < static_cast<int>(kinds_.size())) {
         return all_of(0);
     }
     WalkShares shares = shares_[tile];
@@ -303,17 +278,12 @@ double GuidingChoice::directed_share(int samples) const {
     return directed / static_cast<double>(shares_.size());
 }
 
-double GuidingChoice::unguided_square(std::size_t tile, std::size_t base, const TallyProducts& unguided) const {
+double GuidingChoice::unguided_square(std::size_t tile, const TallyProducts& unguided) const {
     WalkTally shown;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
-        if (base_of(kind) == base) {
-            shown += tallies_[tile][kind];
-        }
+        shown += tallies_[tile][kind];
     }
-    const double square =
-        (std::max(shown.unguided, 0.0) + walks_of_picture * unguided.at(tile, base)) / (shown.walks + walks_of_picture);
-    const bool has_guided_media = base_of(kinds_.size() - 1) == 1;
-    return base == 0 && has_guided_media ? std::max(square, unguided_square(tile, 1, unguided)) : square;
+    return (std::max(shown.unguided, 0.0) + walks_of_picture * unguided.at(tile, 0)) / (shown.walks + walks_of_picture);
 }
 
 WalkShares GuidingChoice::chosen_for(std::size_t tile, const TallyProducts& unguided, const TallyProducts& squares,
@@ -323,9 +293,9 @@ WalkShares GuidingChoice::chosen_for(std::size_t tile, const TallyProducts& ungu
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
         const WalkTally& here = tallies_[tile][kind];
         const double n = here.walks + walks_of_picture;
-        const double unguided_here = std::max(here.unguided, 0.0) + walks_of_picture * unguided.at(tile, base_of(kind));
+        const double unguided_here = std::max(here.unguided, 0.0) + walks_of_picture * unguided.at(tile, 0);
         variance[kind] = unguided_here > 0
-                             ? unguided_square(tile, base_of(kind), unguided) *
+                             ? unguided_square(tile, unguided) *
                                    (here.square + walks_of_picture * squares.at(tile, kind)) / unguided_here
                              : 0.0;
         // What was not tried is in no measure.

@@ -32,16 +32,18 @@ struct Guidable {
 };
 
 /// Chooses among kinds of walks, tile by tile. What counts is squared error times work, both of earlier passes, so that
-/// no walk has a say in its own weight. All begin with classical walks. Then a few of every kind are tried. Where that
-/// leaves it open whether guiding pays, as many of each kind follow; else those that take directions from the fields.
-/// The best of a tile goes on, and others as long
-/// as they are close. A picture that is too small for a trial has one kind, guided in all ways.
+/// no walk has a say in its own weight. All begin with walks that follow nothing learned: classical ones, but for the
+/// guides of dense media, which know what they do from the start. Then a few of every kind are tried. Where that leaves
+/// it open whether guiding pays, as many of each kind follow; else those that take directions from the fields. The best
+/// of a tile goes on, and others as long as they are close. A picture that is too small for a trial has one kind, guided
+/// in all ways.
 class GuidingChoice {
 public:
     /// By fewer pixels a trial of a few samples tells nothing.
     static constexpr double fewest_pixels = 1000;
 
-    /// Of the kinds that a preset allows: several where it guides where that pays, of which the first is classical.
+    /// Of the kinds that a preset allows: several where it guides where that pays, of which the first follows nothing
+    /// learned.
     /// `is_taught`: whether there is a field from the start. `pixels`: of the picture.
     GuidingChoice(const Preset& preset, const Guidable& guidable, bool is_taught, std::size_t tiles, double pixels);
 
@@ -100,14 +102,12 @@ private:
     /// Whether each kind that takes directions from the fields has walks in a pass.
     bool shows_directed(std::span<const WalkTallies> pass) const;
     TallyProducts products(double WalkTally::*what) const { return TallyProducts(tallies_, kinds_.size(), what); }
-    /// The kind that guides the same dense media, and nothing else.
-    std::size_t base_of(std::size_t kind) const { return kind > 0 && kinds_[1].guides_dense_media ? 1 : 0; }
-    /// Of unguided walks, as those of every kind show it that has the same base.
+    /// Of walks of the first kind, as those of every kind show it: the first of its kinds alone counts.
     TallyProducts unguided_squares() const;
     /// Of squared errors, with those of light that a kind has not found yet.
     TallyProducts squared_errors(const TallyProducts& unguided) const;
-    /// Of walks of a kind that is its own base, in a tile.
-    double unguided_square(std::size_t tile, std::size_t base, const TallyProducts& unguided) const;
+    /// Of walks of the first kind, in a tile.
+    double unguided_square(std::size_t tile, const TallyProducts& unguided) const;
     WalkShares chosen_for(std::size_t tile, const TallyProducts& unguided, const TallyProducts& squares,
                           const TallyProducts& work, bool learns) const;
 
@@ -116,7 +116,7 @@ private:
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;
     enum class State { classical, probe, trial, chosen } state_ = State::classical;
-    double gain_ = 0;  ///< of guiding, in the whole picture
+    double gain_ = 0;  ///< of what is learned, in the whole picture
 };
 
 }  // namespace wend

@@ -49,7 +49,7 @@ private:
 };
 
 /// Of a tile, by kinds of walks.
-inline constexpr std::size_t most_walk_kinds = 5;
+inline constexpr std::size_t most_walk_kinds = 4;
 using WalkTallies = std::array<WalkTally, most_walk_kinds>;
 
 /// Of a kind in a tile, the walks that count for the picture: else the few walks of a trial would be nothing beside the
