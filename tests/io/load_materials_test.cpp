@@ -400,7 +400,9 @@ TEST(LoadTextures, Pictures) {
                 Rgb(0.5f), 0.01f);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"sRGB\"", "wend_load_texture.exr").scene, "not PNG"), 1);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"linear\"", "wend_load_texture.exr").scene, "not PNG"), 0);
-    EXPECT_PRED2(contains, message_of([&] { loaded("\"string filter\" \"frob\""); }), "the filter \"frob\"");
+    const Loaded unknown = loaded("\"string filter\" \"frob\"");
+    EXPECT_EQ(warnings_with(unknown.scene, "the filter \"frob\" is unknown"), 1);
+    expect_near(unknown.reflectance({0.5f, 0.25f}), loaded("").reflectance({0.5f, 0.25f}));
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"frob\""); }),
                  "the encoding \"frob\" is unknown");
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"gamma -1\""); }), "the encoding");

@@ -55,9 +55,7 @@ public:
           textures_(context, scene.textures) {}
 
     void build() {
-        for (const pbrt::TextureEntity& texture : description_.textures) {
-            textures_.add(texture);
-        }
+        textures_.add(description_.textures);
         for (const pbrt::MediumEntity& medium : description_.media) {
             const int group = light_group(medium);
             scene_.media.push_back(load_part(
@@ -346,7 +344,7 @@ private:
     }
 
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {
-        std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        std::optional<TextureId> alpha = textures_.find_presence(entity.parameters, "alpha");
         if (const TextureId presence = presences_[entity.material]; presence >= 0) {
             alpha = alpha ? textures_.product(*alpha, presence) : presence;
         }

@@ -95,8 +95,8 @@ struct Description {
     ParameterSet options;
 
     std::vector<MaterialEntity> materials{
-        {{"diffuse", {}, {}}, ""}};       ///< the first is that of shapes before any Material
-    std::vector<TextureEntity> textures;  ///< those a texture refers to come before it
+        {{"diffuse", {}, {}}, ""}};  ///< the first is that of shapes before any Material
+    std::vector<TextureEntity> textures;
     std::vector<MediumEntity> media;
     std::vector<LightEntity> lights;
     std::vector<Entity> area_lights;
