@@ -47,12 +47,16 @@ void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surfac
 
 /// Parameters of a triangle's corners, by default those of pbrt.
 void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& source) {
-    if (!mesh.uvs.empty()) {
-        const std::uint32_t* i = &mesh.indices[3 * triangle];
-        source.uv0 = mesh.uvs[i[0]];
-        source.uv1 = mesh.uvs[i[1]];
-        source.uv2 = mesh.uvs[i[2]];
+    if (mesh.uvs.empty()) {
+        const auto uvs = mesh.default_uvs(triangle);
+        source.uv1 = uvs[0];
+        source.uv2 = uvs[1];
+        return;
     }
+    const std::uint32_t* i = &mesh.indices[3 * triangle];
+    source.uv0 = mesh.uvs[i[0]];
+    source.uv1 = mesh.uvs[i[1]];
+    source.uv2 = mesh.uvs[i[2]];
 }
 
 /// A triangle of a mesh, which moves as the mesh does.
@@ -80,8 +84,10 @@ void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& 
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
     const std::shared_ptr<const EmissionProfile> profile = placed_profile(light, at);
-    const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
+    const std::size_t evenly = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
+    std::size_t together = 0;
     for (std::size_t first = 0; first < triangles; first += together) {
+        together = first >= mesh.first_quadrilateral ? 2 : evenly;
         const std::size_t begin = lights.size();
         float area = 0;
         for (std::size_t i = first; i < first + together; ++i) {
