@@ -113,8 +113,12 @@ TEST(LoadLights, PortalsAreInTheWorld) {
     const auto message = [](const std::string& corners) {
         return message_of([&] { load_text("LightSource \"infinite\" \"point3 portal\" [ " + corners + " ]"); });
     };
+    const LoadedScene skewed =
+        load_text("LightSource \"infinite\" \"rgb L\" [1 2 3] \"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1.1 0 1 ]");
+    EXPECT_EQ(warnings_with(skewed, "not those of a rectangle"), 1);
+    expect_near(environment_radiance(skewed.scene.lights.at(0), {0.5f, 0.5f, 0}, {0, 0, 1}), {1, 2, 3});
     EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0"), "4 corners, not 3");
-    EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0  0 2 0"), "rectangle");
+    EXPECT_PRED2(contains, message("0 0 0  1 0 0  2 0 0  1 0 0"), "rectangle");
     EXPECT_PRED2(contains, message("0 0 0  0 0 0  1 1 0  0 1 0"), "rectangle");
 }
 

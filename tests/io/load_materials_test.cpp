@@ -63,6 +63,13 @@ TEST(LoadMaterials, Diffuse) {
         {1, 0, 0});
 }
 
+TEST(LoadMaterials, SpectraBelowZeroAreZeroThere) {
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" [ 200 -.1 300 0 900 0 ]").reflectance(),
+                Rgb(0.0f));
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" [ 200 -.1 201 .4 900 .4 ]").reflectance(),
+                Rgb(0.4f), 1e-3f);
+}
+
 TEST(LoadMaterials, BlackBodiesReflect) {
     // A peak of 1, in the near infrared: more red than blue, and no more than 1.
     const Rgb colour = Loaded("Material \"diffuse\" \"blackbody reflectance\" 4000").reflectance();
@@ -128,7 +135,10 @@ TEST(LoadMaterials, Dielectrics) {
                 1.4f, 1e-3f);
     EXPECT_NEAR(Loaded("Material \"dielectric\" \"rgb eta\" [ 1.5 1.5 1.5 ]").as<DielectricMaterial>().ior, 1.5f,
                 1e-5f);
-    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" 0"); }), "refractive index");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" -1"); }), "refractive index");
+    const Loaded none("Material \"dielectric\" \"float eta\" 0");
+    EXPECT_EQ(none.as<DielectricMaterial>().ior, 1);
+    EXPECT_EQ(warnings_with(none.scene, "a refractive index of 0 is taken for 1"), 1);
 }
 
 TEST(LoadMaterials, Coats) {

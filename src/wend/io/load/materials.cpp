@@ -415,6 +415,10 @@ private:
             const auto glass = named ? glass_index(named->name) : std::nullopt;
             ior = glass ? *glass : mean(reduce_colour(context_, value, SpectrumKind::unbounded, p.place_of(name)));
         }
+        if (ior == 0) {
+            context_.warnings.add(p.place_of(name), "a refractive index of 0 is taken for 1, as in pbrt");
+            return 1;
+        }
         if (!(ior > 0) || !std::isfinite(ior)) {
             throw InputError(p.place_of(name), fmt::format("a refractive index must be above 0, not {}", ior));
         }
