@@ -328,6 +328,21 @@ TEST(LoadLights, AllOfAPatchOrCylinderHasOnePower) {
     EXPECT_NEAR(power_of("\"cylinder\""), 3, 1e-2f);
 }
 
+TEST(LoadLights, RoundLampsThatPbrtLightsOtherwiseAreNamed) {
+    const auto warnings = [](const std::string& world) {
+        return warnings_with(load_text("AreaLightSource \"diffuse\" " + world), "with an AreaLightSource");
+    };
+    EXPECT_EQ(warnings("Rotate 30 1 2 3 Translate 5 6 7 Shape \"sphere\" Shape \"disk\" Shape \"cylinder\""), 0);
+    for (const std::string shape : {"\"sphere\"", "\"disk\"", "\"cylinder\""}) {
+        EXPECT_EQ(warnings("Scale 1 1 2 Shape " + shape), 1) << shape;
+        EXPECT_EQ(warnings("Scale -1 1 1 Shape " + shape), 0) << shape;
+    }
+    EXPECT_EQ(warnings("Shape \"sphere\" \"float zmax\" .5"), 1);
+    EXPECT_EQ(warnings("Shape \"disk\" \"float innerradius\" .5"), 1);
+    EXPECT_EQ(warnings("Shape \"disk\" \"float phimax\" 180"), 1);
+    EXPECT_EQ(warnings("Scale 2 2 2 " + two_triangles), 0);
+}
+
 TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
     const auto presence = [](const std::string& alpha) {
         return presence_of(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" " + alpha).scene.lights.at(0));

@@ -8,6 +8,15 @@
 namespace wend {
 namespace {
 
+bool is_whole(const Sphere& sphere) {
+    return sphere.is_full();
+}
+
+bool is_whole(const Disk& disk) {
+    constexpr float full_turn = 6.283185f;
+    return !(disk.inner_radius > 0) && disk.phi_max >= full_turn;
+}
+
 /// Whether a triangle's normal must be reversed to lie on the side of its vertices' normals, or else as the surface
 /// says.
 bool flips(const Surface& surface, const TriangleMesh& mesh, std::size_t triangle) {
@@ -121,6 +130,24 @@ void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::
     } else {
         attach_to_mesh(light, at, surface, lights);
     }
+}
+
+std::string_view round_lamp_difference(std::string_view shape_type, const Shape& shape,
+                                       const Transform& world_from_object) {
+    const auto* quadric = std::get_if<Quadric>(&shape);
+    if (!quadric && shape_type != "cylinder") {
+        return "";
+    }
+    if (quadric && !std::visit([](const auto& s) { return is_whole(s); }, quadric->shape)) {
+        return "of which a part is cut out is lit from by pbrt as if it were whole";
+    }
+    constexpr float tolerance = 1e-3f;
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+        if (std::abs(length_squared(world_from_object.vector(axis)) - 1) > tolerance) {
+            return "that is scaled shines in pbrt with the area that it has before";
+        }
+    }
+    return "";
 }
 
 }  // namespace wend

@@ -292,6 +292,11 @@ private:
                                   : surface.alpha < 0        ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
+        const auto difference = round_lamp_difference(entity.type, *surface.shape, entity.world_from_object);
+        if (context_.is_for_pbrt && !difference.empty()) {
+            context_.warnings.add(entity.place, fmt::format("a \"{}\" with an AreaLightSource {}: its light differs",
+                                                            entity.type, difference));
+        }
         const std::size_t first = scene_.lights.size();
         attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface, scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
@@ -386,6 +391,7 @@ namespace {
 LoadedScene build_scene(pbrt::Description& description, const LoadOverrides& overrides, LoadedParts* parts) {
     const LoadedParts earlier = parts ? std::exchange(*parts, {}) : LoadedParts();
     LoadContext context{description.base_directory, {}};
+    context.is_for_pbrt = description.is_for_pbrt;
     context.earlier = parts ? &earlier : nullptr;
     context.parts = parts;
     context.files->insert(description.files.begin(), description.files.end());
