@@ -159,10 +159,21 @@ private:
             .shape;
     }
 
+    /// pbrt connects to a mirrored sphere, disk or cylinder on the side that it shines to before it is mirrored, though
+    /// its normals turn: such a lamp is turned back here, so that it lights what it does in pbrt.
+    bool is_lamp_turned_by_mirror(const pbrt::ShapeEntity& entity, bool bounds_medium) const {
+        const bool is_round = entity.type == "sphere" || entity.type == "disk" || entity.type == "cylinder";
+        return context_.is_for_pbrt && is_round && entity.area_light && !bounds_medium && !entity.motion &&
+               entity.world_from_object.swaps_handedness();
+    }
+
     void add_shape(std::size_t index) {
-        const pbrt::ShapeEntity& entity = description_.shapes[index];
+        pbrt::ShapeEntity& entity = description_.shapes[index];
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
+        if (is_lamp_turned_by_mirror(entity, interior != exterior)) {
+            entity.reverse_orientation = !entity.reverse_orientation;
+        }
         const std::size_t patches = patches_of(entity);
         const ObjectNames::Name name = name_of(entity);
         const std::optional<SharedShape> shape = shape_of(index, entity.area_light || interior != exterior);
