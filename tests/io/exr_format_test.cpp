@@ -334,5 +334,20 @@ TEST_F(ExrFormat, UnknownNamesAreRefused) {
     EXPECT_THROW(read_picture(folder_.file("none.exr")), InputError);
 }
 
+TEST_F(ExrFormat, AnOnlyChannelOfATextureIsGreyWhateverItsName) {
+    Imf::Header header(2, 1);
+    header.channels().insert("height", Imf::Channel(Imf::FLOAT));
+    std::vector<float> heights{0.25f, 3};
+    Imf::FrameBuffer frame;
+    frame.insert("height", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(heights.data()), 4, 8));
+    {
+        Imf::OutputFile file(folder_.file("h.exr").c_str(), header);
+        file.setFrameBuffer(frame);
+        file.writePixels(1);
+    }
+    EXPECT_EQ(read_image(folder_.file("h.exr")).pixels, (std::vector<Rgb>{Rgb(0.25f), Rgb(3.0f)}));
+    EXPECT_THROW(read_picture(folder_.file("h.exr")), InputError);
+}
+
 }  // namespace
 }  // namespace wend

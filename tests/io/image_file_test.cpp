@@ -249,6 +249,30 @@ TEST_F(ImageFile, ReadsTheFirstPictureOfAGif) {
     const Rgb red(1, 0, 0), green(0, 1, 0);
     const std::vector<Rgb> expected{green, red, green, green, green, red};
     EXPECT_EQ(image.pixels, expected);
+    EXPECT_TRUE(read_image_with_opacity(folder / "a.gif").opacity.empty());
+    // With the first colour as the background, what is not drawn is transparent.
+    std::string clear = gif;
+    clear[11] = 0;
+    store("b.gif", clear);
+    EXPECT_EQ(read_image_with_opacity(folder / "b.gif").opacity, (std::vector<float>{0, 1, 0, 0, 0, 1}));
+    EXPECT_EQ(read_image(folder / "b.gif").at(0, 0), Rgb(0.0f));
+}
+
+TEST_F(ImageFile, TgaAndBmpHaveOpacity) {
+    // Two pixels, blue first: one opaque, one by 188, which is a half decoded.
+    const std::string pixels("\0\0\xff\xff\0\xff\0\xbc", 8);
+    store("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x20\x28", 18) + pixels);
+    const std::string masks("\0\0\xff\0\0\xff\0\0\xff\0\0\0\0\0\0\xff", 16);
+    store("a.bmp", std::string("BM\x82\0\0\0\0\0\0\0\x7a\0\0\0", 14) +
+                       std::string("\x6c\0\0\0\2\0\0\0\1\0\0\0\1\0\x20\0\3\0\0\0", 20) + std::string(20, '\0') + masks +
+                       std::string(52, '\0') + pixels);
+    for (const char* name : {"a.tga", "a.bmp"}) {
+        const ImageWithOpacity picture = read_image_with_opacity(folder / name);
+        EXPECT_EQ(picture.image.pixels, (std::vector<Rgb>{{1, 0, 0}, {0, 1, 0}})) << name;
+        ASSERT_EQ(picture.opacity.size(), 2u) << name;
+        EXPECT_EQ(picture.opacity[0], 1) << name;
+        EXPECT_NEAR(picture.opacity[1], 0.5f, 5e-3f) << name;
+    }
 }
 
 TEST_F(ImageFile, ReadsQoi) {

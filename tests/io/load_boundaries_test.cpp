@@ -40,7 +40,9 @@ TEST(LoadBoundaries, AnOpenMeshIsNamedWithItsPlaceAndMedium) {
 
 TEST(LoadBoundaries, TheMediumOfAMaterialHasNoName) {
     EXPECT_EQ(warnings_with(load_text("Material \"subsurface\"\n" + cube(5)), "the medium inside is open"), 1);
-    EXPECT_TRUE(load_text("Material \"subsurface\"\n" + cube(6)).warnings.empty());
+    const LoadedScene whole = load_text("Material \"subsurface\"\n" + cube(6));
+    EXPECT_EQ(whole.warnings.size(), 1u);
+    EXPECT_EQ(warnings_with(whole, "the diffusion that pbrt takes"), 1);
 }
 
 TEST(LoadBoundaries, OrientationIsThatOfTheFile) {

@@ -113,8 +113,12 @@ TEST(LoadLights, PortalsAreInTheWorld) {
     const auto message = [](const std::string& corners) {
         return message_of([&] { load_text("LightSource \"infinite\" \"point3 portal\" [ " + corners + " ]"); });
     };
+    const LoadedScene skewed =
+        load_text("LightSource \"infinite\" \"rgb L\" [1 2 3] \"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1.1 0 1 ]");
+    EXPECT_EQ(warnings_with(skewed, "not those of a rectangle"), 1);
+    expect_near(environment_radiance(skewed.scene.lights.at(0), {0.5f, 0.5f, 0}, {0, 0, 1}), {1, 2, 3});
     EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0"), "4 corners, not 3");
-    EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0  0 2 0"), "rectangle");
+    EXPECT_PRED2(contains, message("0 0 0  1 0 0  2 0 0  1 0 0"), "rectangle");
     EXPECT_PRED2(contains, message("0 0 0  0 0 0  1 1 0  0 1 0"), "rectangle");
 }
 
@@ -322,6 +326,54 @@ TEST(LoadLights, AllOfAPatchOrCylinderHasOnePower) {
     };
     EXPECT_NEAR(power_of("\"bilinearmesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ]"), 3, 1e-3f);
     EXPECT_NEAR(power_of("\"cylinder\""), 3, 1e-2f);
+}
+
+TEST(LoadLights, RoundLampsThatPbrtLightsOtherwiseAreNamed) {
+    const auto warnings = [](const std::string& world) {
+        return warnings_with(load_text("AreaLightSource \"diffuse\" " + world), "with an AreaLightSource");
+    };
+    EXPECT_EQ(warnings("Rotate 30 1 2 3 Translate 5 6 7 Shape \"sphere\" Shape \"disk\" Shape \"cylinder\""), 0);
+    for (const std::string shape : {"\"sphere\"", "\"disk\"", "\"cylinder\""}) {
+        EXPECT_EQ(warnings("Scale 1 1 2 Shape " + shape), 1) << shape;
+        EXPECT_EQ(warnings("Scale -1 1 1 Shape " + shape), 0) << shape;
+    }
+    EXPECT_EQ(warnings("Shape \"sphere\" \"float zmax\" .5"), 1);
+    EXPECT_EQ(warnings("Shape \"disk\" \"float innerradius\" .5"), 1);
+    EXPECT_EQ(warnings("Shape \"disk\" \"float phimax\" 180"), 1);
+    EXPECT_EQ(warnings("Scale 2 2 2 " + two_triangles), 0);
+}
+
+TEST(LoadLights, MirroredRoundLampsShineToTheSideOfTheUnmirroredOnes) {
+    // Whether the lamp shines up to (0, 0, 3), by connections and where rays meet it.
+    const auto shines = [](const std::string& world) {
+        const Scene scene(load_text("AreaLightSource \"diffuse\" " + world).scene);
+        const Vec3 above(0, 0, 3);
+        const auto hit = scene.intersect({above, {0, 0, -1}});
+        EXPECT_TRUE(hit) << world;
+        const Light& light = scene.lights().at(static_cast<std::size_t>(hit->light));
+        const bool seen = !is_black(emitted_radiance(light, hit->normal, hit->uv, {0, 0, 1}));
+        Pcg32 random(1);
+        int connected = 0;
+        for (std::size_t i = 0; i < scene.lights().size(); ++i) {
+            const auto s = sample_light(scene.lights()[i], above, {0.5f, 0.5f}, random);
+            connected += s && !is_black(s->radiance);
+        }
+        // What is behind the near side of a cylinder is hidden, and may shine all the same.
+        EXPECT_TRUE(seen ? connected > 0 : connected == 0 || scene.lights().size() > 1) << world;
+        return seen;
+    };
+    for (const std::string shape : {"Shape \"sphere\"", "Shape \"disk\"", "Rotate 90 1 0 0 Shape \"cylinder\""}) {
+        EXPECT_TRUE(shines(shape)) << shape;
+        EXPECT_TRUE(shines("Scale -1 1 1 " + shape)) << shape;
+        EXPECT_FALSE(shines("ReverseOrientation Scale -1 1 1 " + shape)) << shape;
+    }
+    // Surfaces that are no lamps keep pbrt's normals, and so do boundaries of media.
+    const std::string fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MediumInterface \"fog\" \"\" ";
+    EXPECT_TRUE(load_text("Scale -1 1 1 Shape \"sphere\"").scene.surfaces.at(0).flip_normal);
+    EXPECT_TRUE(
+        load_text(fog + "AreaLightSource \"diffuse\" Scale -1 1 1 Shape \"sphere\"").scene.surfaces.at(0).flip_normal);
+    EXPECT_FALSE(
+        load_text("AreaLightSource \"diffuse\" Scale -1 1 1 Shape \"sphere\"").scene.surfaces.at(0).flip_normal);
 }
 
 TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {

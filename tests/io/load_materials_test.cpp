@@ -63,6 +63,13 @@ TEST(LoadMaterials, Diffuse) {
         {1, 0, 0});
 }
 
+TEST(LoadMaterials, SpectraBelowZeroAreZeroThere) {
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" [ 200 -.1 300 0 900 0 ]").reflectance(),
+                Rgb(0.0f));
+    expect_near(Loaded("Material \"diffuse\" \"spectrum reflectance\" [ 200 -.1 201 .4 900 .4 ]").reflectance(),
+                Rgb(0.4f), 1e-3f);
+}
+
 TEST(LoadMaterials, BlackBodiesReflect) {
     // A peak of 1, in the near infrared: more red than blue, and no more than 1.
     const Rgb colour = Loaded("Material \"diffuse\" \"blackbody reflectance\" 4000").reflectance();
@@ -128,7 +135,10 @@ TEST(LoadMaterials, Dielectrics) {
                 1.4f, 1e-3f);
     EXPECT_NEAR(Loaded("Material \"dielectric\" \"rgb eta\" [ 1.5 1.5 1.5 ]").as<DielectricMaterial>().ior, 1.5f,
                 1e-5f);
-    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" 0"); }), "refractive index");
+    EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" -1"); }), "refractive index");
+    const Loaded none("Material \"dielectric\" \"float eta\" 0");
+    EXPECT_EQ(none.as<DielectricMaterial>().ior, 1);
+    EXPECT_EQ(warnings_with(none.scene, "a refractive index of 0 is taken for 1"), 1);
 }
 
 TEST(LoadMaterials, Coats) {
@@ -291,7 +301,8 @@ TEST(LoadMaterials, SubsurfaceColoursMayVary) {
     const Loaded loaded(board +
                         "Material \"subsurface\" \"texture reflectance\" \"board\" \"float eta\" 1.4 \"float g\" 0.6 "
                         "\"rgb mfp\" [ 2 4 8 ]");
-    EXPECT_TRUE(loaded.scene.warnings.empty());
+    EXPECT_EQ(loaded.scene.warnings.size(), 1u);
+    EXPECT_EQ(warnings_with(loaded.scene, "the diffusion that pbrt takes for it is up to 10 % off"), 1);
     // The squares of a sphere's parameters are all even ones; the mean is that of the unit square, even as well.
     const AlbedoInversion albedo_of(0.6, 1.4);
     const auto& medium = std::get<HomogeneousMedium>(loaded.scene.scene.media.at(0));
@@ -400,7 +411,9 @@ TEST(LoadTextures, Pictures) {
                 Rgb(0.5f), 0.01f);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"sRGB\"", "wend_load_texture.exr").scene, "not PNG"), 1);
     EXPECT_EQ(warnings_with(loaded("\"string encoding\" \"linear\"", "wend_load_texture.exr").scene, "not PNG"), 0);
-    EXPECT_PRED2(contains, message_of([&] { loaded("\"string filter\" \"frob\""); }), "the filter \"frob\"");
+    const Loaded unknown = loaded("\"string filter\" \"frob\"");
+    EXPECT_EQ(warnings_with(unknown.scene, "the filter \"frob\" is unknown"), 1);
+    expect_near(unknown.reflectance({0.5f, 0.25f}), loaded("").reflectance({0.5f, 0.25f}));
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"frob\""); }),
                  "the encoding \"frob\" is unknown");
     EXPECT_PRED2(contains, message_of([&] { loaded("\"string encoding\" \"gamma -1\""); }), "the encoding");

@@ -68,7 +68,7 @@ TEST_F(PbrtInclude, AfterADirectiveWithParametersStartsAFreshOne) {
     EXPECT_EQ(d.shapes[1].parameters.get_float("radius", 0), 3);
 }
 
-TEST_F(PbrtInclude, IsRelativeToTheIncludingFileAndThenToTheMainOne) {
+TEST_F(PbrtInclude, IsRelativeToTheMainFileAndThenToTheIncludingOne) {
     write("parts/a.pbrt", "Include \"b.pbrt\" Include \"parts/c.pbrt\"");
     write("parts/b.pbrt", "Shape \"b\"");
     write("parts/c.pbrt", "Shape \"c\" \"string filename\" \"m.ply\"");
@@ -78,6 +78,18 @@ TEST_F(PbrtInclude, IsRelativeToTheIncludingFileAndThenToTheMainOne) {
     const Location& place = d.shapes[1].parameters.place_of("filename");
     EXPECT_EQ(find_file("m.ply", place, d.base_directory), directory_ / "m.ply");
     EXPECT_EQ(find_file("b.pbrt", place, d.base_directory), directory_ / "parts/b.pbrt");
+}
+
+TEST_F(PbrtInclude, TheFileBesideTheMainOneCountsWhereThereAreTwo) {
+    write("parts/a.pbrt", "Include \"b.pbrt\"");
+    write("parts/b.pbrt", "Shape \"of the part\"");
+    write("b.pbrt", "Shape \"of the whole\" \"string filename\" \"m.ply\"");
+    write("m.ply", "");
+    write("parts/m.ply", "");
+    const Description d = parse("WorldBegin Include \"parts/a.pbrt\"");
+    ASSERT_EQ(d.shapes.size(), 1u);
+    EXPECT_EQ(d.shapes[0].type, "of the whole");
+    EXPECT_EQ(find_file("m.ply", d.shapes[0].parameters.place_of("filename"), d.base_directory), directory_ / "m.ply");
 }
 
 TEST_F(PbrtInclude, ReadsGzipWhateverTheName) {

@@ -283,8 +283,8 @@ TEST(PbrtParser, Textures) {
     EXPECT_EQ(d.textures[2].type, "scale");
     expect_near(d.textures[0].world_from_texture.point(Vec3(0)), Vec3(0, 1, 0));
     EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"colour\" \"constant\""), "kind float or spectrum");
-    EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"a\""),
-                 "t.pbrt:2:29: error: \"tex\": the texture \"a\" is not defined");
+    EXPECT_PRED2(contains, world_error_of("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\""),
+                 "t.pbrt:2:29: error: \"tex\": the texture \"b\" is not defined");
 }
 
 TEST(PbrtParser, ObjectsAndInstances) {

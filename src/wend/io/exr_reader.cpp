@@ -57,8 +57,8 @@ void with_file(const std::filesystem::path& file, const std::function<void(Imf::
 /// Where a file has its colours.
 struct Beauty {
     int part = 0;
-    std::string layer;     ///< of R, G and B; empty: of none
-    bool is_grey = false;  ///< Y alone
+    std::string layer{};  ///< of R, G and B; empty: of none
+    std::string grey{};   ///< the channel that is all colours; empty: there are three
 };
 
 /// The layer that has all three colours: none, or the one that Blender calls so.
@@ -83,18 +83,23 @@ std::optional<std::string> layer_with_colours(const Imf::ChannelList& channels) 
     return std::nullopt;
 }
 
-Beauty find_beauty(const Imf::MultiPartInputFile& input) {
+/// `as_texture`: a file's only channel is grey whatever its name, as to pbrt.
+Beauty find_beauty(const Imf::MultiPartInputFile& input, bool as_texture) {
     for (int part = 0; part < input.parts(); ++part) {
         const Imf::ChannelList& channels = input.header(part).channels();
         if (auto layer = layer_with_colours(channels)) {
-            return {part, *std::move(layer), false};
+            return {part, *std::move(layer)};
         }
         if (channels.findChannel("Y")) {
             if (channels.findChannel("RY")) {
                 throw std::runtime_error("it is stored as luminance and chroma, which is not supported");
             }
-            return {part, {}, true};
+            return {part, {}, "Y"};
         }
+    }
+    const Imf::ChannelList& first = input.header(0).channels();
+    if (as_texture && input.parts() == 1 && first.begin() != first.end() && ++first.begin() == first.end()) {
+        return {0, {}, first.begin().name()};
     }
     throw std::runtime_error("it has neither the channels R, G, B nor Y, nor a layer 'Combined' of Blender");
 }
@@ -109,13 +114,13 @@ Image read_beauty(Imf::MultiPartInputFile& input, const Beauty& beauty) {
     const Imath::Box2i& window = input.header(beauty.part).dataWindow();
     Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
     Imf::FrameBuffer frame;
-    if (beauty.is_grey) {
-        frame.insert("Y", float_slice(&image.pixels[0].r, window, 3));
+    if (!beauty.grey.empty()) {
+        frame.insert(beauty.grey, float_slice(&image.pixels[0].r, window, 3));
     } else {
         insert_colours(frame, beauty.layer, image.pixels[0], window);
     }
     read_pixels(input, beauty.part, frame);
-    if (beauty.is_grey) {
+    if (!beauty.grey.empty()) {
         for (Rgb& pixel : image.pixels) {
             pixel = Rgb(pixel.r);
         }
@@ -149,7 +154,7 @@ std::vector<PartLayer> layers_of(const Imf::Header& header, const Beauty& beauty
         const std::size_t dot = full.rfind('.');
         const std::string layer = dot == std::string::npos ? "" : full.substr(0, dot);
         const std::string own = dot == std::string::npos ? full : full.substr(dot + 1);
-        const bool is_colour = beauty.is_grey ? own == "Y" : own == "R" || own == "G" || own == "B";
+        const bool is_colour = !beauty.grey.empty() ? own == beauty.grey : own == "R" || own == "G" || own == "B";
         if (is_of_beauty && layer == beauty.layer && is_colour) {
             continue;
         }
@@ -238,7 +243,7 @@ bool is_exr(const std::filesystem::path& file) {
 ImageWithOpacity read_exr_image(const std::filesystem::path& file) {
     ImageWithOpacity picture;
     with_file(file, [&](Imf::MultiPartInputFile& input) {
-        const Beauty beauty = find_beauty(input);
+        const Beauty beauty = find_beauty(input, true);
         picture.image = read_beauty(input, beauty);
         const Imf::Header& header = input.header(beauty.part);
         if (const std::string opacity = channel_name(beauty.layer, "A"); header.channels().findChannel(opacity)) {
@@ -254,7 +259,7 @@ ImageWithOpacity read_exr_image(const std::filesystem::path& file) {
 pbrt::ColourSpace exr_colour_space(const std::filesystem::path& file) {
     pbrt::ColourSpace space = pbrt::ColourSpace::srgb;
     with_file(file, [&](Imf::MultiPartInputFile& input) {
-        const Imf::Header& header = input.header(find_beauty(input).part);
+        const Imf::Header& header = input.header(find_beauty(input, true).part);
         if (Imf::hasChromaticities(header)) {
             space = colour_space_of(Imf::chromaticities(header));
         }
@@ -265,7 +270,7 @@ pbrt::ColourSpace exr_colour_space(const std::filesystem::path& file) {
 Picture read_exr(const std::filesystem::path& file) {
     Picture picture;
     with_file(file, [&](Imf::MultiPartInputFile& input) {
-        const Beauty beauty = find_beauty(input);
+        const Beauty beauty = find_beauty(input, false);
         const Imf::Header& header = input.header(beauty.part);
         const Imath::Box2i &window = header.dataWindow(), &display = header.displayWindow();
         picture.image = read_beauty(input, beauty);

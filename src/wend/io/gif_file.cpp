@@ -164,9 +164,10 @@ std::vector<int> rows_of(int height, bool interlaced) {
     return rows;
 }
 
-/// Draws the picture whose description follows.
+/// Draws the picture whose description follows. What it covers is opaque then.
 void draw(Bytes& bytes, const std::vector<Rgb>& common, std::optional<std::uint8_t> transparent, const Place& place,
-          Image& screen) {
+          ImageWithOpacity& onto) {
+    Image& screen = onto.image;
     const auto left = static_cast<int>(take_16(bytes)), top = static_cast<int>(take_16(bytes));
     const auto width = static_cast<int>(take_16(bytes)), height = static_cast<int>(take_16(bytes));
     const auto flags = bytes.take<std::uint8_t>();
@@ -184,8 +185,10 @@ void draw(Bytes& bytes, const std::vector<Rgb>& common, std::optional<std::uint8
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const auto row = static_cast<std::size_t>(rows[i / static_cast<std::size_t>(width)]);
         if (indices[i] != transparent && indices[i] < colours.size()) {
-            screen.at(left + static_cast<int>(i % static_cast<std::size_t>(width)), top + static_cast<int>(row)) =
-                colours[indices[i]];
+            const std::size_t pixel = (static_cast<std::size_t>(top) + row) * static_cast<std::size_t>(screen.width) +
+                                      static_cast<std::size_t>(left) + i % static_cast<std::size_t>(width);
+            screen.pixels[pixel] = colours[indices[i]];
+            onto.opacity[pixel] = 1;
         }
     }
 }
@@ -196,7 +199,7 @@ bool is_gif(std::string_view file) {
     return file.starts_with("GIF87a") || file.starts_with("GIF89a");
 }
 
-Image read_gif(std::string_view file, const Place& place) {
+ImageWithOpacity read_gif(std::string_view file, const Place& place) {
     Bytes bytes(file, place);
     bytes.take(6);
     const auto width = static_cast<int>(take_16(bytes)), height = static_cast<int>(take_16(bytes));
@@ -204,7 +207,9 @@ Image read_gif(std::string_view file, const Place& place) {
     bytes.take(1);  // the shape of pixels
     check_image_size(width, height, file.size(), place);
     const std::vector<Rgb> colours = take_colours(bytes, flags);
-    Image screen(width, height, background > 0 && background < colours.size() ? colours[background] : Rgb(0.0f));
+    const bool has_background = background > 0 && background < colours.size();
+    ImageWithOpacity screen{Image(width, height, has_background ? colours[background] : Rgb(0.0f)), {}};
+    screen.opacity.resize(screen.image.pixels.size(), has_background ? 1.0f : 0.0f);
     std::optional<std::uint8_t> transparent;
     for (auto kind = bytes.take<std::uint8_t>(); kind != trailer; kind = bytes.take<std::uint8_t>()) {
         if (kind == image_separator) {

@@ -35,7 +35,7 @@ ImageWithOpacity read_any(const std::filesystem::path& file, ColourEncoding enco
         return {read_pnm(bytes, place), {}};
     }
     if (is_gif(bytes)) {
-        return {read_gif(bytes, place), {}};
+        return read_gif(bytes, place);
     }
     if (is_qoi(bytes)) {
         return read_qoi(bytes, place);

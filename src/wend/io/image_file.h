@@ -16,8 +16,8 @@ namespace wend {
 enum class ColourEncoding { srgb, linear };
 
 /// Reads the colour of a picture file as linear colour; a grey file fills all three channels, and opacity is dropped.
-/// The kind is recognized by content. For EXR: channels R, G, B (or Y) of the data window. Throws InputError naming the
-/// file when it is missing, broken, truncated, larger than `max_pixels` or of an unknown kind.
+/// The kind is recognized by content. For EXR: channels R, G, B (or Y, or the only one) of the data window. Throws
+/// InputError naming the file when it is missing, broken, truncated, larger than `max_pixels` or of an unknown kind.
 Image read_image(const std::filesystem::path& file, ColourEncoding encoding = ColourEncoding::srgb);
 
 /// A picture with its opacity: one value a pixel, decoded as its colours are (so pbrt has it), or none.
@@ -26,8 +26,8 @@ struct ImageWithOpacity {
     std::vector<float> opacity;
 };
 
-/// The same with the opacity of OpenEXR (the channel A), PNG (but not by a palette) and QOI, unless that is 1
-/// everywhere.
+/// The same with the opacity of OpenEXR (the channel A), PNG (but not by a palette), TGA, BMP, PSD, GIF and QOI, unless
+/// that is 1 everywhere.
 ImageWithOpacity read_image_with_opacity(const std::filesystem::path& file,
                                          ColourEncoding encoding = ColourEncoding::srgb);
 

@@ -276,6 +276,9 @@ private:
 
     void read_polygon(const Property& property, std::uint64_t face, double vertex_count) {
         const std::uint64_t corners = list_size(property);
+        if (corners == 4) {
+            mesh_.quadrilaterals.push_back(static_cast<std::uint32_t>(mesh_.indices.size() / 3));
+        }
         std::uint32_t first = 0, previous = 0;
         for (std::uint64_t corner = 0; corner < corners; ++corner) {
             const double index = reader_.next(property.type);

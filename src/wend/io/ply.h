@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct TriangleMeshData {
     std::vector<Vec3> end_normals;       ///< the same
     std::vector<Vec3> tangents;          ///< the same
     std::vector<MeshAttribute> attributes{};
+    std::vector<std::uint32_t> quadrilaterals{};  ///< the first triangles of polygons that are two
+    std::size_t first_quadrilateral = std::numeric_limits<std::size_t>::max();  ///< as TriangleMesh has it
 };
 
 /// Reads a PLY file: ascii or binary of either byte order, compressed by gzip or not. Polygons become fans of

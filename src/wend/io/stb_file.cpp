@@ -92,19 +92,23 @@ ImageWithOpacity to_image(int width, int height, int channels, const Number* val
     return picture;
 }
 
-/// Whether a PNG file has an opacity at each pixel, beside red, green and blue.
-bool has_opacity(std::string_view png) {
+/// Whether a file with so many channels has an opacity at each pixel, beside red, green and blue. That of a PNG's
+/// palette does not count.
+bool has_opacity(std::string_view file, int channels) {
     constexpr std::size_t colour_type = 25;
     constexpr char rgb_with_opacity = 6;
-    return png.starts_with("\x89PNG") && png.size() > colour_type && png[colour_type] == rgb_with_opacity;
+    if (!file.starts_with("\x89PNG")) {
+        return channels == 4;
+    }
+    return file.size() > colour_type && file[colour_type] == rgb_with_opacity;
 }
 
-/// Reads with one of stb's loaders and hands the values on.
+/// Reads `channels` with one of stb's loaders and hands the values on.
 template <class Load, class Decode>
-ImageWithOpacity load(const std::string& bytes, const Place& place, const Load& loader, const Decode& decode) {
+ImageWithOpacity load(const std::string& bytes, const Place& place, int channels, const Load& loader,
+                      const Decode& decode) {
     Source source(bytes);
     int width = 0, height = 0, channels_there = 0;
-    const int channels = has_opacity(bytes) ? 4 : 3;
     auto* values = loader(&callbacks, &source, &width, &height, &channels_there, channels);
     const std::unique_ptr<std::remove_pointer_t<decltype(values)>, decltype(&stbi_image_free)> owner(values,
                                                                                                      stbi_image_free);
@@ -156,14 +160,15 @@ ImageWithOpacity read_stb_image(std::string bytes, const Place& place, ColourEnc
     if (is_bmp && static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(rows) / 8 > bytes.size()) {
         throw InputError(place, "the picture is truncated");
     }
+    const int wanted_channels = has_opacity(bytes, channels) ? 4 : 3;
     if (Source probe(bytes); stbi_is_hdr_from_callbacks(&callbacks, &probe)) {
-        return load(bytes, place, stbi_loadf_from_callbacks, [](float v) { return v; });
+        return load(bytes, place, 3, stbi_loadf_from_callbacks, [](float v) { return v; });
     }
     if (Source probe(bytes); stbi_is_16_bit_from_callbacks(&callbacks, &probe)) {
-        return load(bytes, place, stbi_load_16_from_callbacks,
+        return load(bytes, place, wanted_channels, stbi_load_16_from_callbacks,
                     [table = decoding_table<std::uint16_t>(encoding)](std::uint16_t v) { return table[v]; });
     }
-    return load(bytes, place, stbi_load_from_callbacks,
+    return load(bytes, place, wanted_channels, stbi_load_from_callbacks,
                 [table = decoding_table<std::uint8_t>(encoding)](std::uint8_t v) { return table[v]; });
 }
 

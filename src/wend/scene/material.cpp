@@ -239,6 +239,26 @@ Bsdf make_bsdf(const Material& material, const Textures& textures, const Texture
     return std::visit([&](const auto& m) { return bsdf_of(m, textures, p); }, material);
 }
 
+bool is_directed(const Material& material) {
+    struct Directed {
+        static bool of(const Roughness& roughness) { return roughness.u != roughness.v; }
+        bool operator()(const DiffuseMaterial&) const { return false; }
+        bool operator()(const DiffuseTransmissionMaterial&) const { return false; }
+        bool operator()(const ThinDielectricMaterial&) const { return false; }
+        bool operator()(const InterfaceMaterial&) const { return false; }
+        bool operator()(const ConductorMaterial& m) const { return of(m.roughness); }
+        bool operator()(const DielectricMaterial& m) const { return of(m.roughness); }
+        bool operator()(const CoatedMaterial& m) const { return of(m.roughness) || std::visit(*this, m.base); }
+        bool operator()(const PrincipledMaterial& m) const { return m.anisotropy >= 0; }
+        bool operator()(const HairMaterial&) const { return true; }
+        bool operator()(const MeasuredMaterial&) const { return true; }
+        bool operator()(const DisneyMaterial&) const { return true; }
+        bool operator()(const DisneySheetMaterial&) const { return true; }
+        bool operator()(const MixMaterial&) const { return true; }
+    };
+    return std::visit(Directed{}, material);
+}
+
 int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p) {
     while (const auto* mix = std::get_if<MixMaterial>(&materials[static_cast<std::size_t>(index)])) {
         const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(key_of(p.position), index) >> 32));

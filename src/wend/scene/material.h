@@ -163,6 +163,9 @@ using Material = std::variant<DiffuseMaterial, DiffuseTransmissionMaterial, Cond
 /// The BSDF at a point. The material must be neither an interface nor a mixture.
 Bsdf make_bsdf(const Material& material, const Textures& textures, const TexturePoint& p);
 
+/// Whether a material looks different when it is turned about its normal, or may do so.
+bool is_directed(const Material& material);
+
 /// Which of the materials is there: `index`, or where that is a mixture, what the point has of it.
 int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p);
 

@@ -126,6 +126,9 @@ RayCaster::RayCaster(const SceneDescription& description, const RayCaster* other
         placements_.push_back(instance.world_from_object.at(0));
         is_moving_ = is_moving_ || instance.world_from_object.is_moving();
     }
+    for (std::size_t i = 0; i < d_.materials.size(); ++i) {
+        has_direction_.push_back(is_directed(d_.materials[i]) || (i < d_.details.size() && d_.details[i].normal_map));
+    }
     SeenShapes shapes(d_);
     structure_ =
         other && other->structure_->is_of(shapes)
@@ -180,7 +183,8 @@ Hit RayCaster::complete(const RayHit& raw, const Ray& ray) const {
     const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
     const bool has_uv = !std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;
     std::optional<Placement> moved;
-    return completed(raw, ray, surface, placement_of(raw.element.instance, ray.time, moved), has_uv);
+    return completed(raw, ray, surface, placement_of(raw.element.instance, ray.time, moved),
+                     {has_uv, has_direction_[static_cast<std::size_t>(surface.material)]});
 }
 
 Vec3 RayCaster::normal_change(const Hit& hit, const Vec3& displacement) const {

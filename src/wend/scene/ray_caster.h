@@ -59,6 +59,7 @@ private:
     std::shared_ptr<const AccelerationStructure> structure_;
     std::vector<Placement> placements_;  ///< of instances, at time 0
     bool is_moving_ = false;
+    std::vector<bool> has_direction_;  ///< by material: whether it matters where along the surface tangents are
 };
 
 }  // namespace wend

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -29,9 +30,18 @@ struct TriangleMesh {
     std::vector<Vec3> end_positions{};   ///< at time 1; empty where nothing moves
     std::vector<Vec3> end_normals{};     ///< at time 1; empty where nothing moves, or there are no normals
     std::vector<Vec3> tangents{};        ///< along which a surface is brushed; without them, along u
+    /// From this triangle on, two in a row are a quadrilateral: its corners 0, 1, 2 and 0, 2, 3.
+    std::size_t first_quadrilateral = std::numeric_limits<std::size_t>::max();
 
     bool is_moving() const { return !end_positions.empty(); }
     std::size_t triangle_count() const { return indices.size() / 3; }
+    /// Whether a triangle is the second one of a quadrilateral.
+    bool is_second_half(std::size_t i) const { return i >= first_quadrilateral && (i - first_quadrilateral) % 2 == 1; }
+    /// The texture coordinates of a triangle's second and third corner where there are no others, as pbrt has them; the
+    /// first one's are (0,0).
+    std::array<Vec2, 2> default_uvs(std::size_t i) const {
+        return is_second_half(i) ? std::array{Vec2(1, 1), Vec2(0, 1)} : std::array{Vec2(1, 0), Vec2(1, 1)};
+    }
     Vec3 vertex(std::size_t triangle, int corner) const {
         return positions[indices[3 * triangle + static_cast<std::size_t>(corner)]];
     }

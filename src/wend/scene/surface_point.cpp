@@ -53,7 +53,7 @@ Vec3 largest_coordinates(const TriangleMesh& mesh, std::size_t triangle) {
 }
 
 /// Fills in what of a hit on a mesh needs no placement.
-LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
+LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, bool has_tangent, Hit& hit) {
     const std::uint32_t* i = &mesh.indices[3 * std::size_t{raw.element.primitive}];
     const auto [p0, p1, p2] = mesh.triangle(raw.element.primitive, hit.time);
     const Vec3 e1 = p1 - p0;
@@ -65,7 +65,11 @@ LocalPoint point_of(const TriangleMesh& mesh, const RayHit& raw, Hit& hit) {
     point.position = p0 + e1 * raw.u + e2 * raw.v;
     point.normal = cross(e1, e2);
     if (mesh.uvs.empty()) {
-        hit.uv = {raw.u + raw.v, raw.v};  // pbrt's default: (0,0), (1,0), (1,1)
+        const auto [uv1, uv2] = mesh.default_uvs(raw.element.primitive);
+        hit.uv = uv1 * raw.u + uv2 * raw.v;
+        if (has_tangent) {
+            point.tangents = tangents(e1, e2, uv1, uv2);
+        }
     } else {
         const Vec2 uv0 = mesh.uvs[i[0]], uv1 = mesh.uvs[i[1]], uv2 = mesh.uvs[i[2]];
         hit.uv = uv0 * w + uv1 * raw.u + uv2 * raw.v;
@@ -139,7 +143,8 @@ Frame shading_frame(const Vec3& shading, const Tangents& t) {
 
 }  // namespace
 
-Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const Placement* placement, bool has_uv) {
+Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const Placement* placement,
+              const AskedOfHit& asked) {
     Hit hit;
     hit.distance = raw.distance;
     hit.t = raw.t;
@@ -149,14 +154,14 @@ Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const P
     hit.light = hit.surface->first_light < 0 ? -1 : hit.surface->first_light + static_cast<int>(raw.element.primitive);
     LocalPoint point;
     if (const auto* mesh = std::get_if<TriangleMesh>(hit.surface->shape.get())) {
-        point = point_of(*mesh, raw, hit);
+        point = point_of(*mesh, raw, asked.tangent, hit);
     } else {
         const Vec3 in_world = ray.at(raw.distance);
         const Vec3 p = placement ? placement->object_from_world.point(in_world) : in_world;
         if (const auto* quadric = std::get_if<Quadric>(hit.surface->shape.get())) {
-            point = point_of(*quadric, p, has_uv, hit);
+            point = point_of(*quadric, p, asked.uv, hit);
         } else if (const auto* cylinder = std::get_if<CylinderShell>(hit.surface->shape.get())) {
-            point = point_of(*cylinder, p, has_uv, hit);
+            point = point_of(*cylinder, p, asked.uv, hit);
         } else {
             const Vec3 way = placement ? placement->object_from_world.vector(ray.direction) : ray.direction;
             point = point_of(std::get<CurveSet>(*hit.surface->shape), raw, p, way, hit);
@@ -235,9 +240,11 @@ SurfaceDerivatives surface_derivatives(const Hit& hit, const Placement* placemen
         const auto [p0, p1, p2] = mesh->triangle(hit.element.primitive, hit.time);
         const Vec3 e1 = p1 - p0;
         const Vec3 e2 = p2 - p0;
-        const bool has_uvs = !mesh->uvs.empty();
-        const Vec2 d1 = has_uvs ? mesh->uvs[i[1]] - mesh->uvs[i[0]] : Vec2(1, 0);
-        const Vec2 d2 = has_uvs ? mesh->uvs[i[2]] - mesh->uvs[i[0]] : Vec2(1, 1);
+        auto [d1, d2] = mesh->default_uvs(hit.element.primitive);
+        if (!mesh->uvs.empty()) {
+            d1 = mesh->uvs[i[1]] - mesh->uvs[i[0]];
+            d2 = mesh->uvs[i[2]] - mesh->uvs[i[0]];
+        }
         if (const Tangents u = tangents(e1, e2, d1, d2); u.valid) {
             d.dpdu = u.dpdu;
             d.dpdv = tangents(e1, e2, Vec2(d1.y, d1.x), Vec2(d2.y, d2.x)).dpdu;

@@ -123,9 +123,10 @@ Rgb Textures::value_of(const BilerpTexture& t, const TexturePoint& p) const {
 }
 
 Rgb Textures::value_of(const ImageTexture& t, const TexturePoint& p) const {
-    const Rgb value = look_up(t, map_to_texture(t.mapping, p)) * t.scale;
-    return t.invert ? Rgb(std::max(0.0f, 1 - value.r), std::max(0.0f, 1 - value.g), std::max(0.0f, 1 - value.b))
-                    : value;
+    const Rgb picture = look_up(t, map_to_texture(t.mapping, p)) * t.scale;
+    const Rgb value = t.invert ? Rgb(1.0f) - picture : picture;
+    return {std::clamp(value.r, t.least, t.most), std::clamp(value.g, t.least, t.most),
+            std::clamp(value.b, t.least, t.most)};
 }
 
 Rgb Textures::value_of(const CheckerboardTexture& t, const TexturePoint& p) const {

@@ -69,6 +69,9 @@ struct ImageTexture {
     bool nearest = false;  ///< the nearest pixel, not bilinear interpolation
     float scale = 1;
     bool invert = false;  ///< 1 - value, after the scale
+    /// What the value is limited to in the end.
+    float least = -infinity;
+    float most = infinity;
 };
 
 /// Two textures in the squares of a chess board of unit squares in (s, t), or of unit cubes in texture space.
@@ -133,6 +136,10 @@ public:
     float evaluate_grey(TextureId id, const TexturePoint& p) const { return evaluate(id, p).r; }
     /// The value, where the texture is the same everywhere; null otherwise.
     const Rgb* constant(TextureId id) const;
+    /// The texture, where it is a picture; null otherwise.
+    const ImageTexture* picture(TextureId id) const {
+        return std::get_if<ImageTexture>(&textures_[static_cast<std::size_t>(id)]);
+    }
 
 private:
     Rgb value_of(const ConstantTexture& t, const TexturePoint&) const { return t.value; }

@@ -8,6 +8,15 @@
 namespace wend {
 namespace {
 
+bool is_whole(const Sphere& sphere) {
+    return sphere.is_full();
+}
+
+bool is_whole(const Disk& disk) {
+    constexpr float full_turn = 6.283185f;
+    return !(disk.inner_radius > 0) && disk.phi_max >= full_turn;
+}
+
 /// Whether a triangle's normal must be reversed to lie on the side of its vertices' normals, or else as the surface
 /// says.
 bool flips(const Surface& surface, const TriangleMesh& mesh, std::size_t triangle) {
@@ -47,12 +56,16 @@ void attach_to_quadric(const AreaLight& light, const LampPlace& at, const Surfac
 
 /// Parameters of a triangle's corners, by default those of pbrt.
 void copy_uvs(const TriangleMesh& mesh, std::size_t triangle, TriangleLight& source) {
-    if (!mesh.uvs.empty()) {
-        const std::uint32_t* i = &mesh.indices[3 * triangle];
-        source.uv0 = mesh.uvs[i[0]];
-        source.uv1 = mesh.uvs[i[1]];
-        source.uv2 = mesh.uvs[i[2]];
+    if (mesh.uvs.empty()) {
+        const auto uvs = mesh.default_uvs(triangle);
+        source.uv1 = uvs[0];
+        source.uv2 = uvs[1];
+        return;
     }
+    const std::uint32_t* i = &mesh.indices[3 * triangle];
+    source.uv0 = mesh.uvs[i[0]];
+    source.uv1 = mesh.uvs[i[1]];
+    source.uv2 = mesh.uvs[i[2]];
 }
 
 /// A triangle of a mesh, which moves as the mesh does.
@@ -80,8 +93,10 @@ void attach_to_mesh(const AreaLight& light, const LampPlace& at, const Surface& 
     constexpr float smallest_area = 1e-30f;
     const std::size_t triangles = mesh.triangle_count();
     const std::shared_ptr<const EmissionProfile> profile = placed_profile(light, at);
-    const std::size_t together = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
+    const std::size_t evenly = at.shapes > 0 && triangles % at.shapes == 0 ? triangles / at.shapes : 1;
+    std::size_t together = 0;
     for (std::size_t first = 0; first < triangles; first += together) {
+        together = first >= mesh.first_quadrilateral ? 2 : evenly;
         const std::size_t begin = lights.size();
         float area = 0;
         for (std::size_t i = first; i < first + together; ++i) {
@@ -115,6 +130,24 @@ void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::
     } else {
         attach_to_mesh(light, at, surface, lights);
     }
+}
+
+std::string_view round_lamp_difference(std::string_view shape_type, const Shape& shape,
+                                       const Transform& world_from_object) {
+    const auto* quadric = std::get_if<Quadric>(&shape);
+    if (!quadric && shape_type != "cylinder") {
+        return "";
+    }
+    if (quadric && !std::visit([](const auto& s) { return is_whole(s); }, quadric->shape)) {
+        return "of which a part is cut out is lit from by pbrt as if it were whole";
+    }
+    constexpr float tolerance = 1e-3f;
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+        if (std::abs(length_squared(world_from_object.vector(axis)) - 1) > tolerance) {
+            return "that is scaled shines in pbrt with the area that it has before";
+        }
+    }
+    return "";
 }
 
 }  // namespace wend

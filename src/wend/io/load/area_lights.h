@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace wend {
@@ -41,5 +42,10 @@ struct LampPlace {
 /// Makes a surface shine: appends a light for each of its primitives and lets the surface refer to them. Triangles
 /// without area stay dark.
 void attach(const AreaLight& light, const LampPlace& at, Surface& surface, std::vector<Light>& lights);
+
+/// In what a lamp on a sphere, disk or cylinder differs from pbrt's, which draws points of it as if it were whole and
+/// of the size in its own space; empty where it is.
+std::string_view round_lamp_difference(std::string_view shape_type, const Shape& shape,
+                                       const Transform& world_from_object);
 
 }  // namespace wend

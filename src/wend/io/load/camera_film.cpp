@@ -16,12 +16,15 @@ namespace {
 // The most that filters and samples per pixel can sensibly be asked for: beyond, a number is a mistake.
 constexpr float largest_filter_radius = 1000;
 
-/// `count` numbers, or none where the parameter is absent.
+/// `count` numbers, or none where the parameter is absent or has another number of them.
 template <class Numbers>
-Numbers exactly(const pbrt::ParameterSet& parameters, std::string_view name, Numbers values, std::size_t count) {
+Numbers exactly(LoadContext& context, const pbrt::ParameterSet& parameters, std::string_view name, Numbers values,
+                std::size_t count) {
     if (!values.empty() && values.size() != count) {
-        throw InputError(parameters.place_of(name),
-                         fmt::format("\"{}\" takes {} values, not {}", name, count, values.size()));
+        context.warnings.add(
+            parameters.place_of(name),
+            fmt::format("\"{}\" takes {} values, not {}: it is ignored, as by pbrt", name, count, values.size()));
+        return {};
     }
     return values;
 }
@@ -68,8 +71,9 @@ float load_aspect(const pbrt::ParameterSet& parameters, const Vec2i& resolution)
 }
 
 /// The file's own, if there is one.
-std::optional<ScreenWindow> load_screen_window(const pbrt::ParameterSet& parameters) {
-    const std::vector<float> window = exactly(parameters, "screenwindow", parameters.get_floats("screenwindow"), 4);
+std::optional<ScreenWindow> load_screen_window(LoadContext& context, const pbrt::ParameterSet& parameters) {
+    const std::vector<float> window =
+        exactly(context, parameters, "screenwindow", parameters.get_floats("screenwindow"), 4);
     if (window.empty()) {
         return std::nullopt;
     }
@@ -87,6 +91,16 @@ ScreenWindow screen_window_of(float aspect) {
     return {-x, x, -y, y};
 }
 
+/// What a pinhole is focused on does not matter, be it 0.
+float load_focal_distance(const pbrt::ParameterSet& parameters, float lens_radius) {
+    constexpr float far_away = 1e6f;
+    if (lens_radius > 0) {
+        return positive_float(parameters, "focaldistance", far_away);
+    }
+    static_cast<void>(parameters.get_float("focaldistance", far_away));
+    return far_away;
+}
+
 PerspectiveCamera load_perspective(const pbrt::ParameterSet& parameters, const ScreenWindow& screen) {
     const float fov = parameters.get_float("fov", 90);
     if (!(fov > 0 && fov < 180)) {
@@ -94,9 +108,10 @@ PerspectiveCamera load_perspective(const pbrt::ParameterSet& parameters, const S
                          fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
     }
     const float scale = std::tan(0.5f * fov * pi / 180);
+    const float lens_radius = non_negative_float(parameters, "lensradius", 0);
     return {{screen.x_min * scale, screen.x_max * scale, screen.y_min * scale, screen.y_max * scale},
-            non_negative_float(parameters, "lensradius", 0),
-            positive_float(parameters, "focaldistance", 1e6f)};
+            lens_radius,
+            load_focal_distance(parameters, lens_radius)};
 }
 
 SphericalCamera load_spherical(const pbrt::ParameterSet& parameters) {
@@ -179,8 +194,8 @@ FilmSettings load_film(LoadContext& context, const pbrt::Entity& film, const std
                                      settings.resolution.x, settings.resolution.y, Film::max_pixels));
     }
     settings.crop = {{0, 0}, settings.resolution};
-    const auto bounds = exactly(p, "pixelbounds", p.get_ints("pixelbounds"), 4);
-    const auto window = exactly(p, "cropwindow", p.get_floats("cropwindow"), 4);
+    const auto bounds = exactly(context, p, "pixelbounds", p.get_ints("pixelbounds"), 4);
+    const auto window = exactly(context, p, "cropwindow", p.get_floats("cropwindow"), 4);
     if (!window.empty()) {
         settings.crop = load_crop_window(p, window, settings.resolution);
     } else if (!bounds.empty()) {
@@ -207,14 +222,14 @@ Camera load_camera(LoadContext& context, const pbrt::CameraEntity& camera, const
     const pbrt::ParameterSet& p = camera.parameters;
     const Vec2i resolution = film.resolution;
     const float aspect = load_aspect(p, resolution);
-    const std::optional<ScreenWindow> window = load_screen_window(p);
+    const std::optional<ScreenWindow> window = load_screen_window(context, p);
     const ScreenWindow screen = window.value_or(screen_window_of(aspect));
     Camera::Kind kind;
     if (camera.type == "perspective") {
         kind = load_perspective(p, screen);
     } else if (camera.type == "orthographic") {
-        kind = OrthographicCamera{screen, non_negative_float(p, "lensradius", 0),
-                                  positive_float(p, "focaldistance", 1e6f)};
+        const float lens_radius = non_negative_float(p, "lensradius", 0);
+        kind = OrthographicCamera{screen, lens_radius, load_focal_distance(p, lens_radius)};
     } else if (camera.type == "spherical") {
         kind = load_spherical(p);
     } else if (camera.type == "panorama") {

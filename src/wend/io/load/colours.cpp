@@ -9,14 +9,19 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace wend {
 namespace {
 
-/// The spectrum that samples stand for, with the place of those that stand for none.
-std::function<double(double)> spectrum_of(const std::vector<SpectrumSample>& samples, const Place& place) {
+/// The spectrum that samples stand for, with the place of those that stand for none. Measured ones may fall below 0
+/// where there is next to nothing.
+std::function<double(double)> spectrum_of(std::vector<SpectrumSample> samples, const Place& place) {
+    for (SpectrumSample& sample : samples) {
+        sample.value = std::max(sample.value, 0.0f);
+    }
     try {
-        return spectrum_from_pairs(samples);
+        return spectrum_from_pairs(std::move(samples));
     } catch (const InputError& error) {
         throw InputError(place, error.what());
     }

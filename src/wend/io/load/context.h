@@ -39,6 +39,7 @@ class LoadedParts;
 struct LoadContext {
     std::filesystem::path base_directory;
     Warnings warnings;
+    bool is_for_pbrt = false;  ///< pbrt::Description::is_for_pbrt
     /// That were read so far, in order.
     std::shared_ptr<std::set<std::filesystem::path>> files = std::make_shared<std::set<std::filesystem::path>>();
     /// Triangles that subdivision led to so far.

@@ -64,7 +64,7 @@ Points bezier_points(const Layout& layout, const std::vector<Vec3>& points, std:
     return {between(first, second, 0.5f), second, third, between(third, fourth, 0.5f)};
 }
 
-CurveSet::Kind load_kind(const pbrt::ParameterSet& p) {
+CurveSet::Kind load_kind(LoadContext& context, const pbrt::ParameterSet& p) {
     const std::string type = p.get_string("type", "flat");
     if (type == "flat") {
         return CurveSet::Kind::flat;
@@ -78,8 +78,11 @@ CurveSet::Kind load_kind(const pbrt::ParameterSet& p) {
     if (type == "round") {
         return CurveSet::Kind::round;
     }
-    throw InputError(p.place_of("type"),
-                     fmt::format("the type of curve \"{}\" is unknown; known are flat, cylinder, ribbon, round", type));
+    context.warnings.add(p.place_of("type"),
+                         fmt::format("the type of curve \"{}\" is unknown; known are flat, cylinder, "
+                                     "ribbon, round: cylinder takes its place, as in pbrt",
+                                     type));
+    return CurveSet::Kind::cylinder;
 }
 
 /// Of ribbons, one at each end of a segment.
@@ -125,7 +128,7 @@ Shape load_curve(LoadContext& context, pbrt::ShapeEntity& shape) {
     const float last = non_negative_float(p, "width1", width) * scale;
     constexpr int deepest_split = 4;
     CurveSet curves;
-    curves.kind = load_kind(p);
+    curves.kind = load_kind(context, p);
     curves.pieces = 1u << std::clamp(p.get_int("splitdepth", 3), 0, deepest_split);
     const std::vector<Vec3> normals = load_normals(context, shape, curves.kind, layout.segments);
     const auto width_after = [&](std::size_t segments) {

@@ -255,7 +255,7 @@ float illuminance_of(const Image& sky) {
 }
 
 /// The corners of "portal", which pbrt takes to be in the world, whatever the transform of the light.
-std::array<Vec3, 4> load_portal(const pbrt::ParameterSet& p) {
+std::array<Vec3, 4> load_portal(LoadContext& context, const pbrt::ParameterSet& p) {
     const std::vector<Vec3> given = p.get_point3s("portal");
     if (given.size() != 4) {
         throw InputError(p.place_of("portal"), fmt::format("a portal has 4 corners, not {}", given.size()));
@@ -264,17 +264,22 @@ std::array<Vec3, 4> load_portal(const pbrt::ParameterSet& p) {
     const Vec3 sides[] = {side(0, 1), side(1, 2), side(3, 2), side(0, 3)};
     constexpr float tolerance = 1e-3f;
     const auto cosine = [&](int a, int b) { return dot(normalize(sides[a]), normalize(sides[b])); };
-    // Written so that sides without length are refused.
     const bool is_rectangle = std::abs(cosine(0, 2) - 1) <= tolerance && std::abs(cosine(1, 3) - 1) <= tolerance &&
                               std::abs(cosine(0, 1)) <= tolerance && std::abs(cosine(0, 3)) <= tolerance;
-    if (!is_rectangle) {
+    // Written so that sides without length are refused.
+    if (!(length_squared(cross(normalize(sides[0]), normalize(sides[3]))) > tolerance)) {
         throw InputError(p.place_of("portal"), "the corners of the portal are not those of a rectangle");
+    }
+    if (!is_rectangle) {
+        context.warnings.add(p.place_of("portal"),
+                             "the corners of the portal are not those of a rectangle: it is the one along the first "
+                             "and the last side from the first to the third, as in pbrt");
     }
     return {given[0], given[1], given[2], given[3]};
 }
 
 /// A picture at infinity, everywhere or through a portal.
-Light make_sky(const pbrt::LightEntity& light, Image image) {
+Light make_sky(LoadContext& context, const pbrt::LightEntity& light, Image image) {
     const pbrt::ParameterSet& p = light.parameters;
     float scale = non_negative_float(p, "scale", 1);
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {
@@ -283,7 +288,7 @@ Light make_sky(const pbrt::LightEntity& light, Image image) {
     }
     if (p.has("portal")) {
         return PortalInfiniteLight{
-            std::make_shared<const PortalLight>(image, scale, light.world_from_light, load_portal(p))};
+            std::make_shared<const PortalLight>(image, scale, light.world_from_light, load_portal(context, p))};
     }
     return ImageInfiniteLight(std::move(image), scale, light.world_from_light);
 }
@@ -325,10 +330,10 @@ Light load_infinite(LoadContext& context, TextureLoader& textures, const pbrt::L
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an infinite light takes either \"L\" or \"filename\"");
         }
-        return make_sky(light, load_sky(context, textures, light));
+        return make_sky(context, light, load_sky(context, textures, light));
     }
     if (p.has("portal")) {
-        return make_sky(light, Image(1, 1, load_light_of_portal(context, p)));
+        return make_sky(context, light, Image(1, 1, load_light_of_portal(context, p)));
     }
     Rgb radiance = load_scaled(context, p, "L");
     if (const float illuminance = load_target(p, "illuminance"); illuminance > 0) {

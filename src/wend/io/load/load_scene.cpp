@@ -55,9 +55,7 @@ public:
           textures_(context, scene.textures) {}
 
     void build() {
-        for (const pbrt::TextureEntity& texture : description_.textures) {
-            textures_.add(texture);
-        }
+        textures_.add(description_.textures);
         for (const pbrt::MediumEntity& medium : description_.media) {
             const int group = light_group(medium);
             scene_.media.push_back(load_part(
@@ -161,10 +159,21 @@ private:
             .shape;
     }
 
+    /// pbrt connects to a mirrored sphere, disk or cylinder on the side that it shines to before it is mirrored, though
+    /// its normals turn: such a lamp is turned back here, so that it lights what it does in pbrt.
+    bool is_lamp_turned_by_mirror(const pbrt::ShapeEntity& entity, bool bounds_medium) const {
+        const bool is_round = entity.type == "sphere" || entity.type == "disk" || entity.type == "cylinder";
+        return context_.is_for_pbrt && is_round && entity.area_light && !bounds_medium && !entity.motion &&
+               entity.world_from_object.swaps_handedness();
+    }
+
     void add_shape(std::size_t index) {
-        const pbrt::ShapeEntity& entity = description_.shapes[index];
+        pbrt::ShapeEntity& entity = description_.shapes[index];
         const MediumId interior = inside_[entity.material].value_or(medium_id(entity.interior));
         const MediumId exterior = medium_id(entity.exterior);
+        if (is_lamp_turned_by_mirror(entity, interior != exterior)) {
+            entity.reverse_orientation = !entity.reverse_orientation;
+        }
         const std::size_t patches = patches_of(entity);
         const ObjectNames::Name name = name_of(entity);
         const std::optional<SharedShape> shape = shape_of(index, entity.area_light || interior != exterior);
@@ -294,6 +303,11 @@ private:
                                   : surface.alpha < 0        ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
                                                              : Presence::partly;
+        const auto difference = round_lamp_difference(entity.type, *surface.shape, entity.world_from_object);
+        if (context_.is_for_pbrt && !difference.empty()) {
+            context_.warnings.add(entity.place, fmt::format("a \"{}\" with an AreaLightSource {}: its light differs",
+                                                            entity.type, difference));
+        }
         const std::size_t first = scene_.lights.size();
         attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface, scene_.lights);
         group_lights_from(first, area_light_groups_[*entity.area_light]);
@@ -346,7 +360,7 @@ private:
     }
 
     TextureId load_alpha(const pbrt::ShapeEntity& entity) {
-        std::optional<TextureId> alpha = textures_.find_real(entity.parameters, "alpha");
+        std::optional<TextureId> alpha = textures_.find_presence(entity.parameters, "alpha");
         if (const TextureId presence = presences_[entity.material]; presence >= 0) {
             alpha = alpha ? textures_.product(*alpha, presence) : presence;
         }
@@ -388,6 +402,7 @@ namespace {
 LoadedScene build_scene(pbrt::Description& description, const LoadOverrides& overrides, LoadedParts* parts) {
     const LoadedParts earlier = parts ? std::exchange(*parts, {}) : LoadedParts();
     LoadContext context{description.base_directory, {}};
+    context.is_for_pbrt = description.is_for_pbrt;
     context.earlier = parts ? &earlier : nullptr;
     context.parts = parts;
     context.files->insert(description.files.begin(), description.files.end());

@@ -274,6 +274,11 @@ private:
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
         DielectricMaterial boundary{load_ior(entity.parameters, "eta", 1.33f), load_roughness(entity.parameters, "")};
         const HomogeneousMedium inside = load_inside(entity, boundary);
+        if (context_.is_for_pbrt) {
+            context_.warnings.add(entity.place,
+                                  "the inside of a \"subsurface\" is walked through: the diffusion that pbrt takes for "
+                                  "it is up to 10 % off on a plane, and more where an object is thin");
+        }
         return {boundary, inside};
     }
 
@@ -414,6 +419,10 @@ private:
             const auto* named = std::get_if<pbrt::NamedSpectrum>(&value);
             const auto glass = named ? glass_index(named->name) : std::nullopt;
             ior = glass ? *glass : mean(reduce_colour(context_, value, SpectrumKind::unbounded, p.place_of(name)));
+        }
+        if (ior == 0) {
+            context_.warnings.add(p.place_of(name), "a refractive index of 0 is taken for 1, as in pbrt");
+            return 1;
         }
         if (!(ior > 0) || !std::isfinite(ior)) {
             throw InputError(p.place_of(name), fmt::format("a refractive index must be above 0, not {}", ior));

@@ -26,10 +26,17 @@ Medium load_homogeneous(LoadContext& context, const pbrt::MediumEntity& entity) 
     const pbrt::ParameterSet& p = entity.parameters;
     const float scale = non_negative_float(p, "scale", 1);
     HomogeneousMedium medium;
-    if (p.has("preset")) {
-        const MediumPreset measured = required_preset(p, "preset");
-        medium.absorption = measured.sigma_a * scale;
-        medium.scattering = measured.sigma_prime_s * scale;
+    const std::string preset = p.get_string("preset", "");
+    const auto measured = medium_preset(preset);
+    if (!preset.empty() && !measured) {
+        context.warnings.add(p.place_of("preset"),
+                             fmt::format("the medium \"{}\" is unknown; known are {}: \"sigma_a\" and \"sigma_s\" "
+                                         "take its place, as in pbrt",
+                                         preset, fmt::join(medium_preset_names(), ", ")));
+    }
+    if (measured) {
+        medium.absorption = measured->sigma_a * scale;
+        medium.scattering = measured->sigma_prime_s * scale;
     } else {
         const Coefficients coefficients = load_coefficients(context, p);
         medium.absorption = coefficients.absorption;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace wend {
@@ -14,6 +16,26 @@ void require_one_a_vertex(LoadContext& context, const pbrt::ShapeEntity& shape, 
         context.warnings.add(shape.parameters.place_of(name),
                              fmt::format("\"{}\" has not one value a vertex and is ignored", name));
         values.clear();
+    }
+}
+
+/// To the world. Normals of unequal length keep their ratios: the longer one counts more between them, as in pbrt.
+void place_normals(const pbrt::ShapeEntity& shape, std::vector<Vec3>& normals) {
+    float shortest = infinity, longest = 0;
+    for (Vec3& n : normals) {
+        const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
+        const float size = is_finite(mapped) ? length(mapped) : 0.0f;
+        // A normal that is no direction leaves its part of the surface flat.
+        n = size > 0 && std::isfinite(size) ? mapped : Vec3(0, 0, 0);
+        if (n != Vec3(0, 0, 0)) {
+            shortest = std::min(shortest, size);
+            longest = std::max(longest, size);
+        }
+    }
+    constexpr float equal = 0.999f;
+    const bool is_even = shortest > equal * longest;
+    for (Vec3& n : normals) {
+        n = n == Vec3(0, 0, 0) ? n : is_even ? normalize(n) : n / longest;
     }
 }
 
@@ -43,7 +65,7 @@ std::vector<std::uint32_t> take_indices(pbrt::ShapeEntity& shape, std::string_vi
     return indices;
 }
 
-TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners) {
+TriangleMeshData take_faces(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners) {
     const pbrt::Location indices_place = shape.parameters.place_of("indices");
     TriangleMeshData mesh;
     mesh.positions = take_positions(shape);
@@ -56,15 +78,18 @@ TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners) {
         mesh.indices.resize(corners);
         std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
     }
-    if (mesh.indices.size() % corners != 0) {
-        throw InputError(indices_place, fmt::format("\"indices\" has {} values, which is no multiple of {}",
-                                                    mesh.indices.size(), corners));
+    if (const std::size_t excess = mesh.indices.size() % corners; excess != 0) {
+        context.warnings.add(indices_place,
+                             fmt::format("\"indices\" has {} values, which is no multiple of {}: those at its end are "
+                                         "left out, as by pbrt",
+                                         mesh.indices.size(), corners));
+        mesh.indices.resize(mesh.indices.size() - excess);
     }
     return mesh;
 }
 
 TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners) {
-    TriangleMeshData mesh = take_faces(shape, corners);
+    TriangleMeshData mesh = take_faces(context, shape, corners);
     mesh.normals = take_vectors<Vec3>(shape.parameters, "N", pbrt::ParameterType::normal3);
     mesh.uvs = take_vectors<Vec2>(shape.parameters, "uv", pbrt::ParameterType::point2);
     mesh.tangents = take_vectors<Vec3>(shape.parameters, "S", pbrt::ParameterType::vector3);
@@ -104,6 +129,7 @@ TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
     mesh.tangents = std::move(raw.tangents);
     mesh.end_positions = std::move(raw.end_positions);
     mesh.end_normals = std::move(raw.end_normals);
+    mesh.first_quadrilateral = raw.first_quadrilateral;
     for (auto* const positions : {&mesh.positions, &mesh.end_positions}) {
         for (Vec3& v : *positions) {
             v = shape.world_from_object.point(v);
@@ -116,13 +142,8 @@ TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
         t = shape.world_from_object.vector(t);
         t = is_finite(t) ? t : Vec3(0, 0, 0);
     }
-    for (auto* const normals : {&mesh.normals, &mesh.end_normals}) {
-        for (Vec3& n : *normals) {
-            const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
-            // A normal that is no direction leaves its part of the surface flat.
-            n = is_finite(mapped) && length_squared(mapped) > 0 ? normalize(mapped) : Vec3(0, 0, 0);
-        }
-    }
+    place_normals(shape, mesh.normals);
+    place_normals(shape, mesh.end_normals);
     return mesh;
 }
 

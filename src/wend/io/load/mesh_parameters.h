@@ -33,8 +33,9 @@ std::vector<Vec3> take_positions(pbrt::ShapeEntity& shape);
 std::vector<std::uint32_t> take_indices(pbrt::ShapeEntity& shape, std::string_view name, std::size_t count,
                                         std::string_view what);
 
-/// The parameters P and indices, `corners` of these a face. Without indices the vertices are a single face.
-TriangleMeshData take_faces(pbrt::ShapeEntity& shape, std::size_t corners);
+/// The parameters P and indices, `corners` of these a face; what is left at their end is dropped with a warning, as
+/// pbrt does. Without indices the vertices are a single face.
+TriangleMeshData take_faces(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners);
 
 /// take_faces(), and the parameters N and uv; those that are not one a vertex are dropped with a warning, as pbrt does.
 TriangleMeshData take_mesh(LoadContext& context, pbrt::ShapeEntity& shape, std::size_t corners);

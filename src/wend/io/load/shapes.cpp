@@ -22,8 +22,36 @@ Shape load_triangle_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     return place(shape, std::move(mesh));
 }
 
+/// Puts quadrilaterals, which are one shape each to pbrt, behind all triangles.
+void part_quadrilaterals(TriangleMeshData& mesh) {
+    if (mesh.quadrilaterals.empty()) {
+        return;
+    }
+    std::vector<std::uint32_t> last;
+    last.reserve(6 * mesh.quadrilaterals.size());
+    std::size_t kept = 0, next = 0;
+    for (std::size_t i = 0; i < mesh.indices.size();) {
+        const bool is_quadrilateral =
+            next < mesh.quadrilaterals.size() && i == 3 * std::size_t{mesh.quadrilaterals[next]};
+        const auto from = mesh.indices.begin() + static_cast<std::ptrdiff_t>(i);
+        if (is_quadrilateral) {
+            last.insert(last.end(), from, from + 6);
+            ++next;
+        } else {
+            std::copy(from, from + 3, mesh.indices.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += 3;
+        }
+        i += is_quadrilateral ? 6 : 3;
+    }
+    mesh.indices.resize(kept);
+    mesh.first_quadrilateral = kept / 3;
+    mesh.indices.insert(mesh.indices.end(), last.begin(), last.end());
+    mesh.quadrilaterals = {};
+}
+
 Shape load_ply_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     TriangleMeshData mesh = read_ply(required_file(context, shape, "filename"));
+    part_quadrilaterals(mesh);
     if (shape.parameters.get_texture("displacement")) {
         context.warnings.add(shape.parameters.place_of("displacement"), "the displacement of a \"plymesh\" is ignored");
     }
@@ -121,6 +149,28 @@ Shape load_bilinear_mesh(LoadContext& context, pbrt::ShapeEntity& shape) {
     return place(shape, std::move(mesh));
 }
 
+/// Whether a sphere, disk or cylinder has no area: pbrt meets nothing there.
+bool is_nothing(const pbrt::ShapeEntity& shape) {
+    const pbrt::ParameterSet& p = shape.parameters;
+    const bool is_sphere = shape.type == "sphere", is_disk = shape.type == "disk";
+    if (!is_sphere && !is_disk && shape.type != "cylinder") {
+        return false;
+    }
+    const float radius = p.get_float("radius", 1);
+    if (radius < 0) {
+        return false;  // refused later
+    }
+    if (radius == 0 || p.get_float("phimax", 360) <= 0) {
+        return true;
+    }
+    if (is_disk) {
+        return p.get_float("innerradius", 0) >= radius;
+    }
+    const float end = is_sphere ? radius : 1;
+    const float z_min = p.get_float("zmin", -end), z_max = p.get_float("zmax", end);
+    return z_min == z_max || (is_sphere && (std::min(z_min, z_max) >= radius || std::max(z_min, z_max) <= -radius));
+}
+
 float load_sweep(const pbrt::ParameterSet& p) {
     return std::min(positive_float(p, "phimax", 360), 360.0f) * pi / 180;
 }
@@ -138,9 +188,6 @@ Cylinder load_cylinder_data(const pbrt::ParameterSet& p) {
     cylinder.radius = positive_float(p, "radius", 1);
     std::tie(cylinder.z_min, cylinder.z_max) = std::minmax({load_finite(p, "zmin", -1), load_finite(p, "zmax", 1)});
     cylinder.phi_max = load_sweep(p);
-    if (!(cylinder.z_min < cylinder.z_max)) {
-        throw InputError(p.place_of("zmin"), "nothing of the cylinder lies between \"zmin\" and \"zmax\"");
-    }
     return cylinder;
 }
 
@@ -184,9 +231,6 @@ Shape load_sphere(LoadContext&, pbrt::ShapeEntity& shape) {
     sphere.z_min = std::clamp(low, -sphere.radius, sphere.radius);
     sphere.z_max = std::clamp(high, -sphere.radius, sphere.radius);
     sphere.phi_max = load_sweep(p);
-    if (!(sphere.z_min < sphere.z_max)) {
-        throw InputError(p.place_of("zmin"), "nothing of the sphere lies between \"zmin\" and \"zmax\"");
-    }
     return Quadric(sphere, shape.world_from_object);
 }
 
@@ -197,9 +241,6 @@ Shape load_disk(LoadContext&, pbrt::ShapeEntity& shape) {
     disk.radius = positive_float(p, "radius", 1);
     disk.inner_radius = non_negative_float(p, "innerradius", 0);
     disk.phi_max = load_sweep(p);
-    if (!(disk.inner_radius < disk.radius)) {
-        throw InputError(p.place_of("innerradius"), "nothing of the disk lies between \"innerradius\" and \"radius\"");
-    }
     return Quadric(disk, shape.world_from_object);
 }
 
@@ -216,6 +257,10 @@ std::optional<Shape> load_shape(LoadContext& context, pbrt::ShapeEntity& shape, 
         {"plymesh", load_ply_mesh},           {"sphere", load_sphere},
         {"loopsubdiv", load_loop_surface},    {"subdivision", load_subdivision_surface},
         {"trianglemesh", load_triangle_mesh}};
+    if (is_nothing(shape)) {
+        context.warnings.add(shape.place, fmt::format("nothing of the \"{}\" is there: it is left out", shape.type));
+        return std::nullopt;
+    }
     for (const Loader& loader : loaders) {
         if (loader.type == shape.type) {
             Shape loaded =

@@ -204,7 +204,7 @@ Shape surface_of(LoadContext& context, const pbrt::ShapeEntity& shape, const Con
 }  // namespace
 
 Shape load_loop_surface(LoadContext& context, pbrt::ShapeEntity& shape) {
-    TriangleMeshData faces = take_faces(shape, 3);
+    TriangleMeshData faces = take_faces(context, shape, 3);
     ControlMesh control;
     control.positions = std::move(faces.positions);
     control.face_sizes.assign(faces.indices.size() / 3, 3);

@@ -1,6 +1,5 @@
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
-#include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/textures.h>
 
 #include <fmt/format.h>
@@ -35,12 +34,14 @@ ImageTexture::Wrap load_wrap(const pbrt::ParameterSet& p) {
 
 /// Pictures are interpolated bilinearly unless the nearest pixel is wanted: with many samples a pixel, the finer
 /// filters average to the same.
-std::string load_filter(const pbrt::ParameterSet& p) {
+std::string load_filter(LoadContext& context, const pbrt::ParameterSet& p) {
     const std::string filter = p.get_string("filter", "bilinear");
     if (filter != "point" && filter != "bilinear" && filter != "trilinear" && filter != "EWA" && filter != "ewa") {
-        throw InputError(
-            p.place_of("filter"),
-            fmt::format("the filter \"{}\" is unknown; known are point, bilinear, trilinear, EWA", filter));
+        context.warnings.add(p.place_of("filter"),
+                             fmt::format("the filter \"{}\" is unknown; known are point, bilinear, "
+                                         "trilinear, EWA: bilinear takes its place, as in pbrt",
+                                         filter));
+        return "bilinear";
     }
     return filter;
 }
@@ -73,11 +74,6 @@ float finite_float(const pbrt::ParameterSet& p, std::string_view name, float fal
 
 }  // namespace
 
-void TextureLoader::add(const pbrt::TextureEntity& texture) {
-    by_name_.insert_or_assign({texture.kind, texture.name}, load(texture));
-    context_.warnings.add_unused("Texture", texture);
-}
-
 TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
     struct Loader {
         std::string_view type;
@@ -109,18 +105,34 @@ TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
 
 TextureId TextureLoader::load_scale(const pbrt::TextureEntity& texture) {
     const TextureId tex = operand(texture, "tex", 1);
-    const TextureId scale = real(texture.parameters, "scale", 1);
-    return add_node(ScaleTexture{tex, scale}, {tex, scale}, texture.place);
+    const TextureId scale = number_operand(texture, "scale", 1);
+    // pbrt takes a constant factor for that of the picture itself, which it inverts afterwards.
+    const auto scaled = [&](TextureId picture, TextureId factor) -> std::optional<TextureId> {
+        const ImageTexture* image = textures_.picture(picture);
+        const Rgb* constant = textures_.constant(factor);
+        if (!image || !constant) {
+            return std::nullopt;
+        }
+        ImageTexture copy = *image;
+        copy.scale *= constant->r;
+        return textures_.add(std::move(copy));
+    };
+    std::optional<TextureId> whole = scaled(tex, scale);
+    if (!whole && texture.kind == pbrt::TextureKind::real) {
+        whole = scaled(scale, tex);
+    }
+    return whole ? *whole : add_node(ScaleTexture{tex, scale}, {tex, scale}, texture.place);
 }
 
 TextureId TextureLoader::load_mix(const pbrt::TextureEntity& texture) {
     const TextureId first = operand(texture, "tex1", 0);
     const TextureId second = operand(texture, "tex2", 1);
-    const TextureId amount = real(texture.parameters, "amount", 0.5f);
+    const TextureId amount = number_operand(texture, "amount", 0.5f);
     return add_node(MixTexture{first, second, amount}, {first, second, amount}, texture.place);
 }
 
-TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& texture, const std::string& filter) {
+TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& texture,
+                                                     const std::string& filter) const {
     const pbrt::ParameterSet& p = texture.parameters;
     const std::string channels = p.get_string("channels", "");
     if (channels != "" && channels != "luminance") {
@@ -129,14 +141,16 @@ TextureLoader::Channels TextureLoader::load_channels(const pbrt::TextureEntity& 
     }
     return texture.kind == pbrt::TextureKind::spectrum     ? Channels::of_surfaces
            : channels == "luminance"                       ? Channels::luminance
+           : filter == "point"                             ? Channels::first
            : filter == "bilinear" || filter == "trilinear" ? Channels::number
+           : use_ == Use::presence                         ? Channels::number
                                                            : Channels::first;
 }
 
 TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
     const pbrt::ParameterSet& p = texture.parameters;
     ImageTexture image;
-    const std::string filter = load_filter(p);
+    const std::string filter = load_filter(context_, p);
     image.nearest = filter == "point";
     const Channels channels = load_channels(texture, filter);
     const std::filesystem::path file = required_file(context_, texture, "filename");
@@ -161,6 +175,12 @@ TextureId TextureLoader::load_imagemap(const pbrt::TextureEntity& texture) {
     image.wrap = load_wrap(p);
     image.scale = finite_float(p, "scale", 1);
     image.invert = p.get_bool("invert", false);
+    if (texture.kind == pbrt::TextureKind::spectrum) {
+        image.least = 0;
+        image.most = use_ == Use::surface ? 1 : infinity;
+    } else if (image.invert) {
+        image.least = 0;
+    }
     static_cast<void>(p.get_float("maxanisotropy", 8));
     return textures_.add(std::move(image));
 }
@@ -204,7 +224,7 @@ Rgb TextureLoader::plain_value(const pbrt::TextureEntity& texture, std::string_v
     const pbrt::ParameterSet& p = texture.parameters;
     return texture.kind == pbrt::TextureKind::real
                ? Rgb(finite_float(p, name, fallback))
-               : get_colour(context_, p, name, SpectrumKind::reflectance).value_or(Rgb(fallback));
+               : get_colour(context_, p, name, kind_of_colours()).value_or(Rgb(fallback));
 }
 
 TextureId TextureLoader::load_bilerp(const pbrt::TextureEntity& texture) {
@@ -304,111 +324,6 @@ TextureMapping TextureLoader::load_mapping(const pbrt::TextureEntity& texture) {
                                       "planar: the texture coordinates as they are take its place, as in pbrt",
                                       kind));
     return UvMapping{};
-}
-
-TextureId TextureLoader::add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place) {
-    // A texture that uses the one before twice doubles the work with each step.
-    constexpr int most_evaluations = 10000;
-    int evaluations = 1;
-    for (const TextureId operand : operands) {
-        const auto found = evaluations_.find(operand);
-        evaluations += found == evaluations_.end() ? 1 : found->second;
-    }
-    if (evaluations > most_evaluations) {
-        throw InputError(place, fmt::format("the texture consists of more than {} parts", most_evaluations));
-    }
-    const TextureId id = textures_.add(std::move(texture));
-    evaluations_.emplace(id, evaluations);
-    return id;
-}
-
-TextureId TextureLoader::operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback) {
-    return texture.kind == pbrt::TextureKind::real ? real(texture.parameters, name, fallback)
-                                                   : colour(texture.parameters, name, Rgb(fallback));
-}
-
-TextureId TextureLoader::named(const std::string& name, pbrt::TextureKind kind, const Place& place) const {
-    const auto found = by_name_.find({kind, name});
-    if (found == by_name_.end()) {
-        throw InputError(place, fmt::format("the texture \"{}\" is not one of kind {}", name,
-                                            kind == pbrt::TextureKind::real ? "float" : "spectrum"));
-    }
-    return found->second;
-}
-
-std::optional<TextureId> TextureLoader::find_colour(const pbrt::ParameterSet& parameters, std::string_view name,
-                                                    SpectrumKind kind) {
-    const auto value = parameters.get_colour_or_texture(name);
-    if (!value) {
-        return std::nullopt;
-    }
-    const pbrt::Location& place = parameters.place_of(name);
-    if (const auto* texture = std::get_if<pbrt::TextureName>(&*value)) {
-        return named(texture->name, pbrt::TextureKind::spectrum, place);
-    }
-    return textures_.add_constant(reduce_colour(context_, std::get<pbrt::ColourValue>(*value), kind, place));
-}
-
-std::optional<TextureId> TextureLoader::find_real(const pbrt::ParameterSet& parameters, std::string_view name) {
-    return parameters.has(name) ? std::optional(real(parameters, name, 0)) : std::nullopt;
-}
-
-TextureId TextureLoader::colour(const pbrt::ParameterSet& parameters, std::string_view name, const Rgb& fallback) {
-    const std::optional<TextureId> found = find_colour(parameters, name, SpectrumKind::reflectance);
-    return found ? *found : textures_.add_constant(fallback);
-}
-
-TextureId TextureLoader::real(const pbrt::ParameterSet& parameters, std::string_view name, float fallback) {
-    const auto value = parameters.get_float_or_texture(name, fallback);
-    if (const auto* texture = std::get_if<pbrt::TextureName>(&value)) {
-        return named(texture->name, pbrt::TextureKind::real, parameters.place_of(name));
-    }
-    const float number = std::get<float>(value);
-    if (!std::isfinite(number)) {
-        throw InputError(parameters.place_of(name), fmt::format("\"{}\" must be finite", name));
-    }
-    return textures_.add_constant(Rgb(number));
-}
-
-TextureId TextureLoader::complement(TextureId number) {
-    const Rgb* value = textures_.constant(number);
-    return value ? constant(Rgb(1 - value->r))
-                 : textures_.add(MixTexture{constant(Rgb(1.0f)), constant(Rgb(0.0f)), number});
-}
-
-TextureId TextureLoader::product(TextureId a, TextureId b) {
-    const Rgb *first = textures_.constant(a), *second = textures_.constant(b);
-    return first && second ? constant(Rgb(first->r * second->r)) : textures_.add(ScaleTexture{a, b});
-}
-
-Rgb TextureLoader::mean(TextureId id) const {
-    if (const Rgb* constant = textures_.constant(id)) {
-        return *constant;
-    }
-    constexpr int side = 64;
-    Rgb sum;
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            const Vec2 uv((static_cast<float>(x) + 0.5f) / side, (static_cast<float>(y) + 0.5f) / side);
-            // What depends on the place instead varies over a cube around the origin.
-            const Vec3 position(2 * uv.x - 1, 2 * uv.y - 1, static_cast<float>((x * 37 + y * 29) % side) / 32 - 1);
-            const auto triangle = static_cast<std::uint32_t>(y * side + x);
-            sum += textures_.evaluate(id, {uv, position, {0, 0, 1}, false, triangle, {1.0f / 3, 1.0f / 3}});
-        }
-    }
-    return sum / static_cast<float>(side * side);
-}
-
-std::shared_ptr<const Image> TextureLoader::picture(const std::filesystem::path& file, const std::string& encoding,
-                                                    const Place& place, Channels channels) {
-    std::shared_ptr<const Image>& image = pictures_[{file.lexically_normal().string(), encoding, channels}];
-    if (!image) {
-        const std::tuple key(file.lexically_normal().string(), encoding, channels);
-        image = read_part(context_, &LoadedParts::pictures, key, file, [&] {
-            return std::make_shared<const Image>(read_channels(file, encoding, place, channels));
-        });
-    }
-    return image;
 }
 
 }  // namespace wend

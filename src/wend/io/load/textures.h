@@ -13,6 +13,7 @@
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace wend {
 
@@ -22,8 +23,9 @@ public:
     /// Both must outlive this.
     TextureLoader(LoadContext& context, Textures& textures) : context_(context), textures_(textures) {}
 
-    /// Throws InputError for an unknown type, a missing or broken picture, or a texture of the other kind.
-    void add(const pbrt::TextureEntity& texture);
+    /// Adds all of them, which must outlive this: they may refer to each other in any order. Throws InputError for an
+    /// unknown type, a missing or broken picture, a texture of the other kind or one that is made of itself.
+    void add(const std::vector<pbrt::TextureEntity>& textures);
 
     /// The reflectance or number, or texture of such, that a parameter gives; a constant where it is absent.
     TextureId colour(const pbrt::ParameterSet& parameters, std::string_view name, const Rgb& fallback);
@@ -33,6 +35,8 @@ public:
     std::optional<TextureId> find_colour(const pbrt::ParameterSet& parameters, std::string_view name,
                                          SpectrumKind kind);
     std::optional<TextureId> find_real(const pbrt::ParameterSet& parameters, std::string_view name);
+    /// The same of a share of a surface that is there, for which pbrt filters no picture.
+    std::optional<TextureId> find_presence(const pbrt::ParameterSet& parameters, std::string_view name);
 
     /// The albedo that colours a medium of the given one by a texture, over its own.
     TextureId relative_albedo(TextureId reflectance, std::shared_ptr<const AlbedoInversion> albedo_of,
@@ -56,6 +60,10 @@ public:
                                          const Place& place, Channels channels = Channels::colours);
 
 private:
+    /// What a texture is asked for: pictures differ a little. Colours of surfaces are from 0 to 1, others not below 0;
+    /// of a picture with several channels that is filtered finely, numbers are the first one, and presences are not.
+    enum class Use { surface, unbounded, number, presence };
+
     TextureId load(const pbrt::TextureEntity& texture);
     TextureId load_constant(const pbrt::TextureEntity& texture);
     TextureId load_scale(const pbrt::TextureEntity& texture);
@@ -77,15 +85,21 @@ private:
     TextureId add_node(Texture texture, std::initializer_list<TextureId> operands, const Place& place);
     /// A parameter of the texture's own kind.
     TextureId operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
-    TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place) const;
-    static Channels load_channels(const pbrt::TextureEntity& texture, const std::string& filter);
+    TextureId number_operand(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
+    SpectrumKind kind_of_colours() const;
+    TextureId named(const std::string& name, pbrt::TextureKind kind, const Place& place, Use use);
+    TextureId number(const pbrt::ParameterSet& parameters, std::string_view name, float fallback, Use use);
+    Channels load_channels(const pbrt::TextureEntity& texture, const std::string& filter) const;
     TextureMapping load_mapping(const pbrt::TextureEntity& texture);
     /// A value that cannot be a texture itself.
     Rgb plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
 
     LoadContext& context_;
     Textures& textures_;
-    std::map<std::pair<pbrt::TextureKind, std::string>, TextureId> by_name_;
+    std::map<std::pair<pbrt::TextureKind, std::string>, const pbrt::TextureEntity*> entities_;
+    std::map<std::tuple<pbrt::TextureKind, std::string, Use>, TextureId> by_name_;
+    std::vector<const pbrt::TextureEntity*> open_;  ///< that are being loaded, each for the sake of the next
+    Use use_ = Use::number;                         ///< of the innermost
     std::map<std::tuple<std::string, std::string, Channels>, std::shared_ptr<const Image>> pictures_;
     std::map<TextureId, int> evaluations_;  ///< how many an evaluation takes, of textures made of others
 };

@@ -83,6 +83,7 @@ struct TransformTimes {
 struct Description {
     std::filesystem::path base_directory;
     std::vector<std::filesystem::path> files;  ///< that were parsed; none if the text is no file
+    bool is_for_pbrt = false;  ///< whether it is a text as pbrt reads them, and not made of what another program has
 
     // Directives that a file need not have start with the types that pbrt takes then.
     CameraEntity camera{{"perspective", {}, {}}, {}, {}};
@@ -95,8 +96,8 @@ struct Description {
     ParameterSet options;
 
     std::vector<MaterialEntity> materials{
-        {{"diffuse", {}, {}}, ""}};       ///< the first is that of shapes before any Material
-    std::vector<TextureEntity> textures;  ///< those a texture refers to come before it
+        {{"diffuse", {}, {}}, ""}};  ///< the first is that of shapes before any Material
+    std::vector<TextureEntity> textures;
     std::vector<MediumEntity> media;
     std::vector<LightEntity> lights;
     std::vector<Entity> area_lights;

@@ -413,8 +413,6 @@ void DescriptionBuilder::texture(std::string name, std::string kind, std::string
         throw InputError(place, fmt::format("\"{}\": expected a texture of kind float or spectrum", kind));
     }
     parameters.set_defaults(state().defaults.texture);
-    // A texture refers to earlier ones only, as in pbrt; so there are no cycles.
-    require_textures(parameters);
     const Transform* transform = still_transform(place, fmt::format("the texture \"{}\" is not transformed", name));
     textures_.define(kind + ' ' + name, place);
     texture_names_.insert(name);
@@ -437,6 +435,7 @@ Description DescriptionBuilder::finish(const Location& end) {
             require_textures(entity.parameters);
         }
     };
+    require_textures_of(description_.textures);
     require_textures_of(description_.materials);
     require_textures_of(description_.media);
     require_textures_of(description_.lights);

@@ -54,6 +54,7 @@ Description Parser::parse() {
     read_directives();
     Description description = builder_.finish(next_location());
     description.files = tokens_.files();
+    description.is_for_pbrt = true;
     return description;
 }
 

@@ -17,13 +17,14 @@ constexpr std::size_t most_files = 100'000;
 std::filesystem::path find_file(const std::string& name, const Location& place,
                                 const std::filesystem::path& base_directory) {
     std::error_code ignored;
-    if (place.file) {
+    const std::filesystem::path beside_main = base_directory / name;
+    if (place.file && !std::filesystem::exists(beside_main, ignored)) {
         const std::filesystem::path beside = place.file->directory / name;
         if (std::filesystem::exists(beside, ignored)) {
             return beside;
         }
     }
-    return base_directory / name;
+    return beside_main;
 }
 
 TokenStream::Source::Source(std::string text_, std::shared_ptr<const SourceFile> file, Entry entry_)

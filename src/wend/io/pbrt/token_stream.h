@@ -32,7 +32,7 @@ public:
     /// Throws InputError unless the next token is of this kind (a bracket).
     void expect(Token::Kind kind);
 
-    /// Opens a file named at `place`, looked up beside the file that names it, then beside the main file. Throws
+    /// Opens a file named at `place`, looked up beside the main file, then beside the file that names it. Throws
     /// InputError if it is missing, already open (a cycle), or if files are nested too deeply or are too many.
     void enter(const std::string& file_name, const Location& place, Entry entry);
     /// All files that were opened so far.
@@ -62,7 +62,7 @@ private:
     std::vector<std::unique_ptr<Source>> sources_;
 };
 
-/// Where a file named in a scene file is: beside the file that names it, or else beside the main file, as pbrt has it.
+/// Where a file named in a scene file is: beside the main file, as pbrt has it, or else beside the file that names it.
 /// The path need not exist.
 std::filesystem::path find_file(const std::string& name, const Location& place,
                                 const std::filesystem::path& base_directory);
