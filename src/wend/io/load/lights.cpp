@@ -34,7 +34,8 @@ Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_v
 /// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
 Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
     Image image =
-        *textures.picture(required_file(context, light, "filename"), "sRGB", light.place, PictureChannels::of_light);
+        *textures.picture(required_file(context, light, "filename"), light.parameters.get_string("encoding", "sRGB"),
+                          light.parameters.place_of("encoding"), PictureChannels::of_light);
     for (Rgb& pixel : image.pixels) {
         if (!is_finite(pixel)) {
             throw InputError(light.parameters.place_of("filename"),
