@@ -403,6 +403,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
     result.is_solid = p.get_bool("solid", true);
+    result.is_once = p.get_bool("alphaonce", false);
     result.profile = load_profile(p);
     context.warnings.add_unused("AreaLightSource", light);
     return result;

@@ -293,6 +293,7 @@ private:
         const Presence presence = is_interface               ? Presence::passed
                                   : surface.alpha < 0        ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
+                                  : light.is_once            ? Presence::once
                                                              : Presence::partly;
         const std::size_t first = scene_.lights.size();
         attach(light, {presence, patches, entity.world_from_object, entity.motion}, surface, scene_.lights);
