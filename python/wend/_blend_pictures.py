@@ -55,6 +55,8 @@ def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
     faults = []
     if space != "sRGB" and space not in _LINEAR:
         faults.append(f"the colour space {space} of a picture is taken as sRGB")
+    if image.source not in ("FILE", "GENERATED"):
+        faults.append(f"a picture of the kind {image.source} is not read")
     if node.extension not in _WRAPS:
         faults.append(f"the extension {node.extension} of a picture is taken as repetition")
     if node.projection != "FLAT":
