@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("pxr", reason="usd-core is absent")
 
-from pxr import Gf, Sdf, UsdGeom, UsdRender, UsdShade, UsdVol  # noqa: E402
+from pxr import Gf, Sdf, UsdGeom, UsdRender, UsdShade, UsdSkel, UsdVol  # noqa: E402
 
 import wend  # noqa: E402
 from usd_stage import Stage, middle  # noqa: E402
@@ -262,3 +262,88 @@ def test_a_prototype_may_be_defined_by_overs(stage):
     instancer.CreateProtoIndicesAttr([0])
     instancer.CreatePositionsAttr([(0, 0, 0)])
     assert middle(stage.image()) == pytest.approx((0.2, 0.2, 0.2), abs=0.01)
+
+
+@pytest.mark.parametrize("kind", ["TexCoord2fArray", "TexCoord2hArray", "Float2Array", "TexCoord3fArray", "Float3Array"])
+def test_coordinates_of_every_type_are_read(stage, tmp_path, kind):
+    """The left half of the picture is white, and s runs upwards."""
+    pixels = np.zeros((4, 4, 3))
+    pixels[:, :2] = 255
+    card = on_a_card(stage, png(tmp_path / "map.png", pixels), "diffuseColor")
+    api = UsdGeom.PrimvarsAPI(card)
+    api.RemovePrimvar("st")
+    of_points = [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)]
+    values = [p if "3" in kind else p[:2] for p in of_points]
+    api.CreatePrimvar("st", getattr(TYPES, kind), "vertex").Set(values)
+    image = stage.image(spp=64)
+    assert image[7, 4][0] > 2 * image[1, 4][0]
+
+
+def test_a_shape_without_the_coordinates_that_are_asked_for_is_named(stage, tmp_path):
+    card = on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 255)), "diffuseColor")
+    UsdGeom.PrimvarsAPI(card).RemovePrimvar("st")
+    name = {"varname": (TYPES.String, "st")}
+    texture = UsdShade.Shader.Get(stage.stage, "/m/diffuseColor")
+    connect(stage, texture, "st", "UsdPrimvarReader_float2", name, "result", TYPES.Float2)
+    with pytest.warns(wend.SceneWarning, match="/card: .*without texture coordinates"):
+        stage.read()
+
+
+def test_a_picture_that_shines_and_is_left_by_its_coordinates_is_named(stage, tmp_path):
+    on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 255)), u=(-1, 1), wrapS="repeat", wrapT="repeat")
+    with pytest.warns(wend.SceneWarning, match="/card: .*beyond its edges"):
+        stage.read()
+
+
+def test_a_camera_that_is_focused_on_nothing_is_sharp(stage):
+    stage.card(colour=(0.2, 0.2, 0.2))
+    stage.camera.CreateFStopAttr(2.8)
+    with pytest.warns(wend.SceneWarning, match="/camera: .*focused on nothing"):
+        assert '"float lensradius"' not in stage.read().text()
+
+
+def moved_by_a_joint(stage, translations):
+    """A card that a joint moves, by time code."""
+    UsdSkel.Root.Define(stage.stage, "/root")
+    skeleton = UsdSkel.Skeleton.Define(stage.stage, "/root/skeleton")
+    skeleton.CreateJointsAttr(["joint"])
+    skeleton.CreateBindTransformsAttr([Gf.Matrix4d(1)])
+    skeleton.CreateRestTransformsAttr([Gf.Matrix4d(1)])
+    animation = UsdSkel.Animation.Define(stage.stage, "/root/animation")
+    animation.CreateJointsAttr(["joint"])
+    animation.CreateRotationsAttr([Gf.Quatf(1)])
+    animation.CreateScalesAttr([Gf.Vec3h(1, 1, 1)])
+    for time, x in translations:
+        animation.CreateTranslationsAttr().Set([Gf.Vec3f(x, 0, 0)], *time)
+    card = stage.card(path="/root/card", colour=(0.2, 0.2, 0.2), half=1)
+    binding = UsdSkel.BindingAPI.Apply(card.GetPrim())
+    binding.CreateSkeletonRel().AddTarget("/root/skeleton")
+    binding.CreateJointIndicesPrimvar(False, 1).Set([0] * 4)
+    binding.CreateJointWeightsPrimvar(False, 1).Set([1.0] * 4)
+    UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().AddTarget("/root/animation")
+
+
+@pytest.mark.parametrize(("time", "is_there"), [(1, True), (6, False), (11, True), (16, False), (21, False)])
+def test_skeletons_move_meshes(stage, time, is_there):
+    moved_by_a_joint(stage, [((1,), 0), ((6,), 50), ((11,), 0), ((21,), 50)])
+    assert middle(stage.image(time=time)) == pytest.approx(np.full(3, 0.2 if is_there else 1), abs=0.01)
+
+
+def test_a_pose_without_time_is_taken(stage):
+    moved_by_a_joint(stage, [((), 50)])
+    assert middle(stage.image()) == pytest.approx((1, 1, 1), abs=1e-3)
+
+
+def test_blend_shapes_move_points(stage):
+    moved_by_a_joint(stage, [((), 0)])
+    shape = UsdSkel.BlendShape.Define(stage.stage, "/root/card/away")
+    shape.CreateOffsetsAttr([Gf.Vec3f(50, 0, 0)] * 4)
+    binding = UsdSkel.BindingAPI(stage.stage.GetPrimAtPath("/root/card"))
+    binding.CreateBlendShapesAttr(["away"])
+    binding.CreateBlendShapeTargetsRel().AddTarget(shape.GetPath())
+    animation = UsdSkel.Animation.Get(stage.stage, "/root/animation")
+    animation.CreateBlendShapesAttr(["away"])
+    weights = animation.CreateBlendShapeWeightsAttr()
+    assert middle(stage.image()) == pytest.approx((0.2, 0.2, 0.2), abs=0.01)
+    weights.Set([1.0])
+    assert middle(stage.image()) == pytest.approx((1, 1, 1), abs=1e-3)

@@ -85,7 +85,9 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
         reader.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
         return
     parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
-    if lens.fStop > 0:
+    if lens.fStop > 0 and not lens.focusDistance > 0:
+        reader.warn(prim, "a camera that is focused on nothing sees all sharply")
+    elif lens.fStop > 0:
         parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
         parameters["float focaldistance"] = lens.focusDistance
     reader.builder.add("Camera", "perspective", parameters)

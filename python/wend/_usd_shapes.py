@@ -198,12 +198,16 @@ def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArra
     """Those that are asked for, or the usual ones."""
     api, time = UsdGeom.PrimvarsAPI(prim), reader.time
     names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
-    primvars = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names)), *api.GetPrimvarsWithValues()]
-    for primvar in primvars:
-        if primvar and primvar.HasValue() and primvar.GetTypeName().role == "TextureCoordinate":
+    named = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names))]
+    for primvar in [*named, *api.GetPrimvarsWithValues()]:
+        # Older files have plain pairs of numbers; some programs a third coordinate.
+        is_one = primvar in named or primvar.GetTypeName().role == "TextureCoordinate"
+        if primvar and primvar.HasValue() and is_one:
             array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
-            if array.ndim == 2 and array.shape[1] == 2:
-                return array, primvar.GetInterpolation()
+            if array.ndim == 2 and array.shape[1] in (2, 3):
+                return np.ascontiguousarray(array[:, :2]), primvar.GetInterpolation()
+    if wanted is not None:
+        reader.warn(prim, "a shape without texture coordinates has the pictures of its material somewhere")
     return None
 
 

@@ -32,6 +32,7 @@ from . import _usd_blender as blender
 from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_materials as materials
+from . import _usd_skeletons as skeletons
 from ._usd_colours import COLOURS, coloured, display_colour
 from ._usd_curves import curve_segments
 from ._usd_files import file_of
@@ -126,6 +127,7 @@ class _Reader(SceneReader):
         eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
+            skeletons.pose(self)
             film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
             exposure = cameras.exposure(self, eye)
         if exposure != 1:
@@ -226,6 +228,9 @@ class _Reader(SceneReader):
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
             if look.shine is not None:
+                coordinates = parameters.get("point2 uv", 0)
+                if "string filename" in look.shine and (np.min(coordinates) < -1e-4 or np.max(coordinates) > 1 + 1e-4):
+                    self.warn(prim, "a picture that shines does not go on beyond its edges")
                 self.builder.add("AreaLightSource", "diffuse", look.shine | {"bool alphaonce": True})
                 self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
