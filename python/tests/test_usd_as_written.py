@@ -347,3 +347,14 @@ def test_blend_shapes_move_points(stage):
     assert middle(stage.image()) == pytest.approx((0.2, 0.2, 0.2), abs=0.01)
     weights.Set([1.0])
     assert middle(stage.image()) == pytest.approx((1, 1, 1), abs=1e-3)
+
+
+def test_what_each_copy_is_given_is_named(stage):
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/instancer")
+    stage.card(path="/instancer/card")
+    instancer.CreatePrototypesRel().AddTarget("/instancer/card")
+    instancer.CreateProtoIndicesAttr([0, 0])
+    instancer.CreatePositionsAttr([(0, 0, 0), (1, 0, 0)])
+    UsdGeom.PrimvarsAPI(instancer).CreatePrimvar("displayColor", TYPES.Color3fArray, "varying").Set([(1, 0, 0), (0, 1, 0)])
+    with pytest.warns(wend.SceneWarning, match="/instancer: .*left out: displayColor"):
+        stage.read()

@@ -245,6 +245,9 @@ class _Reader(SceneReader):
         prototypes = [self.prototype(target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
+        own = [p.GetPrimvarName() for p in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues() if p.GetInterpolation() != "constant"]
+        if own:
+            self.warn(prim, f"what an instancer gives to each of its copies is left out: {', '.join(sorted(own))}")
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
         if not len(start) == len(end) == len(shown):
