@@ -219,6 +219,19 @@ def test_opaque_pictures_with_an_opacity_are_not_baked(scene, tmp_path):
     assert image.depth == 32 and "map.png" in blend.of_scene(scene).text()
 
 
+def test_a_colour_as_a_number_is_its_luminance(scene, tmp_path):
+    image = bpy.data.images.new("flat", 8, 8)
+    image.pixels.foreach_set(np.tile(np.array([0.1, 0.9, 0.2, 1], dtype=np.float32), 64))
+    image.filepath_raw, image.file_format = str(tmp_path / "flat.png"), "PNG"
+    image.save()
+    sky(scene, (1, 1, 1))
+    surface = {"roughness": 1.0, "base_color": (0.8, 0.3, 0.1)}
+    wire = picture(bpy.data.images.load(image.filepath_raw))
+    made = takes("BsdfPrincipled", "Alpha", wire, **surface)
+    mesh(scene, "plane", made, size=4)
+    check(scene, tmp_path, 256, tolerance=0.015)
+
+
 # ---- Light ----
 
 

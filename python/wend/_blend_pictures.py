@@ -41,6 +41,8 @@ def picture_texture(nodes: Nodes, node: Any, kind: str, is_alpha: bool) -> str |
         "string encoding": "linear" if is_linear or is_alpha else "sRGB",
         "string wrap": _WRAPS.get(node.extension, "repeat"),
     }
+    if kind == "float" and not is_alpha:
+        parameters["string channels"] = "luminance"
     if node.interpolation == "Closest":
         parameters["string filter"] = "point"
     elif node.interpolation != "Linear":
@@ -64,8 +66,6 @@ def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
     has_opacity = image.channels == 4 and image.depth not in (24, 8)
     if is_alpha and (kind == "rgb" or image.channels < 4 or image.alpha_mode == "NONE"):
         faults.append("the opacity of a picture is taken as its colour")
-    if kind == "float" and not is_alpha and has_opacity:
-        faults.append("of a picture with an opacity, taken as a number, the opacity counts")
     # Colours are multiplied by the opacity, unless somebody asks for that.
     is_multiplied = has_opacity and space not in ("Non-Color", "Raw") and image.alpha_mode in ("STRAIGHT", "PREMUL")
     is_asked_for = node.outputs["Alpha"].is_linked
