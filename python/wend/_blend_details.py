@@ -7,16 +7,18 @@ from typing import Any
 import numpy as np
 
 from ._blend_nodes import Colour, Nodes
+from ._blend_pictures import file_of, mapping_of
 from ._scene_reader import Brush
 
 
 def add_detail(nodes: Nodes, node: Any, parameters: dict[str, Any]) -> None:
     """Normals beyond those of the shape: of normal maps, bumps, and displacement that is one."""
     socket = node.inputs.get("Normal")
-    found = nodes.source(socket) if socket is not None else None
-    if found is None or not found.is_output:
-        found, socket = None, nodes.displacement
-    file = _normal_map(nodes, found.node) if found is not None else None
+    with nodes.aside():
+        found = nodes.source(socket) if socket is not None else None
+        if found is None or not found.is_output:
+            found, socket = None, nodes.displacement
+        file = _normal_map(nodes, found.node) if found is not None else None
     if file is None and socket is not None and (found is not None or nodes.displacement is not None):
         picture = nodes.baked(socket, "normal")
         file = picture["string filename"] if picture is not None else None
@@ -37,13 +39,13 @@ def _normal_map(nodes: Nodes, node: Any) -> str | None:
     is_plain = texture.extension == "REPEAT" and texture.projection == "FLAT" and node.uv_map in ("", uv_name)
     strength = nodes.known(node.inputs["Strength"])
     faults: list[str] = []
-    mapping = nodes.mapping_of(texture, faults)
+    mapping = mapping_of(nodes, texture, faults)
     if nodes.bakery is None:
         if strength is None or strength[0] != 1:
             nodes.warn(node, "the strength of a normal map is taken as 1")
     elif not is_plain or faults or mapping or strength is None or strength[0] != 1:
         return None
-    return nodes.file_of(texture, texture.image)
+    return file_of(nodes, texture, texture.image)
 
 
 def add_tint(nodes: Nodes, material: dict[str, Any], socket: Any, name: str) -> None:
@@ -61,8 +63,9 @@ def brush_of(nodes: Nodes, node: Any, amount: Any, turn: Any, material: dict[str
         nodes.warn(node, f"{amount.name} below 0 is taken as 0")
         return None
     nodes.add_to(material, amount, "anisotropy", "float")
-    found = nodes.source(node.inputs["Tangent"])
     turns = nodes.number(turn)
+    with nodes.aside():
+        found = nodes.source(node.inputs["Tangent"])
     if found is None or not found.is_output:
         return Brush(2, turns)
     if found.node.bl_idname == "ShaderNodeTangent" and found.node.direction_type == "RADIAL":
@@ -88,7 +91,8 @@ def tell_of_facets(nodes: Nodes, node: Any, roughness: Any, ours: str) -> None:
 
 
 def linked_to(nodes: Nodes, socket: Any) -> Any:
-    found = nodes.source(socket)
+    with nodes.aside():
+        found = nodes.source(socket)
     return found.as_pointer() if found is not None and found.is_output else None
 
 

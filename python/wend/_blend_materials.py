@@ -74,18 +74,25 @@ class _Silent(SceneReader):
 
 def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
     tree = material.node_tree if material else None
-    output = output_node(tree) if tree else None
+    if tree is None:
+        return _look(reader, key, _Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)}), None)
+    output = output_node(tree)
     if output is None:
-        surface = _Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)})
-        return _look(reader, key, surface, None)
+        return _look(reader, key, _reflecting(_Surface()), None)
     nodes = Nodes(reader, f"material '{material.name}'", key, material, bakery)
-    nodes.displacement = output.inputs["Displacement"] if nodes.source(output.inputs["Displacement"]) else None
+    with nodes.aside():
+        nodes.displacement = output.inputs["Displacement"] if nodes.source(output.inputs["Displacement"]) else None
     if nodes.displacement is not None and (bakery is None or material.displacement_method != "BUMP"):
         nodes.warn(output, "displacement is left out" if bakery is None else "displacement is taken as a bump")
-    node = nodes.shader(output.inputs["Surface"])
-    surface = _surface(nodes, node) if node else _Surface(is_clear=True)
-    volume = nodes.shader(output.inputs["Volume"])
-    medium = volume_parameters(nodes, volume) if volume else None
+    with nodes.aside():
+        volume = nodes.shader(output.inputs["Volume"])
+        medium = volume_parameters(nodes, volume) if volume else None
+    with nodes.aside():
+        node = nodes.shader(output.inputs["Surface"])
+        # What is nothing but a volume has no surface; what is nothing at all is black.
+        surface = _surface(nodes, node) if node else _Surface(is_clear=True) if volume else _reflecting(_Surface())
+    if surface.alpha and not getattr(material, "use_transparent_shadow", True):
+        nodes.warn(output, "transparent shadows that are switched off are there")
     picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
     return _look(reader, key, surface, medium, picture)
 
@@ -136,6 +143,11 @@ def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
     return key
 
 
+def _surface_at(nodes: Nodes, socket: Any, depth: int) -> _Surface:
+    with nodes.aside():
+        return _surface(nodes, nodes.shader(socket), depth)
+
+
 def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
     kinds = {
         "ShaderNodeBsdfPrincipled": _principled,
@@ -157,7 +169,7 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
         "ShaderNodeBsdfToon": _as_matt,
     }
     if node is None:
-        return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
+        return _Surface()
     if depth > 32:
         nodes.warn(node, "shaders that are mixed more than 32 times are black")
         return _Surface()
@@ -367,14 +379,13 @@ def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
 
 
 def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
-    first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[1:3])
+    first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[1:3])
     factor = nodes.known(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
     emission = (1 - share) * first.emission + share * second.emission
     varies = first.shines_by_a_picture or second.shines_by_a_picture
-    varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
     if first.is_held_out or second.is_held_out:
         nodes.warn(node, "a holdout in a mixture is black")
     amount: dict[str, Any] = {}
@@ -394,6 +405,7 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
         if varies:
             nodes.warn(node, "what shines by a picture and is transparent is darker where it is that")
         return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies, brushed=seen.brushed)
+    varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
     return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
 
 
@@ -405,7 +417,7 @@ def _reflecting(surface: _Surface) -> _Surface:
 
 
 def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
-    first, second = (_surface(nodes, nodes.shader(socket), depth + 1) for socket in node.inputs[:2])
+    first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[:2])
     emission = first.emission + second.emission
     varies = first.shines_by_a_picture or second.shines_by_a_picture
     if (first.is_clear or second.is_clear) and emission.max() > 0:

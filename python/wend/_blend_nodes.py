@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._blend_reach import Reach, is_uv
+from ._blend_pictures import picture_texture
+from ._blend_reach import Reach
 from ._blend_wanted import Probe, Wanted
 from ._scene_reader import SceneReader
 
@@ -23,9 +25,7 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 def output_node(tree: Any) -> Any:
     """The output of a material, a world or a lamp that Cycles takes; None where there is none."""
-    kinds = ("ShaderNodeOutputMaterial", "ShaderNodeOutputWorld", "ShaderNodeOutputLight")
-    found = [n for n in tree.nodes if n.bl_idname in kinds and n.target in ("ALL", "CYCLES")]
-    return next((n for n in found if n.is_active_output), found[0] if found else None)
+    return tree.get_output_node("CYCLES")
 
 
 def _like(socket: Any, sockets: Any) -> Any:
@@ -51,6 +51,15 @@ class Nodes:
         self.reader.tell(f"{self.place}, node '{node.name}'", text)
 
     # ---- Links ----
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Groups that are entered meanwhile are left afterwards: one group may be there several times, with other inputs."""
+        before = dict(self._entered)
+        try:
+            yield
+        finally:
+            self._entered = before
 
     def source(self, socket: Any) -> Any:
         """The socket of another node that the input follows, through reroutes, muted nodes and groups; None: its own
@@ -126,16 +135,16 @@ class Nodes:
 
     def texture(self, socket: Any, kind: str, power: float = 1) -> str | None:
         """The name of a texture that the input follows; None where there is no counterpart."""
-        found = self.source(socket)
-        if found is None or not found.is_output:
-            return None
-        node = found.node
         name = None
-        if not self.bakes_all and power == 1:
-            if node.bl_idname == "ShaderNodeTexImage" and node.image:
-                name = self._picture(node, kind, found.name == "Alpha")
-            elif node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
-                name = self._mixed(node, kind)
+        with self.aside():
+            found = self.source(socket)
+            if found is None or not found.is_output:
+                return None
+            if not self.bakes_all and power == 1:
+                if found.node.bl_idname == "ShaderNodeTexImage" and found.node.image:
+                    name = picture_texture(self, found.node, kind, found.name == "Alpha")
+                elif found.node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
+                    name = self._mixed(found.node, kind)
         if name is None:
             picture = self.baked(socket, kind, power)
             name = self.add_texture(kind, "imagemap", picture) if picture is not None else None
@@ -163,7 +172,7 @@ class Nodes:
         is_normal = kind == "normal"
         wanted = Wanted(
             self._material.original,
-            self._groups_to(node.id_data),
+            self.groups_to(node.id_data),
             node.name,
             socket.identifier,
             kind,
@@ -188,7 +197,8 @@ class Nodes:
         self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
         return self.bakery.picture(wanted)
 
-    def _groups_to(self, tree: Any) -> tuple[str, ...]:
+    def groups_to(self, tree: Any) -> tuple[str, ...]:
+        """Names of the groups' nodes, from the material's tree down to this one."""
         names: list[str] = []
         while (group := self._entered.get(tree.as_pointer())) is not None and len(names) < 64:
             names.insert(0, group.name)
@@ -203,6 +213,10 @@ class Nodes:
 
     def known(self, socket: Any, depth: int = 0) -> Colour | None:
         """None where it is not the same everywhere."""
+        with self.aside():
+            return self._known(socket, depth)
+
+    def _known(self, socket: Any, depth: int) -> Colour | None:
         found = self.source(socket)
         if found is None or not found.is_output:
             given = (socket if found is None else found).default_value
@@ -277,82 +291,6 @@ class Nodes:
         name = self._name()
         self.reader.builder.add("Texture", name, "spectrum" if kind == "rgb" else "float", plugin, parameters)
         return name
-
-    def _picture(self, node: Any, kind: str, is_alpha: bool) -> str | None:
-        image = node.image
-        space = image.colorspace_settings.name
-        wraps = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black", "MIRROR": "mirror"}
-        linear = space in ("Non-Color", "Linear Rec.709", "Raw", "Linear")
-        faults = []
-        if space != "sRGB" and not linear:
-            faults.append(f"the colour space {space} of a picture is taken as sRGB")
-        if node.extension not in wraps:
-            faults.append(f"the extension {node.extension} of a picture is taken as repetition")
-        if node.projection != "FLAT":
-            faults.append(f"the projection {node.projection} of a picture is left out")
-        if is_alpha and (kind == "rgb" or image.channels < 4):
-            faults.append("the opacity of a picture is taken as its colour")
-        if kind == "float" and not is_alpha and image.channels == 4 and image.depth not in (24, 8):
-            faults.append("of a picture with an opacity, taken as a number, the opacity counts")
-        mapping = self.mapping_of(node, faults)
-        if faults and self.bakery is not None:
-            return None
-        for fault in faults:
-            self.warn(node, fault)
-        file = self.file_of(node, image)
-        if file is None:
-            return None
-        parameters: dict[str, Any] = {
-            "string filename": file,
-            "string encoding": "linear" if linear else "sRGB",
-            "string wrap": wraps.get(node.extension, "repeat"),
-        }
-        return self.add_texture(kind, "imagemap", parameters | mapping)
-
-    def mapping_of(self, node: Any, faults: list[str]) -> dict[str, Any]:
-        """Of texture coordinates, an affine map; what it leaves out is added to `faults`."""
-        found = self.source(node.inputs["Vector"])
-        parameters: dict[str, Any] = {}
-        if found is None or not found.is_output:
-            return parameters
-        mapping = found.node
-        if mapping.bl_idname == "ShaderNodeMapping":
-            given = [self.known(mapping.inputs[name]) for name in ("Scale", "Rotation", "Location")]
-            if any(x is None for x in given) or mapping.vector_type != "POINT" or np.abs(given[1][:2]).max() > 1e-6:  # type: ignore[index]
-                faults.append("of a mapping, only scale, place and a turn in the plane that are constant are taken")
-            else:
-                scale, turn, place = (np.broadcast_to(x, 3) for x in given)  # type: ignore[arg-type]
-                c, s = math.cos(turn[2]), math.sin(turn[2])
-                parameters["float uvmatrix"] = (
-                    c * scale[0], -s * scale[1], place[0], s * scale[0], c * scale[1], place[1]
-                )  # fmt: skip
-            found = self.source(mapping.inputs["Vector"])
-        uv_name = self.bakery.uv_name if self.bakery is not None else ""
-        if found is not None and found.is_output and not is_uv(found, uv_name):
-            label = found.node.bl_idname.removeprefix("ShaderNode")
-            faults.append(f"texture coordinates of {label} are taken as UV")
-        return parameters
-
-    def file_of(self, node: Any, image: Any) -> str | None:
-        import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
-
-        if isinstance(self.bakery, Probe):
-            self.bakery.modes.add("picture")
-            return ""
-        if image.source == "FILE" and not image.packed_file and image.filepath:
-            path = str(bpy.path.abspath(image.filepath, library=image.library))
-            if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
-                return path
-        if image.source in ("FILE", "GENERATED") and image.size[0] > 0:
-            suffix = "exr" if image.is_float else "png"
-            file = self.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(self.reader.builder)}.{suffix}")
-            before = image.file_format
-            image.file_format = "OPEN_EXR" if image.is_float else "PNG"
-            image.save(filepath=file, save_copy=True)
-            image.file_format = before
-            return file
-        self.warn(node, f"a picture of the kind {image.source}, or without pixels, is left out")
-        return None
 
 
 def blackbody(kelvin: float) -> Colour:

@@ -49,13 +49,19 @@ class Reach:
         self.feels: Any = None  #: a node that depends on what is around the object
         self.sees: Any = None  #: a node that depends on from where it is seen
         self._nodes, self._uv_name = nodes, uv_name
-        self._seen: set[int] = set()
+        #: sockets, by the groups that they are in
+        self._seen: set[tuple[int, tuple[str, ...]]] = set()
 
     def follow(self, socket: Any) -> None:
         """Through all nodes that it takes something of."""
-        if socket.as_pointer() in self._seen or len(self._seen) > 4096:
+        key = (socket.as_pointer(), self._nodes.groups_to(socket.id_data))
+        if key in self._seen or len(self._seen) > 4096:
             return
-        self._seen.add(socket.as_pointer())
+        self._seen.add(key)
+        with self._nodes.aside():
+            self._follow(socket)
+
+    def _follow(self, socket: Any) -> None:
         found = self._nodes.source(socket)
         if found is None or not found.is_output:
             return
@@ -83,4 +89,5 @@ class Reach:
 
     def _is_placed(self, node: Any) -> bool:
         vector = node.inputs.get("Vector")
-        return vector is None or self._nodes.source(vector) is not None
+        with self._nodes.aside():
+            return vector is None or self._nodes.source(vector) is not None

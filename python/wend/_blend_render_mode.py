@@ -20,17 +20,27 @@ _OF_SIMPLIFICATION = (
 def as_rendered(scene: Any) -> Iterator[None]:
     """What is evaluated meanwhile has the modifiers, levels, particles and objects of renders; afterwards all is as before."""
     before: list[tuple[Any, str, Any]] = []
+    # Hidden by the eye in the list of objects, which renders do not look at.
+    asleep = [(layer, o) for layer in scene.view_layers for o in layer.objects if o.hide_get(view_layer=layer)]
 
     def put(owner: Any, name: str, value: Any) -> None:
-        if getattr(owner, name) != value:
-            before.append((owner, name, getattr(owner, name)))
-            setattr(owner, name, value)
+        now = getattr(owner, name)
+        if now != value:
+            try:
+                setattr(owner, name, value)
+            except AttributeError:  # of a library, which cannot be changed
+                return
+            before.append((owner, name, now))
 
     try:
+        for layer, object_ in asleep:
+            object_.hide_set(False, view_layer=layer)
         for views, renders in _OF_SIMPLIFICATION:
             put(scene.render, views, getattr(scene.render, renders))
-        for object_ in scene.objects:
+        # Also those that are in collections which are instanced alone.
+        for object_ in bpy.data.objects:
             put(object_, "hide_viewport", object_.hide_render)
+            put(object_, "show_instancer_for_viewport", object_.show_instancer_for_render)
             for modifier in object_.modifiers:
                 for views, renders in _OF_MODIFIERS:
                     if hasattr(modifier, views) and hasattr(modifier, renders):
@@ -50,3 +60,5 @@ def as_rendered(scene: Any) -> Iterator[None]:
     finally:
         for owner, name, value in reversed(before):
             setattr(owner, name, value)
+        for layer, object_ in asleep:
+            object_.hide_set(True, view_layer=layer)

@@ -30,6 +30,11 @@ def tell_of_scene(reader: SceneReader, scene: Any, layer: Any) -> None:
     cycles = getattr(scene, "cycles", None)
     if render.use_motion_blur and getattr(cycles, "rolling_shutter_type", "NONE") != "NONE":
         reader.tell(place, "a rolling shutter is open everywhere at once")
+    for name, label in (("caustics_reflective", "caustics of reflections"), ("caustics_refractive", "caustics of refractions")):
+        if not getattr(cycles, name, True):
+            reader.tell(place, f"{label}, which are switched off, are there")
+    if getattr(cycles, "use_fast_gi", False):
+        reader.tell(place, "the fast approximation of global illumination is left out: all of it is there")
     hidden = [label for name, label in _LAYER.items() if not getattr(layer, name, True)]
     if hidden:
         reader.tell(f"view layer '{layer.name}'", f"what it leaves out is there: {', '.join(hidden)}")

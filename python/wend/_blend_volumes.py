@@ -89,6 +89,11 @@ def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Col
     return first, second, third
 
 
+def _volume_at(nodes: Nodes, socket: Any, depth: int) -> _Coefficients | None:
+    with nodes.aside():
+        return _volume(nodes, nodes.shader(socket), depth)
+
+
 def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
     """Scattering, absorption, emission, and the phase function."""
     zero = np.zeros(3)
@@ -117,7 +122,7 @@ def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
         return zero, zero, nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), {}
     if kind in ("ShaderNodeAddShader", "ShaderNodeMixShader"):
         sockets = node.inputs[:2] if kind == "ShaderNodeAddShader" else node.inputs[1:3]
-        parts = [_volume(nodes, nodes.shader(socket), depth + 1) for socket in sockets]
+        parts = [_volume_at(nodes, socket, depth + 1) for socket in sockets]
         share = nodes.number(node.inputs[0]) if kind == "ShaderNodeMixShader" else 0.0
         weights = (1 - share, share) if kind == "ShaderNodeMixShader" else (1.0, 1.0)
         there = [(weight, part) for weight, part in zip(weights, parts) if part is not None]

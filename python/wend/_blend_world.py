@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -60,6 +62,40 @@ def _add_even(reader: SceneReader, colour: Any) -> bool:
     return True
 
 
+#: Of a Light Path node, for rays of diffuse surfaces; all others are 0.
+_PATH = {"Is Diffuse Ray": 1.0, "Is Reflection Ray": 1.0, "Ray Depth": 1.0, "Diffuse Depth": 1.0}
+
+
+@contextmanager
+def _as_it_lights(nodes: Nodes, world: Any) -> Iterator[Any]:
+    """A copy of the world in which rays of a camera see what those of diffuse surfaces do."""
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    made, groups = world.copy(), []
+    made.cycles_visibility.camera = True
+
+    def settle(tree: Any) -> None:
+        for node in list(tree.nodes):
+            if node.bl_idname == "ShaderNodeGroup" and node.node_tree:
+                node.node_tree = node.node_tree.copy()
+                groups.append(node.node_tree)
+                settle(node.node_tree)
+            elif node.bl_idname == "ShaderNodeLightPath":
+                for link in [link for output in node.outputs for link in output.links]:
+                    nodes.warn(node, "a world that depends on the kind of ray is everywhere as diffuse surfaces see it")
+                    value = tree.nodes.new("ShaderNodeValue")
+                    value.outputs[0].default_value = _PATH.get(link.from_socket.name, 0.0)
+                    tree.links.new(value.outputs[0], link.to_socket)
+
+    try:
+        settle(made.node_tree)
+        yield made
+    finally:
+        bpy.data.worlds.remove(made)
+        for group in groups:
+            bpy.data.node_groups.remove(group)
+
+
 def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> bool:
     import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
@@ -68,6 +104,7 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
         if other.bl_idname == "ShaderNodeTexEnvironment" and other.image:
             width = min(max(int(other.image.size[0]), 512), 4096)
     nodes.warn(node, f"a world that is not one colour becomes a picture of {width} x {width // 2}, by Cycles")
+    before = bpy.context.scene
     scene = bpy.data.scenes.new("panorama")
     camera = bpy.data.cameras.new("panorama")
     eye = bpy.data.objects.new("panorama", camera)
@@ -77,7 +114,7 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
         eye.rotation_euler = (np.pi / 2, 0, 0)
         camera.type = "PANO"
         camera.panorama_type = "EQUIRECTANGULAR"
-        scene.camera, scene.world = eye, world
+        scene.camera = eye
         scene.render.engine = "CYCLES"
         scene.cycles.samples = 4
         scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
@@ -85,7 +122,9 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
         scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, width // 2, 100
         scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
         scene.render.filepath, scene.render.use_file_extension = file, False
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        scene.frame_set(before.frame_current, subframe=before.frame_subframe)
+        with _as_it_lights(nodes, world) as scene.world:
+            bpy.ops.render.render(write_still=True, scene=scene.name)
         picture = read(file).image
     finally:
         bpy.data.objects.remove(eye)

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Tf, Usd, UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Gf, Tf, Usd, UsdGeom, UsdRender  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._errors import InputError
 from ._usd_subdivision import View
@@ -16,13 +16,38 @@ _DEEPEST = 32
 
 
 def find(reader: Any, path: str | None) -> Any:
-    """The prim; None where the stage has none."""
+    """The prim: of that path, or the one of the stage's render settings, or the first; None where the stage has none."""
     if path is None:
+        chosen = _settings(reader.stage)
+        targets = chosen.GetCameraRel().GetForwardedTargets() if chosen else []
+        named = reader.stage.GetPrimAtPath(targets[0]) if targets else None
+        if named and named.IsA(UsdGeom.Camera):
+            return named
         return next((p for p in reader.prims(reader.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
     prim = reader.stage.GetPrimAtPath(path)
     if not prim or not prim.IsA(UsdGeom.Camera):
         raise InputError(f"{path}: error: no camera of the stage")
     return prim
+
+
+def _settings(stage: Any) -> Any:
+    """How the stage itself wants to be rendered; false where it does not say."""
+    return UsdRender.Settings.GetStageRenderSettings(stage)
+
+
+def resolution_of(reader: Any) -> tuple[int, int]:
+    """Of the picture that the stage asks for, or what is usual here.
+
+    Raises:
+        InputError: for one that no picture has.
+    """
+    chosen = _settings(reader.stage)
+    if not chosen or not chosen.GetResolutionAttr().HasAuthoredValue():
+        return (640, 360)
+    width, height = (int(side) for side in chosen.GetResolutionAttr().Get())
+    if width < 1 or height < 1:
+        raise InputError(f"{chosen.GetPath()}: error: a picture of {width} x {height}")
+    return (width, height)
 
 
 def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
@@ -60,7 +85,9 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
         reader.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
         return
     parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
-    if lens.fStop > 0:
+    if lens.fStop > 0 and not lens.focusDistance > 0:
+        reader.warn(prim, "a camera that is focused on nothing sees all sharply")
+    elif lens.fStop > 0:
         parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
         parameters["float focaldistance"] = lens.focusDistance
     reader.builder.add("Camera", "perspective", parameters)

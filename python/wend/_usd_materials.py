@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -10,17 +10,8 @@ from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untype
 
 from . import _usd_blender as blender
 from ._scene_reader import Look
-from ._usd_textures import Inputs
-
-
-def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:
-    """The prim's, or 0.18 grey, which is what USD falls back on."""
-    primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
-    values = primvar.ComputeFlattened(time) if primvar and primvar.HasValue() else None
-    if not values:
-        return (0.18, 0.18, 0.18)
-    red, green, blue = np.array(values, dtype=np.float64).reshape(-1, 3).mean(axis=0)
-    return (float(red), float(green), float(blue))
+from ._usd_colours import Colours, display_colour, display_opacity
+from ._usd_textures import Inputs, kind_of
 
 
 def shines(reader: Any, prim: Any) -> bool:
@@ -37,23 +28,30 @@ class UsdLook(Look):
 
     shine: dict[str, Any] | None = None  #: parameters of its light; None: it is dark
     coordinates: str | None = None  #: the primvar that its pictures lie by; None: the usual one
+    colours: str | None = None  #: the primvar that is its base colour; None: the material has one
+    fallback: Any = (0.0, 0.0, 0.0)  #: the colour where there is no such primvar
+    parameters: dict[str, Any] = field(default_factory=dict)  #: of the material
 
 
 def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
     """Makes the material if it is not there yet, wherever the builder is."""
     looks: dict[str, UsdLook] = reader.materials
-    material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
+    # What is bound for all purposes is taken where nothing is bound for renders.
+    material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial(UsdShade.Tokens.full)
     if material:
         key = str(material.GetPath())
         if key not in looks:
             looks[key] = _surface(reader, material, key)
         return looks[key]
     colour = display_colour(prim, reader.time)
-    key = "displayColor {:.6g} {:.6g} {:.6g}".format(*colour)
+    colours = Colours.of(prim, "displayColor", reader.time)
+    varies = colours is not None and colours.vary()
+    opacity = display_opacity(reader, prim)
+    key = "displayColor {:.6g} {:.6g} {:.6g}".format(*colour) + f"{' varied' * varies} {opacity.get('float alpha', '')}".rstrip()
     if key not in looks:
         parameters = {"string type": "diffuse", "rgb reflectance": np.clip(colour, 0, 1)}
         reader.builder.add("MakeNamedMaterial", key, parameters)
-        looks[key] = UsdLook(key)
+        looks[key] = UsdLook(key, shape_parameters=opacity, colours="displayColor" if varies else None, parameters=parameters)
     return looks[key]
 
 
@@ -180,7 +178,7 @@ class _Surface:
 
     def __init__(self, reader: Any, shader: Any, key: str) -> None:
         self.reader, self.key = reader, key
-        self.kind = str(shader.GetIdAttr().Get())
+        self.kind = kind_of(shader)
         self.is_preview = self.kind == "UsdPreviewSurface"
         self.words = _WORDS[self.kind]
         self.inputs = Inputs(reader, shader, key)
@@ -221,6 +219,8 @@ class _Surface:
             if np.min(opacity) < 1:
                 self.look.shape_parameters["float alpha"] = float(np.clip(np.mean(opacity), 0, 1))
         self._normals(parameters)
+        self._colours(parameters)
+        self.look.parameters = parameters
         self.reader.builder.add("MakeNamedMaterial", self.key, parameters)
         named = self.inputs.coordinates
         if named:
@@ -228,6 +228,12 @@ class _Surface:
             if any(name != named[0] for name in named):
                 self.reader.warn(self.inputs.shader.GetPrim(), "all pictures of a material lie by the coordinates of the first")
         return self.look
+
+    def _colours(self, parameters: dict[str, Any]) -> None:
+        """Where the base colour is one of the shape's."""
+        found = self.inputs.primvar(self.words["colour"])
+        if found is not None and "rgb reflectance" in parameters:
+            self.look.colours, self.look.fallback = found
 
     def _shine(self) -> None:
         name = self.words["shine_colour"]
@@ -373,7 +379,7 @@ class _Surface:
 
 def _surface(reader: Any, material: Any, key: str) -> UsdLook:
     of_materialx, plain = (material.ComputeSurfaceSource(context)[0] for context in ("mtlx", ""))
-    names = [str(shader.GetIdAttr().Get()) if shader else "no surface" for shader in (of_materialx, plain)]
+    names = [kind_of(shader) if shader else "no surface" for shader in (of_materialx, plain)]
     if names[0] in _WORDS:
         return _Surface(reader, of_materialx, key).made()
     if names[1] in _WORDS:

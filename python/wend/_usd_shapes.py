@@ -10,6 +10,7 @@ import numpy.typing as npt
 from pxr import Sdf, UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from . import _usd_subdivision as subdivision
+from ._usd_colours import COLOURS, Colours
 from ._usd_materials import look_of
 
 Parameters = dict[str, Any]
@@ -32,9 +33,11 @@ def mesh_parts(
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
     is_left_handed = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
     parts = _parts(mesh, time, len(counts))
-    wanted = (look_of(reader, prim, bound).coordinates for bound, chosen in parts if chosen.any())
-    coordinates = _coordinates(reader, prim, next((name for name in wanted if name is not None), None))
-    values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates)
+    looks = [look_of(reader, prim, bound) for bound, chosen in parts if chosen.any()]
+    coordinates = _coordinates(reader, prim, next((look.coordinates for look in looks if look.coordinates), None))
+    named = next((look.colours for look in looks if look.colours), None)
+    colours = Colours.of(prim, named, time) if named is not None else None
+    values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates, colours)
     if scheme != UsdGeom.Tokens.none:
         faces = subdivision.Faces(counts, corners, scheme, is_left_handed)
         surface = subdivision.surface(reader, prim, points, faces, values.get("point2 uv"), world, in_object)
@@ -83,8 +86,10 @@ def _values(
     points: int,
     moves: bool,
     coordinates: tuple[npt.NDArray[np.float32], str] | None,
+    colours: Colours | None,
 ) -> dict[str, tuple[npt.NDArray[np.float32], str]]:
-    """Normals and texture coordinates, with their interpolation. Subdivision surfaces have their own normals."""
+    """Normals, texture coordinates and colours, with their interpolation. Subdivision surfaces have their own normals, and
+    no colours."""
     mesh = UsdGeom.Mesh(prim)
     values = {}
     if mesh.GetSubdivisionSchemeAttr().Get(reader.time) == UsdGeom.Tokens.none:
@@ -94,6 +99,8 @@ def _values(
             end_normals = _normals(mesh, reader.shutter[1])
             if moves and end_normals is not None:
                 values["normal3 N1"] = end_normals
+        if colours is not None and colours.vary():
+            values[COLOURS] = (colours.values.astype(np.float32), colours.interpolation)
     if coordinates is not None:
         values["point2 uv"] = coordinates
     sizes = {
@@ -191,12 +198,16 @@ def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArra
     """Those that are asked for, or the usual ones."""
     api, time = UsdGeom.PrimvarsAPI(prim), reader.time
     names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
-    primvars = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names)), *api.GetPrimvarsWithValues()]
-    for primvar in primvars:
-        if primvar and primvar.HasValue() and primvar.GetTypeName().role == "TextureCoordinate":
+    named = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names))]
+    for primvar in [*named, *api.GetPrimvarsWithValues()]:
+        # Older files have plain pairs of numbers; some programs a third coordinate.
+        is_one = primvar in named or primvar.GetTypeName().role == "TextureCoordinate"
+        if primvar and primvar.HasValue() and is_one:
             array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
-            if array.ndim == 2 and array.shape[1] == 2:
-                return array, primvar.GetInterpolation()
+            if array.ndim == 2 and array.shape[1] in (2, 3):
+                return np.ascontiguousarray(array[:, :2]), primvar.GetInterpolation()
+    if wanted is not None:
+        reader.warn(prim, "a shape without texture coordinates has the pictures of its material somewhere")
     return None
 
 

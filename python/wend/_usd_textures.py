@@ -14,12 +14,33 @@ from ._usd_files import file_of
 
 Matrix = npt.NDArray[np.float64]
 
-_WRAPS = {"repeat": "repeat", "periodic": "repeat", "clamp": "clamp", "black": "black", "constant": "black", "mirror": "mirror"}
+_WRAPS = {
+    "repeat": "repeat",
+    "periodic": "repeat",
+    "clamp": "clamp",
+    "black": "black",
+    "constant": "black",
+    "mirror": "mirror",
+    # No file that is read here has such metadata.
+    "useMetadata": "black",
+}
 _CHANNELS = {"r": 0, "g": 1, "b": 2, "outr": 0, "outg": 1, "outb": 2}
 
 
+#: Inputs that may be colours of the shape: see `Inputs.primvar`.
+_BASES = ("diffuseColor", "base_color")
+
 #: How many nodes are followed from an input to its picture.
 _DEEPEST = 16
+
+
+def kind_of(shader: Any) -> str:
+    """A shader's identifier; of those that MaterialX has of the preview surface's nodes, the plain one."""
+    identifier = str(shader.GetIdAttr().Get())
+    for plain in ("UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader", "UsdTransform2d"):
+        if identifier.startswith(f"ND_{plain}"):
+            return plain if plain != "UsdPrimvarReader" else identifier.removeprefix("ND_")
+    return identifier
 
 
 @dataclass
@@ -59,7 +80,7 @@ class Inputs:
         #: names of the primvars that textures lie by
         self.coordinates: list[str] = []
 
-    def _source(self, name: str) -> tuple[Any, Any]:
+    def _source(self, name: str, depth: int = 0) -> tuple[Any, Any]:
         """The value, or the output of a shader that makes it."""
         given = self.shader.GetInput(name)
         if not given:
@@ -69,6 +90,9 @@ class Inputs:
             return None, None
         attribute = attributes[0]
         if UsdShade.Output.IsOutput(attribute):
+            maker = UsdShade.Shader(attribute.GetPrim())
+            if kind_of(maker).startswith("ND_constant_") and depth < _DEEPEST:
+                return Inputs(self.reader, maker, self.key)._source("value", depth + 1)
             return None, attribute
         return attribute.Get(self.reader.time), None
 
@@ -91,6 +115,20 @@ class Inputs:
         else:
             parameters[f"{kind} {ours}"] = fallback if value is None else value
 
+    def primvar(self, name: str) -> tuple[str, Any] | None:
+        """The primvar that an input is connected to, and the value where there is none; None for anything else."""
+        _, output = self._source(name)
+        if output is None:
+            return None
+        inputs = Inputs(self.reader, UsdShade.Shader(output.GetPrim()), self.key)
+        kind = kind_of(inputs.shader)
+        if not kind.startswith(("UsdPrimvarReader_", "ND_geompropvalue_")):
+            return None
+        is_usd = kind.startswith("Usd")
+        called = inputs.constant("varname" if is_usd else "geomprop", None)
+        fallback = inputs.constant("fallback" if is_usd else "default", (0.0, 0.0, 0.0))
+        return (str(called), np.broadcast_to(np.array(fallback, dtype=np.float64)[:3], 3)) if called else None
+
     def picture(self, name: str) -> Picture | None:
         """What an input is connected to; None where that is no picture, which is told if it is something else."""
         _, output = self._source(name)
@@ -99,7 +137,7 @@ class Inputs:
             if output is None:
                 return None
             shader = UsdShade.Shader(output.GetPrim())
-            kind = str(shader.GetIdAttr().Get())
+            kind = kind_of(shader)
             inputs = Inputs(self.reader, shader, self.key)
             if kind.startswith("ND_extract_color"):
                 channel = "rgba"[min(max(int(inputs.constant("index", 0)), 0), 3)]
@@ -107,18 +145,16 @@ class Inputs:
                 break
             _, output = inputs._source("in")
         if kind != "UsdUVTexture" and not kind.startswith(("ND_image_", "ND_tiledimage_")):
+            if kind.startswith(("UsdPrimvarReader_", "ND_geompropvalue_")) and name in _BASES:
+                return None
             self.reader.warn(self.shader.GetPrim(), f"{kind} as {name} is left out")
             return None
         file = inputs.constant("file", None)
         if not file or not file.path:
             return None
         is_usd = kind == "UsdUVTexture"
-        picture = Picture(
-            file_of(self.reader, file),
-            inputs._is_encoded(),
-            _WRAPS.get(str(inputs.constant("wrapS" if is_usd else "uaddressmode", "repeat")), "repeat"),
-            channel or str(output.GetBaseName()),
-        )
+        path = file_of(self.reader, file)
+        picture = Picture(path, inputs._is_encoded(kind, path), inputs._wrap(is_usd), channel or str(output.GetBaseName()))
         if is_usd:
             picture.scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
             picture.bias = np.array(inputs.constant("bias", (0, 0, 0, 0)), dtype=np.float64)
@@ -130,12 +166,25 @@ class Inputs:
             self.coordinates.append(picture.coordinates)
         return picture
 
-    def _is_encoded(self) -> bool:
-        """Whether a texture's node has colours in sRGB; what it does not say is taken so."""
+    def _is_encoded(self, kind: str, file: str) -> bool:
+        """Whether a texture's node has colours in sRGB; what it does not say is taken so, if they are colours of 8 bits."""
+        if kind.startswith("ND_") and "_color" not in kind:
+            # Numbers are never converted there.
+            return False
         attribute = self.shader.GetInput("file").GetAttr()
         named = str(attribute.GetColorSpace()) if attribute.HasColorSpace() else ""
         space = named or str(self.constant("sourceColorSpace", "auto"))
-        return space in ("auto", "sRGB") or space.lower().startswith("srgb")
+        if space == "auto":
+            return has_bytes(file) and not is_grey(file)
+        return space.lower().startswith("srgb")
+
+    def _wrap(self, is_usd: bool) -> str:
+        """What is beyond the edges."""
+        names, fallback = (("wrapS", "wrapT"), "useMetadata") if is_usd else (("uaddressmode", "vaddressmode"), "periodic")
+        across, upwards = (_WRAPS.get(str(self.constant(name, fallback)), "repeat") for name in names)
+        if across != upwards:
+            self.reader.warn(self.shader.GetPrim(), f"a picture goes on upwards as it does sideways ({names[0]})")
+        return across
 
     def _find_coordinates(self, name: str, picture: Picture) -> None:
         """Follows the coordinates of a texture's node to their primvar, through transforms."""
@@ -145,7 +194,7 @@ class Inputs:
             if output is None:
                 return
             inputs = Inputs(self.reader, UsdShade.Shader(output.GetPrim()), self.key)
-            kind = str(inputs.shader.GetIdAttr().Get())
+            kind = kind_of(inputs.shader)
             if kind == "UsdTransform2d":
                 scale, place = (
                     np.array(inputs.constant(n, v), dtype=np.float64) for n, v in (("scale", (1, 1)), ("translation", (0, 0)))
@@ -202,6 +251,21 @@ def _placed(scale: Matrix, turn: float, place: Matrix) -> Matrix:
     result[:2, :2] = np.array([[c, -s], [s, c]]) @ np.diag(scale[:2])
     result[:2, 2] = place[:2]
     return result
+
+
+def is_grey(file: str) -> bool:
+    """Whether a picture has one channel, and perhaps an opacity; of PNG and JPEG files."""
+    with open(file, "rb") as opened:
+        head = opened.read(1 << 16)
+    if head.startswith(b"\x89PNG"):
+        return len(head) > 25 and head[25] in (0, 4)
+    place = 2
+    # JPEG: segments up to the one of the frame, which has the number of channels.
+    while head.startswith(b"\xff\xd8") and place + 9 < len(head) and head[place] == 0xFF:
+        if head[place + 1] in (0xC0, 0xC1, 0xC2):
+            return head[place + 9] == 1
+        place += 2 + int.from_bytes(head[place + 2 : place + 4], "big")
+    return False
 
 
 def has_bytes(file: str) -> bool:

@@ -120,6 +120,9 @@ def of_scene(
         frame, camera, resolution, spp, maps, bake_resolution, progress: as for `read`.
     """
     reader = _Reader(scene, name, maps, can_render, bake_resolution)
+    if frame is not None and depsgraph is None:
+        # Before the settings of renders are looked at, and the camera, which a marker may change.
+        scene.frame_set(frame)
     eye = _named(scene.objects, camera, "camera") or scene.camera
     if set_frame is None:
 
@@ -129,8 +132,6 @@ def of_scene(
     if depsgraph is not None:
         return reader.read(depsgraph, eye, resolution, spp, Motion(scene, eye, depsgraph, set_frame), progress)
     with as_rendered(scene):
-        if frame is not None:
-            scene.frame_set(frame)
         bpy.context.window.scene = scene
         depsgraph = bpy.context.evaluated_depsgraph_get()
         depsgraph.update()
@@ -222,9 +223,13 @@ class _Reader(SceneReader):
     @staticmethod
     def is_seen(instance: Any) -> bool:
         object_ = instance.object
+        by_points = ("VERTS", "FACES")
+        is_copied = object_.parent is not None and object_.parent.instance_type in by_points
         if instance.is_instance:
-            return bool(instance.show_self)
-        return not object_.hide_render and bool(instance.show_self)
+            # What is copied to the points of its parent is there alone.
+            by_others = is_copied and (instance.parent is None or instance.parent.instance_type not in by_points)
+            return bool(instance.show_self) and not by_others
+        return not object_.hide_render and bool(instance.show_self) and not is_copied
 
     # ---- Objects ----
 
@@ -310,7 +315,7 @@ class _Reader(SceneReader):
                     self.tell(f"object '{name}'", "hair does not shine")
                 else:
                     light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
-                    add("AreaLightSource", "diffuse", light | {"bool twosided": True})
+                    add("AreaLightSource", "diffuse", light | {"bool twosided": True, "bool alphaonce": True})
                     self.has_light = True
             seen = {"string cameraview": self.view} if self.view != "shown" else {}
             add("Shape", kind, parameters | look.shape_parameters | seen)

@@ -32,6 +32,8 @@ from . import _usd_blender as blender
 from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_materials as materials
+from . import _usd_skeletons as skeletons
+from ._usd_colours import COLOURS, coloured, display_colour
 from ._usd_curves import curve_segments
 from ._usd_files import file_of
 from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
@@ -43,7 +45,7 @@ def read(
     *,
     time: float | None = None,
     camera: str | None = None,
-    resolution: tuple[int, int] = (640, 360),
+    resolution: tuple[int, int] | None = None,
     spp: int = 64,
     maps: str | os.PathLike[str] | None = None,
     subdivision: int | None = None,
@@ -54,9 +56,9 @@ def read(
     Args:
         path: a .usda, .usdc, .usd or .usdz file.
         time: the time code; None: the stage's default values, or its first frame where it has frames.
-        camera: path of the camera's prim; None: the first one, or a view of all there is.
-        resolution: (width, height) of the picture; its shape decides what the camera sees above and below, or at the
-            sides, of its aperture.
+        camera: path of the camera's prim; None: the one of the stage's render settings, or the first, or a view of all.
+        resolution: (width, height) of the picture; None: that of the stage's render settings, or 640 x 360. Its shape
+            decides what the camera sees above and below, or at the sides, of its aperture.
         spp: samples per pixel.
         maps: folder for pictures that are made for the scene; None: one that goes away when the program ends.
         subdivision: how often edges of subdivision surfaces are halved; None: until they are two pixels long where the
@@ -119,11 +121,13 @@ class _Reader(SceneReader):
     def warn(self, prim: Any, text: str) -> None:
         self.tell(str(prim.GetPath()), text)
 
-    def read(self, path: str | None, resolution: tuple[int, int], spp: int, progress: bool) -> SceneBuilder:
+    def read(self, path: str | None, resolution: tuple[int, int] | None, spp: int, progress: bool) -> SceneBuilder:
         add = self.builder.add
+        resolution = resolution or cameras.resolution_of(self)
         eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
+            skeletons.pose(self)
             film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
             exposure = cameras.exposure(self, eye)
         if exposure != 1:
@@ -164,13 +168,24 @@ class _Reader(SceneReader):
         for prim in walk:
             imageable = UsdGeom.Imageable(prim)
             if imageable and not prim.IsPseudoRoot():
-                hidden = imageable.GetVisibilityAttr().Get(self.time) == UsdGeom.Tokens.invisible
-                if hidden or imageable.ComputePurpose() not in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render):
+                if imageable.GetVisibilityAttr().Get(self.time) == UsdGeom.Tokens.invisible:
                     walk.PruneChildren()
+                    continue
+                if not self.is_for_renders(imageable):
+                    # What is within it may be for another purpose, but for what is copied.
+                    if prim.IsA(UsdGeom.PointInstancer):
+                        walk.PruneChildren()
                     continue
             if prim.IsA(UsdGeom.PointInstancer):
                 walk.PruneChildren()
             yield prim
+
+    def is_for_renders(self, imageable: Any) -> bool:
+        """By its purpose, and the visibility that some are given for that alone."""
+        purpose = imageable.ComputePurpose()
+        if purpose == UsdGeom.Tokens.render:
+            return bool(imageable.ComputeEffectiveVisibility(purpose, self.time) != UsdGeom.Tokens.invisible)
+        return bool(purpose == UsdGeom.Tokens.default_)
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
         if _is_light(prim):
@@ -205,13 +220,18 @@ class _Reader(SceneReader):
         with self.builder.block():
             self.put(world)
             look = materials.look_of(self, prim, bound)
-            self.builder.add("NamedMaterial", look.name)
+            given = parameters.pop(COLOURS, None)
+            name = look.name
+            if look.colours is not None:
+                name = coloured(self, prim, look, given, parameters.get("integer indices"))
+            self.builder.add("NamedMaterial", name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
             if look.shine is not None:
-                if "float alpha" in look.shape_parameters or "texture alpha" in look.shape_parameters:
-                    self.warn(prim, "what shines and is not opaque shines less where it is seen")
-                self.builder.add("AreaLightSource", "diffuse", look.shine)
+                coordinates = parameters.get("point2 uv", 0)
+                if "string filename" in look.shine and (np.min(coordinates) < -1e-4 or np.max(coordinates) > 1 + 1e-4):
+                    self.warn(prim, "a picture that shines does not go on beyond its edges")
+                self.builder.add("AreaLightSource", "diffuse", look.shine | {"bool alphaonce": True})
                 self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
 
@@ -225,6 +245,9 @@ class _Reader(SceneReader):
         prototypes = [self.prototype(target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
+        own = [p.GetPrimvarName() for p in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues() if p.GetInterpolation() != "constant"]
+        if own:
+            self.warn(prim, f"what an instancer gives to each of its copies is left out: {', '.join(sorted(own))}")
         mask = instancer.ComputeMaskAtTime(self.time)
         shown = [i for i in range(len(indices)) if not mask or mask[i]]
         if not len(start) == len(end) == len(shown):
@@ -292,6 +315,11 @@ class _Reader(SceneReader):
         if not field or not field.IsA(UsdVol.OpenVDBAsset):
             self.warn(prim, "a volume without a field 'density' of OpenVDB is left out")
             return
+        if len(fields) > 1:
+            others = ", ".join(sorted(name for name in fields if name != "density"))
+            self.warn(prim, f"of a volume's fields the density is taken, and left out are: {others}")
+        if not np.allclose(UsdGeom.Xformable(field).GetLocalTransformation(self.time), np.eye(4)):
+            self.warn(field, "a field lies in its volume as its file says, whatever place it has itself")
         asset = UsdVol.OpenVDBAsset(field)
         path = asset.GetFilePathAttr().Get(self.time)
         if not path:
@@ -300,7 +328,7 @@ class _Reader(SceneReader):
         file = file_of(self, path)
         grid = asset.GetFieldNameAttr().Get(self.time) or "density"
         extent = UsdGeom.Boundable(prim).GetExtentAttr().Get(self.time) or _wend.volume_bounds(file, grid)
-        colour = materials.display_colour(prim, self.time)
+        colour = display_colour(prim, self.time)
         # A copy has its own: it lies where it was made.
         name = f"{prim.GetPath()} {len(self.builder)}"
         with self.builder.block():
@@ -365,8 +393,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m wend.usd", description="render a USD stage, or write it as a pbrt scene")
     parser.add_argument("stage", help=".usda, .usdc, .usd or .usdz")
     parser.add_argument("--frame", type=float, help="time code (default: the first, or the default values)")
-    parser.add_argument("--camera", metavar="PRIM", help="path of the camera (default: the first)")
-    parser.add_argument("--resolution", default="640x360", metavar="WxH")
+    parser.add_argument("--camera", metavar="PRIM", help="path of the camera (default: the one of the render settings, or the first)")
+    parser.add_argument("--resolution", metavar="WxH", help="(default: that of the render settings, or 640x360)")
     parser.add_argument(
         "--subdivision", type=int, metavar="N", help="halve edges of subdivision surfaces N times (default: to two pixels)"
     )
@@ -378,7 +406,7 @@ def main(arguments: list[str] | None = None) -> int:
             options.stage,
             time=options.frame,
             camera=options.camera,
-            resolution=command.size_of(options.resolution),
+            resolution=command.size_of(options.resolution) if options.resolution else None,
             spp=options.spp,
             maps=command.maps_of(options.output),
             subdivision=options.subdivision,

@@ -384,6 +384,11 @@ TEST(LoadLights, AlphaMakesLampsPartlyPresentOrUnseen) {
     EXPECT_EQ(presence("\"float alpha\" 1"), Presence::solid);
     EXPECT_EQ(presence("\"float alpha\" 0.5"), Presence::partly);
     EXPECT_EQ(presence("\"float alpha\" 0"), Presence::unseen);
+    const Scene once(load_text("AreaLightSource \"diffuse\" \"bool alphaonce\" true "
+                               "Shape \"sphere\" \"float alpha\" 0.5")
+                         .scene);
+    EXPECT_EQ(presence_of(once.lights().at(0)), Presence::once);
+    EXPECT_EQ(once.presence(0, {{0.5f, 0.5f}, {}, {0, 0, 1}}), 0.5f);
     const Scene unseen(load_text("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" 0").scene);
     EXPECT_TRUE(unseen.has_point_like_lights());
     EXPECT_EQ(unseen.presence(0, {{0, 0}, {0, 0, 1}}), 1);

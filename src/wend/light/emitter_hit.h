@@ -53,9 +53,9 @@ public:
     /// Of a surface that shines.
     EmitterHit at(const Hit& hit, const LastVertex& last, const Vec3& direction) const {
         EmitterHit arriving;
-        Rgb emitted =
-            emitted_radiance(scene_.lights()[static_cast<std::size_t>(hit.light)], hit.normal, hit.uv, -direction);
-        if (last.unconnected) {
+        const Light& light = scene_.lights()[static_cast<std::size_t>(hit.light)];
+        Rgb emitted = emitted_radiance(light, hit.normal, hit.uv, -direction);
+        if (last.unconnected && presence_of(light) == Presence::partly) {
             // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark.
             emitted *= scene_.presence(hit.light, texture_point(hit));
         }

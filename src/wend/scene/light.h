@@ -82,7 +82,8 @@ private:
 /// Whether rays meet a lamp.
 enum class Presence {
     solid,
-    partly,  ///< with the probability that its surface has
+    partly,  ///< with the probability that its surface has; as in pbrt, rays that nothing stands in for find it twice
+    once,    ///< with that probability, once for all rays
     passed,  ///< always, and they go on behind it
     unseen   ///< never: it shines, and only connections find it
 };

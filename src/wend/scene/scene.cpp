@@ -72,7 +72,8 @@ Scene::Scene(SceneDescription description, const Scene* other) : d_(std::move(de
         }
         for (std::size_t k = first; surface.first_light >= 0 && k < lights_.size() && k < first + lights_on(surface);
              ++k) {
-            light_alpha_[k] = presence_of(lights_[k]) == Presence::partly ? surface.alpha : -1;
+            const Presence presence = presence_of(lights_[k]);
+            light_alpha_[k] = presence == Presence::partly || presence == Presence::once ? surface.alpha : -1;
         }
         const Material& material = d_.materials[static_cast<std::size_t>(surface.material)];
         has_interfaces_ |= std::holds_alternative<InterfaceMaterial>(material) || surface.alpha >= 0;

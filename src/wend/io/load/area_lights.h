@@ -23,6 +23,8 @@ struct AreaLight {
     bool two_sided = false;
     /// Whether it is in the way of others; if not, its shape is of an interface.
     bool is_solid = true;
+    /// Whether the opacity of its shape counts once for rays that nothing was connected for, and not twice as in pbrt.
+    bool is_once = false;
     /// Multiplies the radiance, by direction; the axis is that of the shape's own space. None: 1.
     std::optional<EmissionProfile> profile;
 

@@ -34,7 +34,8 @@ Rgb load_scaled(LoadContext& context, const pbrt::ParameterSet& p, std::string_v
 /// The picture that a light shines by, as pbrt clamps it. Throws InputError where a pixel is not finite.
 Image load_picture(LoadContext& context, TextureLoader& textures, const pbrt::Entity& light) {
     Image image =
-        *textures.picture(required_file(context, light, "filename"), "sRGB", light.place, PictureChannels::of_light);
+        *textures.picture(required_file(context, light, "filename"), light.parameters.get_string("encoding", "sRGB"),
+                          light.parameters.place_of("encoding"), PictureChannels::of_light);
     for (Rgb& pixel : image.pixels) {
         if (!is_finite(pixel)) {
             throw InputError(light.parameters.place_of("filename"),
@@ -407,6 +408,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
     result.power = load_target(p, "power");
     result.two_sided = p.get_bool("twosided", false);
     result.is_solid = p.get_bool("solid", true);
+    result.is_once = p.get_bool("alphaonce", false);
     result.profile = load_profile(p);
     context.warnings.add_unused("AreaLightSource", light);
     return result;

@@ -302,6 +302,7 @@ private:
         const Presence presence = is_interface               ? Presence::passed
                                   : surface.alpha < 0        ? Presence::solid
                                   : alpha && !(alpha->r > 0) ? Presence::unseen
+                                  : light.is_once            ? Presence::once
                                                              : Presence::partly;
         const auto difference = round_lamp_difference(entity.type, *surface.shape, entity.world_from_object);
         if (context_.is_for_pbrt && !difference.empty()) {

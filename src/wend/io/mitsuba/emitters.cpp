@@ -86,6 +86,18 @@ void add_environment(const Object& emitter) {
     add(emitter, emitter.transform("to_world") * Transform(m), "infinite", p);
 }
 
+/// The picture that an emitter shines by.
+void set_picture(const Object& bitmap, Parameters& p) {
+    p.text("filename", bitmap.file("filename").string());
+    if (bitmap.flag("raw", false)) {
+        p.text("encoding", "raw");
+    }
+    for (const char* name : {"format", "filter_type", "wrap_mode"}) {
+        bitmap.ignore(name);
+    }
+    bitmap.warn_of_unused();
+}
+
 /// `fov` is that of the picture's width.
 void add_projector(const Object& emitter) {
     const Element* picture = emitter.find("irradiance");
@@ -99,16 +111,12 @@ void add_projector(const Object& emitter) {
     if (!(fov > 0 && fov < 180) || emitter.text("fov_axis", "x") != "x") {
         throw InputError(emitter.place_of("fov"), "a \"projector\" needs a \"fov\" between 0 and 180 degrees, along x");
     }
-    p.text("filename", bitmap.file("filename").string())
-        .real("fov", fov)
+    set_picture(bitmap, p);
+    p.real("fov", fov)
         .text("fovaxis", "x")
         .text("profile", "plane")
         // As Mitsuba has it.
         .real("scale", double{pi} * emitter.non_negative("scale", 1));
-    for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
-        bitmap.ignore(name);
-    }
-    bitmap.warn_of_unused();
     add(emitter, emitter.transform("to_world") * Transform::scale(-1, 1, 1), "projection", p);
 }
 
@@ -130,11 +138,8 @@ void set_radiance(const Object& emitter, Parameters& p) {
     if (bitmap.type() != "bitmap") {
         throw InputError(bitmap.place(), "the \"radiance\" of an area light may vary by a <texture type=\"bitmap\">");
     }
-    p.text("filename", bitmap.file("filename").string()).text("origin", "top");
-    for (const char* name : {"raw", "format", "filter_type", "wrap_mode"}) {
-        bitmap.ignore(name);
-    }
-    bitmap.warn_of_unused();
+    set_picture(bitmap, p);
+    p.text("origin", "top");
 }
 
 /// Of Mitsuba's own tables, which only Mitsuba can read.

@@ -1,0 +1,138 @@
+"""Image textures of Blender as textures of the renderer."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._blend_reach import is_uv
+from ._blend_wanted import Probe
+
+if TYPE_CHECKING:
+    from ._blend_nodes import Nodes
+
+_WRAPS = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black", "MIRROR": "mirror"}
+_LINEAR = ("Non-Color", "Linear Rec.709", "Raw", "Linear")
+
+
+def picture_texture(nodes: Nodes, node: Any, kind: str, is_alpha: bool) -> str | None:
+    """The name of a texture by the picture of an image node; None where it has to be baked.
+
+    Args:
+        kind: "rgb" or "float".
+        is_alpha: whether its opacity is asked for, and not its colour.
+    """
+    image = node.image
+    is_linear = image.colorspace_settings.name in _LINEAR
+    faults = _faults_of_picture(node, kind, is_alpha)
+    mapping = mapping_of(nodes, node, faults)
+    if faults and nodes.bakery is not None:
+        return None
+    for fault in faults:
+        nodes.warn(node, fault)
+    file = file_of(nodes, node, image)
+    if file is None:
+        return None
+    parameters: dict[str, Any] = {
+        "string filename": file,
+        # An opacity is as it is.
+        "string encoding": "linear" if is_linear or is_alpha else "sRGB",
+        "string wrap": _WRAPS.get(node.extension, "repeat"),
+    }
+    if kind == "float" and not is_alpha:
+        parameters["string channels"] = "luminance"
+    if node.interpolation == "Closest":
+        parameters["string filter"] = "point"
+    elif node.interpolation != "Linear":
+        nodes.warn(node, f"the interpolation {node.interpolation} of a picture is taken as Linear")
+    return nodes.add_texture(kind, "imagemap", parameters | mapping)
+
+
+def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
+    """What of an image node a texture by its file cannot be."""
+    image = node.image
+    space = image.colorspace_settings.name
+    faults = []
+    if space != "sRGB" and space not in _LINEAR:
+        faults.append(f"the colour space {space} of a picture is taken as sRGB")
+    if image.source not in ("FILE", "GENERATED"):
+        faults.append(f"a picture of the kind {image.source} is not read")
+    if node.extension not in _WRAPS:
+        faults.append(f"the extension {node.extension} of a picture is taken as repetition")
+    if node.projection != "FLAT":
+        faults.append(f"the projection {node.projection} of a picture is left out")
+    has_opacity = image.channels == 4 and image.depth not in (24, 8)
+    if is_alpha and (kind == "rgb" or image.channels < 4 or image.alpha_mode == "NONE"):
+        faults.append("the opacity of a picture is taken as its colour")
+    # Colours are multiplied by the opacity, unless somebody asks for that.
+    is_multiplied = has_opacity and space not in ("Non-Color", "Raw") and image.alpha_mode in ("STRAIGHT", "PREMUL")
+    is_asked_for = node.outputs["Alpha"].is_linked
+    if not is_alpha and is_multiplied and is_asked_for == image.is_float and not _is_opaque(image):
+        faults.append("the colours of a picture are taken as its file has them, whatever its opacity")
+    return faults
+
+
+def _is_opaque(image: Any) -> bool:
+    pixels = np.empty(len(image.pixels), dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    return bool(pixels[3::4].min(initial=1.0) >= 1)
+
+
+def mapping_of(nodes: Nodes, node: Any, faults: list[str]) -> dict[str, Any]:
+    """Of texture coordinates, an affine map; what it leaves out is added to `faults`."""
+    parameters: dict[str, Any] = {}
+    if _has_own_mapping(node.texture_mapping):
+        faults.append("the mapping that a picture's node has itself is left out")
+    with nodes.aside():
+        found = nodes.source(node.inputs["Vector"])
+        if found is None or not found.is_output:
+            return parameters
+        mapping = found.node
+        if mapping.bl_idname == "ShaderNodeMapping":
+            given = [nodes.known(nodes.input(mapping, name)) for name in ("Scale", "Rotation", "Location")]
+            if any(x is None for x in given) or mapping.vector_type != "POINT" or np.abs(given[1][:2]).max() > 1e-6:  # type: ignore[index]
+                faults.append("of a mapping, only scale, place and a turn in the plane that are constant are taken")
+            else:
+                scale, turn, place = (np.broadcast_to(x, 3) for x in given)  # type: ignore[arg-type]
+                c, s = math.cos(turn[2]), math.sin(turn[2])
+                parameters["float uvmatrix"] = (
+                    c * scale[0], -s * scale[1], place[0], s * scale[0], c * scale[1], place[1]
+                )  # fmt: skip
+            found = nodes.source(mapping.inputs["Vector"])
+    uv_name = nodes.bakery.uv_name if nodes.bakery is not None else ""
+    if found is not None and found.is_output and not is_uv(found, uv_name):
+        label = found.node.bl_idname.removeprefix("ShaderNode")
+        faults.append(f"texture coordinates of {label} are taken as UV")
+    return parameters
+
+
+def _has_own_mapping(mapping: Any) -> bool:
+    """Whether the settings of a texture's node change where it lies; older files have such."""
+    axes = (mapping.mapping_x, mapping.mapping_y, mapping.mapping_z)
+    is_moved = any(mapping.translation) or any(mapping.rotation) or any(x != 1 for x in mapping.scale)
+    return is_moved or axes != ("X", "Y", "Z") or mapping.use_min or mapping.use_max
+
+
+def file_of(nodes: Nodes, node: Any, image: Any) -> str | None:
+    """The file of a picture, written out where it has none that can be read; None without pixels, which is told."""
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    if isinstance(nodes.bakery, Probe):
+        nodes.bakery.modes.add("picture")
+        return ""
+    if image.source == "FILE" and not image.packed_file and image.filepath:
+        path = str(bpy.path.abspath(image.filepath, library=image.library))
+        if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
+            return path
+    if image.source in ("FILE", "GENERATED") and image.size[0] > 0:
+        suffix = "exr" if image.is_float else "png"
+        file = nodes.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.{suffix}")
+        before = image.file_format
+        image.file_format = "OPEN_EXR" if image.is_float else "PNG"
+        image.save(filepath=file, save_copy=True)
+        image.file_format = before
+        return str(file)
+    nodes.warn(node, f"a picture of the kind {image.source}, or without pixels, is left out")
+    return None
