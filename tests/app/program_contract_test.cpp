@@ -82,6 +82,7 @@ TEST_F(Program, UnknownNamesListTheKnownOnes) {
           Case{{"render", scene_, "--sampling", "psychic"}, {"'psychic'", "classical", "direction"}},
           Case{{"render", scene_, "--sampling", "direction+"}, {"'direction+'", "classical", "direction"}},
           Case{{"compare", scene_, "--sampling", "classical,psychic"}, {"'psychic'", "classical", "direction"}},
+          Case{{"render", "--live", scene_}, {scene_ + "' is no port"}},
           Case{{"render", scene_, "--sampler", "dice"}, {"'dice'", "sobol", "independent"}},
           Case{{"render", scene_, "-o", folder_.file("room.bmp")}, {"room.bmp", ".exr", ".png", ".jpg"}}}) {
         const auto result = run_wend(c.arguments);
@@ -123,6 +124,7 @@ TEST_F(Program, RefusesArgumentsThatMakeNoSense) {
                                                {"--threads", "-1"},
                                                {"--threads", "100000"},
                                                {"--seed", "-1"},
+                                               {"--live", "99999"},
                                                {"--max-depth", "-1"},
                                                {"--frobnicate"},
                                                {"another.pbrt"}}) {

@@ -7,6 +7,7 @@
 
 #include <csignal>
 
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <ostream>
@@ -15,13 +16,23 @@
 
 namespace wend {
 
+std::string port_problem(const std::string& text) {
+    unsigned port = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data(), end, port);
+    return error == std::errc() && read == end && port <= 65535
+               ? ""
+               : "'" + text + "' is no port, which is a number from 0 (any that is free) to 65535";
+}
+
 void LiveViewers::add_to(CLI::App& command) {
     command
         .add_option("--live", port,
                     "show the render in a browser of this machine while it runs; the port on 127.0.0.1 (default: one "
                     "that is free)")
         ->expected(0, 1)
-        ->default_str("0");
+        ->default_str("0")
+        ->check(port_problem);
     command.add_option("--display-server", display_server,
                        "HOST:PORT of a viewer that speaks tev's protocol: send it the picture while it grows");
 }
