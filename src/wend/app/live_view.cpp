@@ -1,4 +1,5 @@
 #include <wend/app/live_view.h>
+#include <wend/core/error.h>
 #include <wend/view/display_client.h>
 #include <wend/view/page.h>
 #include <wend/view/questions.h>
@@ -20,9 +21,15 @@ std::string port_problem(const std::string& text) {
     unsigned port = 0;
     const char* const end = text.data() + text.size();
     const auto [read, error] = std::from_chars(text.data(), end, port);
-    return error == std::errc() && read == end && port <= 65535
-               ? ""
-               : "'" + text + "' is no port, which is a number from 0 (any that is free) to 65535";
+    const std::string problem = "'" + text + "' is no port, which is a number from 0 (any that is free) to 65535";
+    if (read != end) {
+        return problem;
+    }
+    // What cannot be the value of --live is taken for a scene, but this is none.
+    if (error != std::errc() || port > 65535) {
+        throw InputError(problem);
+    }
+    return "";
 }
 
 void LiveViewers::add_to(CLI::App& command) {

@@ -14,7 +14,7 @@ namespace wend {
 class DisplayClient;
 class LocalServer;
 
-/// What is wrong with a port of a server; empty: nothing.
+/// What is wrong with a port of a server; empty: nothing. Throws InputError for a number that is too large.
 std::string port_problem(const std::string& text);
 
 /// Who watches.
