@@ -33,20 +33,20 @@ install(FILES ${PROJECT_BINARY_DIR}/wend-config.cmake ${PROJECT_BINARY_DIR}/wend
   DESTINATION ${package_dir} COMPONENT library)
 
 # find_package(openpgl) gives the target openpgl::openpgl, of the version whose interface it has. A component of its own:
-# where Open PGL itself is installed there is no room for it.
+# where Open PGL itself is installed there is no room for it. It is there for who asks for it.
 if(WEND_OPENPGL)
   set(openpgl_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/openpgl)
   get_target_property(openpgl_version openpgl VERSION)
-  install(TARGETS openpgl EXPORT openpgl-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT openpgl)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/openpgl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT openpgl)
-  install(EXPORT openpgl-targets NAMESPACE openpgl:: DESTINATION ${openpgl_package_dir} COMPONENT openpgl)
+  install(TARGETS openpgl EXPORT openpgl-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT openpgl EXCLUDE_FROM_ALL)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/openpgl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT openpgl EXCLUDE_FROM_ALL)
+  install(EXPORT openpgl-targets NAMESPACE openpgl:: DESTINATION ${openpgl_package_dir} COMPONENT openpgl EXCLUDE_FROM_ALL)
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/openpgl-config.cmake.in ${PROJECT_BINARY_DIR}/openpgl-config.cmake
     INSTALL_DESTINATION ${openpgl_package_dir})
   # Renderers ask for the version that they were written for, 0.5 to 0.8.
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/openpgl-config-version.cmake VERSION ${openpgl_version}
     COMPATIBILITY SameMajorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/openpgl-config.cmake ${PROJECT_BINARY_DIR}/openpgl-config-version.cmake
-    DESTINATION ${openpgl_package_dir} COMPONENT openpgl)
+    DESTINATION ${openpgl_package_dir} COMPONENT openpgl EXCLUDE_FROM_ALL)
 endif()
 
 if(WEND_BUILD_RENDERER)

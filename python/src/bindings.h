@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,19 @@ using Values = nb::typed<nb::dict, nb::str, nb::any>;
 using Rows = nb::typed<nb::list, Values>;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(Vec2) == 2 * sizeof(float));
+
+/// For long work without the GIL to call now and then: Ctrl-C ends it, by an exception, in the thread that this one is.
+inline auto let_signals_arrive() {
+    return [caller = std::this_thread::get_id()] {
+        if (std::this_thread::get_id() != caller) {
+            return;
+        }
+        const nb::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() != 0) {
+            throw nb::python_error();
+        }
+    };
+}
 
 inline const Vec3* vectors(const Vectors& array) {
     return reinterpret_cast<const Vec3*>(array.data());

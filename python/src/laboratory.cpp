@@ -32,7 +32,9 @@ std::string run_experiment(std::vector<std::string> options, bool slab,
     if (adjoint) {
         planar.experiment.adjoint = planar_adjoint(*adjoint);
     }
-    return planar_json(planar.experiment, planar.run(), run_planar(planar.experiment, planar.run())).dump();
+    PlanarRun run = planar.run();
+    run.watch = let_signals_arrive();
+    return planar_json(planar.experiment, run, run_planar(planar.experiment, run)).dump();
 }
 
 }  // namespace

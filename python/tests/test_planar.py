@@ -1,3 +1,6 @@
+import signal
+import threading
+
 import numpy as np
 import pytest
 import wend
@@ -30,6 +33,15 @@ def test_an_adjoint_of_ones_own():
             wend.halfspace(albedo=0.9, sampler="modes", adjoint=wrong)
     with pytest.raises(wend.InputError, match="modes"):
         wend.halfspace(albedo=0.9, adjoint=table)
+
+
+def test_control_c_ends_long_work():
+    # Walks for hours.
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        wend.halfspace(albedo=0.99, walks=10**9, threads=2)
+    timer.join()
 
 
 def test_colours_are_tuples():

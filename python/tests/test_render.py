@@ -1,3 +1,5 @@
+import copy
+import pickle
 import signal
 import subprocess
 import sys
@@ -121,11 +123,66 @@ def test_fields_carry_over(demo, tmp_path):
         ({"time": float("nan")}, "positive"),
         ({"sampling": "magic"}, "magic"),
         ({"subsurface": "magic"}, "magic"),
+        ({"spp": 0.5}, "spp: expected a positive whole number"),
+        ({"spp": "4"}, "spp"),
+        ({"spp": 10**12}, "spp"),
+        ({"passes": [1, 1.5]}, "passes"),
+        ({"seed": -1}, "seed"),
+        ({"seed": 1 << 64}, "seed"),
+        ({"threads": -1}, "threads"),
+        ({"threads": 10**6}, "threads: expected a whole number from 0 to 4096"),
+        ({"layers": "volume"}, "layers: expected a list of names"),
     ],
 )
 def test_arguments_are_checked(demo, options, message):
     with pytest.raises(wend.InputError, match=message):
         wend.Render(demo, **options)
+
+
+def test_numbers_of_other_types_are_numbers(demo):
+    render = wend.Render(demo, spp=np.float32(3), seed=np.uint64((1 << 64) - 1), passes=None, threads=np.int8(1))
+    assert render.run().statistics["spp"] == 3
+    assert wend.Render(demo, passes=np.array([1, 2])).run().statistics["passes"] == [1, 2]
+
+
+def test_names_alone_are_no_lists(demo):
+    with pytest.raises(wend.InputError, match="sampling: expected a list"):
+        wend.compare(demo, time=1, sampling="full")
+
+
+def test_what_is_no_scene_is_named():
+    with pytest.raises(TypeError, match="wend.Scene"):
+        wend.Render("room.pbrt")
+    with pytest.raises(TypeError, match="wend.Fields"):
+        wend.Render(wend.load(wend.demo_scene(), resolution=(4, 4)), fields=3)
+
+
+def test_no_number_of_threads_is_too_large_for_the_guide(furnace):
+    render = wend.Render(furnace, spp=7)
+    render.run()
+    places = np.zeros((2000, 3), np.float32)
+    assert np.array_equal(
+        render.fields.volume.fluence(places), render.fields.volume.fluence(places, threads=10**6)
+    )
+
+
+def test_a_render_is_neither_copied_nor_pickled(demo):
+    render = wend.Render(demo, spp=1)
+    for attempt in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="save it"):
+            attempt(render)
+
+
+def test_what_has_ended_goes_back_to_a_checkpoint(demo, tmp_path):
+    render = wend.Render(demo, spp=7)
+    render.step()
+    render.save(tmp_path / "checkpoint")
+    whole = render.run()
+    render.resume(tmp_path / "checkpoint")
+    assert render.progress["spp"] == 1
+    assert same(whole, render.run())
+    with pytest.raises(wend.InputError, match="no folder"):
+        render.save(tmp_path / "none" / "checkpoint")
 
 
 def test_another_thread_may_stop_it(demo):
@@ -156,6 +213,18 @@ def test_control_c_ends_it(tmp_path):
     process.send_signal(signal.SIGINT)
     out, _ = process.communicate(timeout=60)
     assert out == "interrupted\n"
+
+
+def test_control_c_ends_a_step_within_a_pass():
+    # A pass takes seconds.
+    render = wend.Render(wend.load(wend.demo_scene(), resolution=(960, 540)), spp=1, threads=1)
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        render.step()
+    timer.join()
+    assert render.progress["spp"] == 0 and 0 < render.progress["fraction"] < 1
+    assert render.step(0.01), "it goes on"
 
 
 def test_merging(demo):

@@ -19,6 +19,9 @@ def test_loading_says_what_is_there(demo):
     "options, message",
     [
         ({"resolution": (0, 5)}, "resolution"),
+        ({"resolution": "32x18"}, "resolution"),
+        ({"resolution": (32.5, 18)}, "resolution"),
+        ({"max_depth": -1}, "max-depth"),
         ({"crop": (0.5, 0.2, 0, 1)}, "crop"),
         ({"sampler": "dice"}, "sampler"),
     ],

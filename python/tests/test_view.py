@@ -27,7 +27,8 @@ class View:
     def __init__(self, folder, *arguments):
         self.process = subprocess.Popen(
             [os.environ["WEND_PROGRAM"], "view", *map(str, arguments)], cwd=folder, stdout=subprocess.PIPE, text=True)
-        self.url = self.process.stdout.readline().removeprefix("view: ").strip()
+        self.url = self.process.stdout.readline().strip()
+        assert self.url.startswith("http://127.0.0.1:")
 
     def __enter__(self):
         return self

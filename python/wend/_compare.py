@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from . import _wend
+from ._arguments import names_of
 from ._film import Film, Reference, halves
 from ._progress import Bar
 from ._scene import Scene, load
@@ -192,7 +193,7 @@ def compare(
         else:
             bars[-1].update(fraction)
 
-    ways = [(one, inside) for one in sampling for inside in subsurface]
+    ways = [(one, inside) for one in names_of(sampling, "sampling") for inside in names_of(subsurface, "subsurface")]
     seconds = float(time) * _wend.reference_effort if reference_time is None else float(reference_time)
     try:
         return Comparison(

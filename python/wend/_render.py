@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator
-from typing import Any
+from time import monotonic
+from typing import Any, NoReturn
 
 from . import _wend
+from ._arguments import instance, names_of, whole
 from ._errors import InputError
 from ._film import Film
 from ._progress import Bar
@@ -16,6 +18,10 @@ from .guide import Fields
 
 #: Seconds between looks at the keyboard.
 _STEP = 0.2
+
+_MOST_SAMPLES = 1 << 30
+_MOST_THREADS = 4096
+_MOST_SEED = (1 << 64) - 1
 
 
 class Render:
@@ -62,23 +68,23 @@ class Render:
     ) -> None:
         if sum(x is not None for x in (spp, time, passes)) > 1:
             raise InputError("give one of spp, time and passes")
-        for name, value in (("spp", spp), ("time", time), ("noise", noise)):
+        for name, value in (("time", time), ("noise", noise)):
             if value is not None and not (value > 0 and math.isfinite(value)):
                 raise InputError(f"{name}: expected a positive number, not {value}")
-        self._scene = scene
+        self._scene: Scene = instance(scene, Scene, "scene", "wend.load")
         self._native = _wend.Render(
-            scene._native,
-            int(spp or 0),
+            self._scene._native,
+            0 if spp is None else whole(spp, "spp", 1, _MOST_SAMPLES),
             float(time or 0),
             float(noise or 0),
-            passes or [],
+            [] if passes is None else [whole(count, "passes", 1, _MOST_SAMPLES) for count in passes],
             sampling,
             subsurface,
-            None if fields is None else fields._native,
+            None if fields is None else instance(fields, Fields, "fields", "Render.fields, or wend.guide")._native,
             keep_fields and sampling != "classical",
-            seed,
-            threads,
-            list(layers),
+            None if seed is None else whole(seed, "seed", 0, _MOST_SEED),
+            whole(threads, "threads", 0, _MOST_THREADS),
+            names_of(layers, "layers"),
         )
         self._ended = False
 
@@ -91,16 +97,23 @@ class Render:
         """Go on for about so many seconds, or to the end of a pass if that comes first.
 
         Returns:
-            Whether there is more to do. Other Python threads run meanwhile.
+            Whether there is more to do. Other Python threads run meanwhile, and Ctrl-C ends it within a second: the
+            render can be gone on with.
         """
-        self._ended = not self._native.step(seconds)
-        return not self._ended
+        if math.isnan(seconds):
+            raise InputError("seconds: expected a number")
+        end = monotonic() + seconds
+        while True:
+            left = end - monotonic()
+            self._ended = not self._native.step(min(max(left, 0), _STEP))
+            if self._ended or left <= _STEP or not self._native.is_within_pass or self._native.is_stopped:
+                return not self._ended
 
     def passes(self) -> Iterator[Film]:
         """Go on pass by pass, giving the film after each one. A pass has twice the samples of the one before, up to
         32; what was learned in it guides the next."""
         while not self._ended and not self._native.is_stopped:
-            self._to_end_of_pass()
+            self.step()
             yield self.film
 
     def run(self, *, progress: bool = False) -> Film:
@@ -114,7 +127,8 @@ class Render:
             while not self._ended and not self._native.is_stopped:
                 self.step(_STEP)
                 state = self._native.progress()
-                bar.update(state["fraction"], f"{state['spp']} spp, noise {100 * state['relative_noise']:.1f} %")
+                noise = f", noise {100 * state['relative_noise']:.1f} %" if state["relative_noise"] > 0 else ""
+                bar.update(state["fraction"], f"{state['spp']} spp{noise}")
         finally:
             bar.close()
         return self.film
@@ -151,16 +165,16 @@ class Render:
         self._native.save(os.fspath(path))
 
     def resume(self, path: str | os.PathLike[str]) -> None:
-        """Go on from a checkpoint; before the first step.
+        """Go on from a checkpoint, whatever was done before.
 
         Raises:
             InputError: for a checkpoint of another scene or other settings, naming what differs.
         """
         self._native.resume(os.fspath(path))
+        self._ended = False
 
-    def _to_end_of_pass(self) -> None:
-        while self.step(_STEP) and self._native.is_within_pass and not self._native.is_stopped:
-            pass
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        raise TypeError("a render can neither be copied nor pickled: save it, and resume from the file")
 
 
 def render(

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _wend
+from ._arguments import whole
 from ._errors import InputError, SceneWarning
 
 #: Parameters with more elements are data rather than settings, and are not listed.
@@ -152,7 +153,12 @@ def _options(
     max_depth: int | None,
     sampler: str | None,
 ) -> tuple[str, str, int | None, str]:
-    size = "" if resolution is None else f"{resolution[0]}x{resolution[1]}"
+    size = ""
+    if resolution is not None:
+        if isinstance(resolution, str) or len(resolution) != 2:
+            raise InputError(f"resolution: expected (width, height), not {resolution!r}")
+        width, height = (whole(n, "resolution", 1, (1 << 31) - 1) for n in resolution)
+        size = f"{width}x{height}"
     part = "" if crop is None else ",".join(str(float(x)) for x in crop)
     return size, part, max_depth, sampler or ""
 

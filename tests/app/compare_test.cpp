@@ -1,6 +1,8 @@
 // wend compare: what it judges by, what it shows.
 #include "program_support.h"
 
+#include <wend/app/comparison.h>
+#include <wend/app/reference_render.h>
 #include <wend/core/colour.h>
 #include <wend/io/image_file.h>
 
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -50,6 +53,27 @@ TEST_F(Compare, RendersAReferenceWhereThereIsNoneAndKeepsIt) {
     std::filesystem::create_directory(folder_.path() / "report" / "room");
     const auto still = compare({"--sampling", "classical", "--reference", folder_.file("report/room")});
     EXPECT_EQ(still.json()["reference"]["files"], second.json()["reference"]["files"]) << "the pair before the folder";
+}
+
+TEST_F(Compare, TellsHowFarItIsWithinAPass) {
+    // Larger than what half a second is enough for.
+    const SceneOptions options{scene_, "1200x900", "", 64, ""};
+    CommonOptions common;
+    common.threads = 1;
+    std::ostringstream nobody;
+    const Session session(options, common, {nobody, nobody});
+    const Image grey(1200, 900, Rgb(1));
+    struct Seen {};
+    const auto watch = [](const RenderProgress& progress) {
+        if (progress.seconds > 0 && progress.samples == 0) {
+            throw Seen();
+        }
+    };
+    EXPECT_THROW(compare_presets(session, {{{Preset(), SubsurfacePreset()}}, 0.6, 1}, {{grey, grey}, {}, {}},
+                                 [&](const WayOfSampling&, int, const RenderProgress& progress) { watch(progress); }),
+                 Seen);
+    EXPECT_THROW(render_reference(session, {0, 0.6}, {}, [&](int, const RenderProgress& progress) { watch(progress); }),
+                 Seen);
 }
 
 TEST_F(Compare, LeavesNoReferenceWhereThereIsNoFolder) {

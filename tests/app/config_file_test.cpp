@@ -36,7 +36,8 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_F(ConfigFile, GivesOptions) {
     const auto result = render(
-        "# Mine.\n\n[render]\nspp=4\n  seed = 7 ; a number\nquiet = true\nsampling = \"direction\" # one\n"
+        "\xef\xbb\xbf# Mine.\r\n\n[render]\r\nspp=4\n  seed = 7 ; a number\nquiet = true\nsampling = \"direction\" # "
+        "one\n"
         "crop = '0,0.5,0,1'\n\n[compare]\ntime = 3\n",
         with_scene());
     ASSERT_EQ(result.status, 0) << result.err;

@@ -81,6 +81,9 @@ TEST_F(MergeCommand, KeepsLayersAndSumsUpMetadata) {
     for (const float n : layer(merged, "samples").values) {
         EXPECT_EQ(n, 16);
     }
+    ASSERT_TRUE(first.view && merged.view);
+    EXPECT_EQ(merged.view->camera_from_world, first.view->camera_from_world);
+    EXPECT_EQ(merged.view->ndc_from_world, first.view->ndc_from_world);
     EXPECT_EQ(merged.metadata.at("wend:scene"), scene_);
     EXPECT_EQ(merged.metadata.at("wend:seed"), "1,2");
     EXPECT_EQ(merged.metadata.at("wend:spp"), "16");
@@ -182,7 +185,8 @@ TEST_F(MergeCommand, RefusesNumbersThatCannotBe) {
     }
     expect_refused({a, folder_.write("c.exr", test::read_text(b).substr(0, 2000))}, {"c.exr: error"});
     expect_refused({a, scene_}, {"room.pbrt: error"});
-    expect_refused({a, folder_.file("none.exr")}, {"none.exr: error"});
+    expect_refused({a, folder_.file("none.exr")}, {"none.exr: error: cannot open: No such file"});
+    expect_refused({a, folder_.path().string()}, {folder_.path().string() + ": error: is a folder"});
 }
 
 TEST_F(MergeCommand, WritesOverNoRender) {

@@ -43,6 +43,20 @@ void expect_same(const Picture& a, const Picture& b) {
     }
 }
 
+TEST_F(PictureOptionsOfCommands, ThatDoNothingForAPictureAreNamed) {
+    const auto notes = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", scene_, "-o", folder_.file(name), "--spp", "1"});
+        const auto result = run_wend(more);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_NE(
+        notes("a.png", {"--layers", "volume", "--alpha"}).find("only an .exr has what --layers, --alpha asks for"),
+        std::string::npos);
+    EXPECT_EQ(notes("a.png", {}).find("only an .exr"), std::string::npos);
+    EXPECT_EQ(notes("a.exr", {"--layers", "volume", "--alpha"}).find("only an .exr"), std::string::npos);
+}
+
 TEST_F(PictureOptionsOfCommands, AllCommandsReadAllNames) {
     const std::string plain = render("plain.exr", {"--seed", "1"}), second = render("second.exr", {"--seed", "2"});
     ASSERT_EQ(run_wend({"merge", folder_.file("merged.exr"), plain, second, "--quiet"}).status, 0);

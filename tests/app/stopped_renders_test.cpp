@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -161,6 +162,7 @@ TEST_F(SlowStoppedRender, AnotherRenderIsRefusedByWhatIsDifferent) {
     refused({"--seed", "3", "--sampling", "direction"}, "sampling was \"full\" and is \"direction\"");
     refused({"--seed", "3", "--max-depth", "2"}, "max_depth was 8 and is 2");
     refused({"--seed", "3", "--crop", "0,0.5,0,1"}, "crop was");
+    refused({"--seed", "3", "--layers", "volume"}, "layers was none and is [\"volume\"]");
     folder_.write("room.pbrt", test::small_scene() + "\n# A word more.\n");
     refused({"--seed", "3"}, "room.pbrt has changed");
     folder_.write("room.pbrt", test::small_scene());
@@ -206,6 +208,51 @@ TEST_F(SlowStoppedRender, ProgressForProgramsIsALineOfJsonEach) {
         EXPECT_EQ(read.back()["spp"], 40);
         EXPECT_GT(read.back()["noise"], 0);
     }
+}
+
+TEST_F(SlowStoppedRender, GoesOnWhereNobodyReadsItsProgressAnyMore) {
+    const std::string picture = folder_.file("room.exr"), status = folder_.file("status.txt");
+    const std::string command = "{ '" + test::wend_program() + "' render '" + scene_ +
+                                "' --resolution 48x36 --spp 40 -o '" + picture + "' --progress json; echo $? > '" +
+                                status + "'; } 2>&1 | true";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    ASSERT_TRUE(wait_for("room.exr"));
+    ASSERT_TRUE(wait_for("status.txt"));
+    EXPECT_EQ(bytes("status.txt"), "0\n");
+}
+
+TEST_F(SlowStoppedRender, ResumesWithTheFieldThatItBeganWith) {
+    const std::string field = folder_.file("room.field"), file = folder_.file("room.checkpoint");
+    ASSERT_EQ(run_wend(arguments("taught.exr", 15, {"--save-field", field})).status, 0);
+    const std::vector<std::string> kept = {"--load-field", field, "--checkpoint", file, "--checkpoint-every", "1000"};
+    ASSERT_EQ(run_wend(arguments("whole.exr", 150, kept)).status, 0);
+    std::filesystem::remove(file);
+    {
+        std::vector<std::string> more = kept;
+        more.insert(more.end(), {"--write-every", "1000"});
+        test::WendProcess process(arguments("room.exr", 150, more), folder_);
+        ASSERT_TRUE(wait_for("room.exr"));
+        process.signal(SIGTERM);
+        ASSERT_EQ(process.wait().status, 128 + SIGTERM);
+    }
+    // The very command that a farm starts again.
+    std::vector<std::string> more = kept;
+    more.insert(more.end(), {"--resume", file});
+    const auto result = run_wend(arguments("room.exr", 150, more));
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(bytes("room.exr") == bytes("whole.exr"));
+}
+
+TEST_F(SlowStoppedRender, SaysItIsDoneWhenThereIsAPicture) {
+    const auto failed = run_wend({"render", scene_, "-o", "/dev/full", "--spp", "1", "--quiet", "--progress", "json"});
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_EQ(failed.err.find("done"), std::string::npos) << failed.err;
+}
+
+TEST_F(SlowStoppedRender, SaysOnceThatNobodyCanReadItsProgress) {
+    const auto result = run_wend(arguments("room.exr", 40, {"--progress-file", "/dev/full"}));
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "warning: /dev/full: cannot write: No space left on device; the render goes on\n");
 }
 
 TEST_F(SlowStoppedRender, EndsAtTheNoiseThatIsAskedFor) {

@@ -268,6 +268,37 @@ TEST(Render, ForeignBytesAreRefused) {
     EXPECT_THROW(other.restore(reader), InputError);
 }
 
+TEST(Render, PassesToBeRepeatedAreThoseThatItHasHad) {
+    const Scene scene(table_top());
+    const RenderSettings settings = settings_of("classical", 1);
+    Film film = new_film();
+    Render render(scene, film, settings);
+    for (int pass = 0; pass < 3; ++pass) {
+        render.step();
+    }
+    const auto go_on = [&](const std::string& state, std::vector<int> passes) {
+        RenderSettings repeated = settings;
+        repeated.passes = std::move(passes);
+        Film other = new_film();
+        Render again(scene, other, repeated);
+        ArchiveReader reader(state);
+        again.restore(reader);
+        while (again.step()) {
+        }
+        return again.statistics().passes;
+    };
+    const std::string state = saved(render);
+    EXPECT_EQ(go_on(state, {1, 2, 4, 3}), (std::vector<int>{1, 2, 4, 3}));
+    EXPECT_EQ(go_on(state, {1, 2, 4}), (std::vector<int>{1, 2, 4}));
+    for (const std::vector<int>& others : {std::vector<int>{1, 2}, {1, 2, 5}, {7, 2, 4, 3}}) {
+        EXPECT_THROW(go_on(state, others), InputError) << others.back();
+    }
+    render.step(0);
+    ASSERT_TRUE(render.is_within_pass());
+    EXPECT_THROW(go_on(saved(render), {1, 2, 4, 3}), InputError) << "a pass of eight has been begun";
+    EXPECT_EQ(go_on(saved(render), {1, 2, 4, 8}), (std::vector<int>{1, 2, 4, 8}));
+}
+
 TEST(Render, KeepsToItsTime) {
     const Scene scene(table_top());
     Film film = new_film();
@@ -315,6 +346,29 @@ TEST(EndedByNoiseSlow, OnceEverySquareIsQuietEnough) {
         EXPECT_EQ(render.progress().fraction, 1);
     }
     EXPECT_LT(samples[1], samples[0]) << "squares that are done leave the rest to others";
+}
+
+TEST(EndedByNoiseSlow, EvenIfItWasNotAskedForBefore) {
+    const Scene scene(table_top());
+    RenderSettings settings = settings_by_noise("full");
+    settings.noise = 0;
+    settings.samples = 15;
+    Film film = new_film();
+    Render render(scene, film, settings);
+    while (render.step()) {
+    }
+    const std::string state = saved(render);
+    ArchiveReader bytes(state);
+    const RenderSettings quieter = settings_by_noise("full");
+    Film other = new_film();
+    Render again(scene, other, quieter);
+    again.restore(bytes);
+    EXPECT_GT(again.progress().relative_noise, quieter.noise);
+    EXPECT_LT(again.progress().fraction, 1);
+    while (again.step()) {
+    }
+    EXPECT_GT(again.statistics().samples, 15);
+    EXPECT_LE(other.relative_noise(), quieter.noise);
 }
 
 TEST(EndedByNoiseSlow, IsTheSameInOneGoResumedAndByRanks) {

@@ -7,7 +7,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wend {
@@ -31,20 +33,39 @@ json describe(const Session& session, const RenderSettings& settings) {
     return {{"scene", session.scene_file()}, {"files", files}, {"settings", settings_of(session, settings)}};
 }
 
-/// What is different in two objects, one line each.
-std::vector<std::string> differences(const json& before, const json& now, const std::string& changed) {
-    std::vector<std::string> found;
-    for (const auto& [key, value] : before.items()) {
-        if (!now.contains(key)) {
-            found.push_back(fmt::format("{} is not there any more", key));
-        } else if (now[key] != value) {
-            found.push_back(fmt::vformat(changed, fmt::make_format_args(key, json_text(value), json_text(now[key]))));
+/// Of two objects, the keys whose values are different.
+std::set<std::string> different_keys(const json& before, const json& now) {
+    std::set<std::string> keys;
+    for (const auto& [one, other] : {std::pair(&before, &now), std::pair(&now, &before)}) {
+        for (const auto& [key, value] : one->items()) {
+            if (!other->contains(key) || (*other)[key] != value) {
+                keys.insert(key);
+            }
         }
     }
-    for (const auto& [key, value] : now.items()) {
-        if (!before.contains(key)) {
-            found.push_back(fmt::format("{} was not there before", key));
-        }
+    return keys;
+}
+
+std::string change_of_file(const json& before, const json& now, const std::string& name) {
+    const std::string what = name == stamp_of_changes ? "the scene's text, or a parameter of it," : name;
+    return what + (!now.contains(name)      ? " is not there any more"
+                   : !before.contains(name) ? " was not there before"
+                                            : " has changed");
+}
+
+std::string change_of_setting(const json& before, const json& now, const std::string& name) {
+    const auto value = [&](const json& of) { return of.contains(name) ? json_text(of[name]) : "none"; };
+    return fmt::format("{} was {} and is {}", name, value(before), value(now));
+}
+
+/// What is different in two descriptions, one line each.
+std::vector<std::string> differences(const json& before, const json& now) {
+    std::vector<std::string> found;
+    for (const std::string& file : different_keys(before["files"], now["files"])) {
+        found.push_back(change_of_file(before["files"], now["files"], file));
+    }
+    for (const std::string& setting : different_keys(before["settings"], now["settings"])) {
+        found.push_back(change_of_setting(before["settings"], now["settings"], setting));
     }
     return found;
 }
@@ -73,11 +94,7 @@ void resume_from(const std::filesystem::path& file, Render& render, const Sessio
     const Place place{file.string()};
     const Checkpoint checkpoint = read_checkpoint(file);
     const json before = description_of(checkpoint, place);
-    const json now = describe(session, settings);
-    std::vector<std::string> different = differences(before["files"], now["files"], "{0} has changed");
-    for (std::string& setting : differences(before["settings"], now["settings"], "{0} was {1} and is {2}")) {
-        different.push_back(std::move(setting));
-    }
+    const std::vector<std::string> different = differences(before, describe(session, settings));
     if (!different.empty()) {
         throw InputError(place, fmt::format("the checkpoint is of another render: {}", fmt::join(different, "; ")));
     }

@@ -21,6 +21,7 @@
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -129,6 +130,20 @@ void check(const RenderOptions& options, const Preset& preset) {
     options.watch.check();
 }
 
+/// Says which options do nothing, since the picture has colours of eight bits alone.
+void note_options_of_no_use(const RenderOptions& options, const std::filesystem::path& output, const Streams& streams) {
+    std::string names;
+    for (const auto& [name, is_given] :
+         {std::pair("--layers", !options.layers.empty()), std::pair("--alpha", options.picture.alpha),
+          std::pair("--exr half", options.picture.format().half)}) {
+        names += is_given ? (names.empty() ? "" : ", ") + std::string(name) : "";
+    }
+    if (!names.empty() && !is_exr_name(output)) {
+        options.common.note(streams,
+                            fmt::format("{}: note: only an .exr has what {} asks for", output.string(), names));
+    }
+}
+
 void check_paths(const RenderOptions& options, const std::string& output) {
     RenderPaths paths;
     paths.add(options, output);
@@ -204,7 +219,8 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     check(options, plan.preset);
     check_paths(options, options.output);
     std::optional<SavedFields> saved;
-    if (!fields && !options.load_field.empty()) {
+    // A checkpoint has what its render began with, and what it has learned since.
+    if (!fields && !options.load_field.empty() && options.watch.resume.empty()) {
         saved = read_saved_fields(options.load_field);
     }
     const Session session(options.scene, options.common, streams);
@@ -214,6 +230,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     const std::filesystem::path output =
         options.output.empty() ? default_output(session) : std::filesystem::path(options.output);
     check_paths(options, output.string());
+    note_options_of_no_use(options, output, streams);
 
     RenderSettings settings = session.settings();
     settings.preset = plan.preset;
@@ -386,8 +403,9 @@ Action add_render_command(CLI::App& program) {
     CLI::Option* save_records =
         command.add_option("--save-records", options->save_records,
                            "write a sample of what the field learned from to this file (for 'wend field --records')");
-    CLI::Option* load_field = command.add_option("--load-field", options->load_field,
-                                                 "go on with what an earlier render of the scene learned");
+    command.add_option(
+        "--load-field", options->load_field,
+        "go on with what an earlier render of the scene learned; with --resume it is the checkpoint that has it");
     CLI::Option* frames = command.add_option(
         "--frames", options->frames,
         "render these frames one after another, such as 1-48, 1-48x2 or 7: the number goes where names have ####");
@@ -397,7 +415,7 @@ Action add_render_command(CLI::App& program) {
                       "a frame begins with what the one before has learned: good where little changes")
             ->needs(frames);
     options->watch.add_to(command);
-    command.get_option("--resume")->excludes(load_field)->excludes(save_records)->excludes(carry_field);
+    command.get_option("--resume")->excludes(save_records)->excludes(carry_field);
     options->common.add_to(command);
     return [options, frames](const Streams& streams) { render(*options, streams, frames->count() > 0); };
 }

@@ -1,6 +1,7 @@
 #include <wend/app/commands.h>
 #include <wend/app/interrupt.h>
 #include <wend/app/live_renders.h>
+#include <wend/app/live_view.h>
 #include <wend/core/error.h>
 #include <wend/io/image_file.h>
 #include <wend/view/page.h>
@@ -36,7 +37,7 @@ bool is_picture(const std::string& file) {
 }
 
 void announce(const LocalServer& server, const Streams& streams) {
-    streams.out << "view: " << server.url() << '\n' << std::flush;
+    streams.out << server.url() << '\n' << std::flush;
 }
 
 /// Shows finished pictures until a signal comes.
@@ -160,7 +161,8 @@ Action add_view_command(CLI::App& program) {
         "-o,--output", options->output,
         "where 'Save now' writes the picture, and the end of the program, too (default: the scene's name "
         "in the current folder, and only when asked)");
-    command.add_option("--port", options->port, "of the server, on 127.0.0.1 (default: one that is free)");
+    command.add_option("--port", options->port, "of the server, on 127.0.0.1 (default: one that is free)")
+        ->check(port_problem);
     options->scene.add_choices_to(command);
     options->common.add_to(command);
     return [options](const Streams& streams) { view(*options, streams); };

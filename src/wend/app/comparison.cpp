@@ -36,13 +36,10 @@ std::vector<Snapshot> render_with_snapshots(const Session& session, Film& film, 
     double next_snapshot = 0;
     Render render(session.scene(), film, settings);
     for (bool goes_on = true; goes_on;) {
-        goes_on = render.step();
+        goes_on = render.step(seconds_between_looks);
         const RenderProgress progress = render.progress();
-        if (render.is_within_pass()) {
-            continue;
-        }
         watch(progress);
-        if (goes_on && progress.seconds >= next_snapshot) {
+        if (goes_on && !render.is_within_pass() && progress.seconds >= next_snapshot) {
             const double work = static_cast<double>(render.statistics().counts.segments);
             snapshots.push_back({progress.seconds, static_cast<double>(progress.samples), work, film.beauty()});
             next_snapshot = progress.seconds * 2;

@@ -135,9 +135,13 @@ public:
 
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
         Place place{file_.results().front()};
-        const std::string text = read_some(input, most_bytes);
+        std::string text = read_some(input, most_bytes);
         if (text.size() > most_bytes || text.find('\0') != std::string::npos) {
             throw InputError(place, "is no file of options");
+        }
+        // Some editors mark UTF-8 so.
+        if (text.starts_with("\xef\xbb\xbf")) {
+            text.erase(0, 3);
         }
         std::vector<CLI::ConfigItem> all;
         CLI::App* section = &program_;

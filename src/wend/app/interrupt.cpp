@@ -39,12 +39,15 @@ InterruptGuard::InterruptGuard() {
             sigaction(signals[i], &action, nullptr);
         }
     }
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, &pipe_before_);
 }
 
 InterruptGuard::~InterruptGuard() {
     for (std::size_t i = 0; i < signals.size(); ++i) {
         sigaction(signals[i], &before_[i], nullptr);
     }
+    sigaction(SIGPIPE, &pipe_before_, nullptr);
 }
 
 const std::atomic<bool>& InterruptGuard::flag() const {

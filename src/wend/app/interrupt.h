@@ -9,7 +9,8 @@ namespace wend {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP no longer kill the program but ask it to come to an end: walks are
 /// dropped where they are, and the picture is written. A second signal ends it at once, and leaves no half-written
-/// file. One that the program was started to ignore stays ignored.
+/// file. One that the program was started to ignore stays ignored. Nor does it end with a reader of what it tells, such
+/// as a monitor of its progress: from then on that is told to nobody.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -25,6 +26,7 @@ public:
 private:
     static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
     std::array<struct sigaction, signals.size()> before_{};
+    struct sigaction pipe_before_ {};
 };
 
 /// Thrown by a subcommand that a signal has ended, once all is written: the program's exit status is 128 and its

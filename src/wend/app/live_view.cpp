@@ -1,4 +1,5 @@
 #include <wend/app/live_view.h>
+#include <wend/core/error.h>
 #include <wend/view/display_client.h>
 #include <wend/view/page.h>
 #include <wend/view/questions.h>
@@ -7,6 +8,7 @@
 
 #include <csignal>
 
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <ostream>
@@ -15,13 +17,29 @@
 
 namespace wend {
 
+std::string port_problem(const std::string& text) {
+    unsigned port = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data(), end, port);
+    const std::string problem = "'" + text + "' is no port, which is a number from 0 (any that is free) to 65535";
+    if (read != end) {
+        return problem;
+    }
+    // What cannot be the value of --live is taken for a scene, but this is none.
+    if (error != std::errc() || port > 65535) {
+        throw InputError(problem);
+    }
+    return "";
+}
+
 void LiveViewers::add_to(CLI::App& command) {
     command
         .add_option("--live", port,
                     "show the render in a browser of this machine while it runs; the port on 127.0.0.1 (default: one "
                     "that is free)")
         ->expected(0, 1)
-        ->default_str("0");
+        ->default_str("0")
+        ->check(port_problem);
     command.add_option("--display-server", display_server,
                        "HOST:PORT of a viewer that speaks tev's protocol: send it the picture while it grows");
 }

@@ -14,6 +14,9 @@ namespace wend {
 class DisplayClient;
 class LocalServer;
 
+/// What is wrong with a port of a server; empty: nothing. Throws InputError for a number that is too large.
+std::string port_problem(const std::string& text);
+
 /// Who watches.
 struct LiveViewers {
     std::optional<unsigned short> port;  ///< of a server for browsers; 0: one that is free

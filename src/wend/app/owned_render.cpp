@@ -2,6 +2,7 @@
 #include <wend/app/extra_layers.h>
 #include <wend/app/owned_render.h>
 #include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
 
 #include <cmath>
 #include <utility>
@@ -27,7 +28,7 @@ void check(const RenderChoices& choices) {
         sum += samples;
     }
     require(sum <= most_samples, "passes: more than 2^30 samples");
-    require(choices.threads >= 0, "threads: expected 0, for all, or more");
+    require(choices.threads >= 0 && choices.threads <= 4096, "threads: expected 0, for all, to 4096");
 }
 
 RenderSettings settings_for(const Session& session, const RenderChoices& choices) {
@@ -96,6 +97,7 @@ Picture OwnedRender::picture() const {
 }
 
 void OwnedRender::save(const std::filesystem::path& file) const {
+    require_writable(file);
     const std::scoped_lock lock(mutex_);
     save_checkpoint(file, *render_, scene_->session(), settings_);
 }

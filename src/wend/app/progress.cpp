@@ -24,7 +24,9 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::update(const RenderProgress& p) {
-    update(p.fraction, p.seconds, fmt::format("{} spp  noise {:.1f} %", p.samples, 100 * p.relative_noise));
+    const std::string noise =
+        p.relative_noise > 0 ? fmt::format("  noise {:.1f} %", 100 * p.relative_noise) : std::string();
+    update(p.fraction, p.seconds, fmt::format("{} spp{}", p.samples, noise));
 }
 
 void ProgressBar::update(double fraction, double seconds, const std::string& detail) {

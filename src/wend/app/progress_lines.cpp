@@ -7,10 +7,11 @@
 #include <cerrno>
 #include <cstring>
 #include <ostream>
+#include <stdexcept>
 
 namespace wend {
 
-ProgressLines::ProgressLines(const std::string& file) : stream_(&file_) {
+ProgressLines::ProgressLines(const std::string& file) : name_(file), stream_(&file_) {
     errno = 0;
     file_.open(file, std::ios::trunc);
     if (!file_) {
@@ -38,7 +39,12 @@ void ProgressLines::write(const RenderProgress& progress, const char* phase) {
         {"seconds", progress.seconds},
         {"left", progress.seconds_left},
         {"phase", phase}};
+    errno = 0;
     *stream_ << json_text(line) << '\n' << std::flush;
+    // Where the standard error has gone, there is nobody to be told.
+    if (!*stream_ && !name_.empty()) {
+        throw std::runtime_error(name_ + ": cannot write: " + std::strerror(errno));
+    }
 }
 
 }  // namespace wend

@@ -21,12 +21,14 @@ public:
     ProgressLines(const ProgressLines&) = delete;
     ProgressLines& operator=(const ProgressLines&) = delete;
 
+    /// Both throw std::runtime_error where the file takes no more.
     void update(const RenderProgress& progress);
     void finish(const RenderProgress& progress, bool is_done);
 
 private:
     void write(const RenderProgress& progress, const char* phase);
 
+    std::string name_;  ///< of the file; empty: there is none
     std::ofstream file_;
     std::ostream* stream_;
     std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();

@@ -28,11 +28,12 @@ KnownReference render_reference(const Session& session, const ReferenceEffort& e
         settings.seed += seeds_apart + static_cast<std::uint64_t>(half);
         Film film = session.new_film(settings);
         watch(half, {});
-        const RenderStatistics statistics =
-            render(session.scene(), film, settings, [&](const RenderProgress& progress) {
-                watch(half, progress);
-                return true;
-            });
+        Render render(session.scene(), film, settings);
+        for (bool goes_on = true; goes_on;) {
+            goes_on = render.step(seconds_between_looks);
+            watch(half, render.progress());
+        }
+        const RenderStatistics statistics = render.result();
         ++half;
         *image = film.beauty();
         reference.rendered.push_back({settings.seed, statistics.samples, statistics.seconds});

@@ -3,6 +3,7 @@
 #include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
+#include <wend/io/gzip.h>
 #include <wend/io/image_file.h>
 #include <wend/io/load/parse_scene.h>
 #include <wend/io/spectrum/colour_space.h>
@@ -19,6 +20,9 @@
 
 namespace wend {
 namespace {
+
+/// Of a walk without a limit.
+constexpr int most_depth = 1 << 30;
 
 LoadedScene load(const SceneOptions& options, pbrt::Description description, LoadedParts* parts = nullptr) {
     LoadOverrides overrides;
@@ -81,7 +85,7 @@ void SceneOptions::add_choices_to(CLI::App& command) {
         .add_option("--max-depth", max_depth,
                     "largest number of scattering events of a walk, a stay inside a \"subsurface\" material being "
                     "one; 0: no limit (default: the scene's)")
-        ->check(CLI::Range(0, 1 << 30));
+        ->check(CLI::Range(0, most_depth));
     command.add_option("--sampler", sampler, "random numbers: sobol or independent (default: the scene's)");
 }
 
@@ -95,10 +99,32 @@ void SceneOptions::check() const {
     if (!sampler.empty()) {
         parse_sampler(sampler);
     }
+    if (max_depth && (*max_depth < 0 || *max_depth > most_depth)) {
+        throw InputError(fmt::format("--max-depth {}: expected 0, for no limit, to {}", *max_depth, most_depth));
+    }
+}
+
+ReadScene read_scene(const SceneOptions& options) {
+    // A redirected file is none of those in that folder, either.
+    const bool is_told =
+        is_device(options.file) || options.file == "/dev/stdin" || options.file.starts_with("/dev/fd/");
+    return is_told ? read_scene(read_file(options.file), {}, options) : ReadScene{parse_scene(options.file), {}};
+}
+
+ReadScene read_scene(const std::string& text, const std::filesystem::path& folder, const SceneOptions& options) {
+    // It has to be kept with all that are made of the scene: not a long text.
+    const FileStamp stamp = stamp_of(text, "text");
+    return {parse_scene(text, folder, options.file),
+            fmt::format("{} {} {:08x}\n", stamp.name, stamp.bytes, stamp.checksum)};
+}
+
+Session::Session(const SceneOptions& options, const CommonOptions& common, ReadScene read)
+    : Session(options, common, load(options, std::move(read.description))) {
+    stamp(read.changes);
 }
 
 Session::Session(const SceneOptions& options, const CommonOptions& common, const Streams& streams)
-    : Session(options, common, load(options, parse_scene(options.file))) {
+    : Session(options, common, read_scene(options)) {
     for (const std::string& warning : warnings_) {
         common.note(streams, warning);
     }
@@ -107,8 +133,12 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, const
 Session::Session(const SceneOptions& options, const CommonOptions& common, pbrt::Description description,
                  const std::string& changes, LoadedParts& parts, const Session* earlier)
     : Session(options, common, load(options, std::move(description), &parts), earlier) {
+    stamp(changes);
+}
+
+void Session::stamp(const std::string& changes) {
     if (!changes.empty()) {
-        files_.push_back(stamp_of(changes, "changes"));
+        files_.push_back(stamp_of(changes, stamp_of_changes));
     }
 }
 
@@ -126,7 +156,7 @@ Session::Session(const SceneOptions& options, const CommonOptions& common, Loade
     settings_.seed = common.seed.value_or(loaded.seed);
     settings_.threads = common.threads;
     settings_.max_depth =
-        options.max_depth ? (*options.max_depth == 0 ? 1 << 30 : *options.max_depth) : loaded.max_depth;
+        options.max_depth ? (*options.max_depth == 0 ? most_depth : *options.max_depth) : loaded.max_depth;
     settings_.filter = loaded.filter;
     settings_.exposure = loaded.exposure;
     settings_.balance = loaded.balance;

@@ -15,6 +15,9 @@
 
 namespace wend {
 
+/// Who watches a render is told of it so often, in the middle of a pass as well.
+inline constexpr double seconds_between_looks = 0.25;
+
 /// Options of the subcommands that render.
 struct SceneOptions {
     std::string file;
@@ -29,6 +32,21 @@ struct SceneOptions {
     /// Throws InputError for what is wrong whatever the scene.
     void check() const;
 };
+
+/// The name of the stamp (Session::files()) of what the scene's files do not have.
+inline const std::string stamp_of_changes = "changes";
+
+/// A scene's description, and what tells it from others that have the same files.
+struct ReadScene {
+    pbrt::Description description;
+    std::string changes;  ///< a text of one line; empty: it is that of its files
+};
+
+/// Reads `options.file`. A pipe tells its scene once; the scene's files are looked up in the current folder then.
+/// Throws InputError.
+ReadScene read_scene(const SceneOptions& options);
+/// Of a text that is not in a file. `options.file` is what messages call it.
+ReadScene read_scene(const std::string& text, const std::filesystem::path& folder, const SceneOptions& options);
 
 /// A loaded scene and the settings to render it with.
 class Session {
@@ -60,8 +78,11 @@ public:
     Picture picture(const Film& film, const RenderSettings& settings, const RenderStatistics& statistics) const;
 
 private:
+    Session(const SceneOptions& options, const CommonOptions& common, ReadScene read);
     Session(const SceneOptions& options, const CommonOptions& common, LoadedScene loaded,
             const Session* earlier = nullptr);
+    /// `changes` as of ReadScene.
+    void stamp(const std::string& changes);
 
     std::string scene_file_;
     std::string film_file_;

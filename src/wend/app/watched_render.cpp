@@ -37,13 +37,15 @@ private:
     Clock::time_point start_;
 };
 
-/// Does what may fail without harm to the render; says so where it does.
+/// Does what may fail without harm to the render; says so where it does, and returns false.
 template <class Action>
-void attempt(const Streams& streams, const Action& action) {
+bool attempt(const Streams& streams, const Action& action) {
     try {
         action();
+        return true;
     } catch (const std::exception& error) {
         streams.err << "warning: " << error.what() << "; the render goes on\n" << std::flush;
+        return false;
     }
 }
 
@@ -133,8 +135,6 @@ void WatchOptions::check() const {
 RenderStatistics watched_render(const Session& session, Film& film, const RenderSettings& settings,
                                 const WatchOptions& options, const CommonOptions& common, const Streams& streams,
                                 const std::function<void(const RenderStatistics&)>& write_picture) {
-    // How soon it is noticed that something is due.
-    constexpr double step = 0.25;
     // The first rank alone looks at the clock, writes files and is watched.
     Team team(settings.ranks);
     const bool is_first = team.rank() == 0;
@@ -158,11 +158,11 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         attempt(streams, [&] { save_checkpoint(options.checkpoint, render, session, settings); });
     };
     for (bool goes_on = true; goes_on;) {
-        goes_on = render.step(std::clamp(files.left(), 0.0, step));
+        goes_on = render.step(std::clamp(files.left(), 0.0, seconds_between_looks));
         const RenderProgress progress = render.progress();
         bar.update(progress);
-        if (lines) {
-            lines->update(progress);
+        if (lines && !attempt(streams, [&] { lines->update(progress); })) {
+            lines.reset();
         }
         if (view) {
             view->update(render, film, write_now);
@@ -173,9 +173,6 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
         files.write(render, progress, team, write_now, save_now);
     }
     const RenderStatistics statistics = render.result();
-    if (lines) {
-        lines->finish(render.progress(), !render.is_stopped());
-    }
     if (!is_first) {
         return statistics;
     }
@@ -189,6 +186,10 @@ RenderStatistics watched_render(const Session& session, Film& film, const Render
     } catch (...) {
         save_last();
         throw;
+    }
+    // Who reads that it is done looks for the picture.
+    if (lines) {
+        attempt(streams, [&] { lines->finish(render.progress(), !render.is_stopped()); });
     }
     // After the picture: it takes longer, and who stops a render may not wait for ever.
     save_last();

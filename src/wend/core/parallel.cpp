@@ -38,7 +38,9 @@ int startable_threads(int wanted) {
 }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-    const int concurrency = threads > 0 ? threads : hardware_threads();
+    // Of many more there is not even room to note them.
+    constexpr int most_threads = 4096;
+    const int concurrency = threads > 0 ? std::min(threads, most_threads) : hardware_threads();
     if (concurrency == 1) {
         for (std::size_t i = 0; i < count; ++i) {
             body(i);

@@ -126,6 +126,9 @@ struct Overview {
             samples.resize(picture.image.pixels.size());
         }
         require_same_place(picture, frame);
+        if (!frame.view) {
+            frame.view = picture.view;
+        }
         keep_common_layers(frame.layers, picture, left_out);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             if (const double n = estimate.samples(i); n > 0) {

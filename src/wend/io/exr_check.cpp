@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
 #include <wend/io/exr_check.h>
 #include <wend/io/image_size.h>
 
@@ -7,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -142,7 +145,18 @@ private:
 void check_exr_attributes(const std::filesystem::path& file, const Place& place) {
     constexpr std::streamoff bytes_before_header = 8;
     constexpr std::size_t longest_name = 255;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+        throw InputError(place, "is a folder, not a file");
+    }
+    if (is_device(file)) {
+        throw InputError(place, "is a pipe or a device, and OpenEXR pictures are not read in order");
+    }
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw InputError(place, std::string("cannot open: ") + std::strerror(errno));
+    }
     std::uint32_t start[2] = {0, 0};  // the magic number and the version, with flags
     stream.read(reinterpret_cast<char*>(start), bytes_before_header);
     constexpr std::uint32_t magic = 20000630;

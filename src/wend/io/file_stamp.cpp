@@ -1,4 +1,5 @@
 #include <wend/core/error.h>
+#include <wend/io/atomic_file.h>
 #include <wend/io/file_stamp.h>
 
 #include <fmt/format.h>
@@ -17,6 +18,9 @@ std::string stamp_name(const std::filesystem::path& file, const std::filesystem:
 }
 
 FileStamp stamp_of_file(const std::filesystem::path& file, std::string name) {
+    if (is_device(file)) {
+        throw InputError(Place{file.string()}, "is a pipe or a device, and a scene's files are read more than once");
+    }
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {

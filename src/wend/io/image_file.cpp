@@ -102,8 +102,12 @@ void require_known_picture_extension(const std::filesystem::path& file) {
     }
 }
 
+bool is_exr_name(const std::filesystem::path& file) {
+    return kind_of(file) == PictureKind::exr;
+}
+
 void require_exr_extension(const std::filesystem::path& file) {
-    if (kind_of(file) != PictureKind::exr) {
+    if (!is_exr_name(file)) {
         throw InputError(Place{file.string()}, "half floats can be written as .exr only");
     }
 }

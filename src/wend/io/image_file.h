@@ -60,6 +60,8 @@ bool is_known_picture_extension(const std::filesystem::path& file);
 /// Throws InputError, naming the extensions there are, unless it does: to ask before a long render.
 void require_known_picture_extension(const std::filesystem::path& file);
 
+/// Whether a picture of this name has layers, and colours that are not of eight bits.
+bool is_exr_name(const std::filesystem::path& file);
 /// Throws InputError unless write_colours() takes the extension.
 void require_exr_extension(const std::filesystem::path& file);
 

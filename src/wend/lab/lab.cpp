@@ -39,6 +39,9 @@ PlanarResult run_blocks(std::size_t channels, const PlanarRun& run, const auto& 
     const std::uint64_t count = (run.walks + block_size - 1) / block_size;
     std::vector<Block> blocks(count);
     parallel_for(count, run.threads, [&](std::size_t b) {
+        if (run.watch) {
+            run.watch();
+        }
         Block& block = blocks[b];
         block.channels.resize(channels);
         const double begin = thread_seconds();

@@ -7,6 +7,7 @@
 #include <wend/stats/moments.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ struct PlanarRun {
     std::uint64_t walks = 100000;
     std::uint64_t seed = 0;
     int threads = 0;  ///< 0: all; the results do not depend on it
+    /// Is called every few thousand walks, by any of the threads. What it throws ends the run. May be empty.
+    std::function<void()> watch = {};
 };
 
 struct PlanarResult {

@@ -171,6 +171,11 @@ public:
         archive(bytes, *this);
         bytes(seconds_before_);
         bytes.require(bytes.empty() && seconds_before_ >= 0);
+        schedule_.require(statistics_.passes, is_within_pass_ ? plan_.count : 0);
+        // It may be the first to be asked for an end by noise, or for this one.
+        if (ends_by_noise() && !is_within_pass_) {
+            noise_left_ = noise_left(film_, settings_, statistics_.samples);
+        }
         start_ = Clock::now();
         share_out();
     }

@@ -1,12 +1,17 @@
 // How many samples each pass over the picture takes.
 #pragma once
 
+#include <wend/core/error.h>
 #include <wend/render/render.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 namespace wend {
 
@@ -41,6 +46,19 @@ public:
         const double fitting = left * done / elapsed;
         const double next = fitting < 2 * wanted && left > short_time ? std::ceil(fitting / 2) : fitting;
         return static_cast<int>(std::clamp(next, 1.0, static_cast<double>(wanted)));
+    }
+
+    /// Throws InputError where passes are to be repeated, and those that a render has had, and the one that it is in
+    /// (0: in none), are others.
+    void require(std::vector<int> had, int at_hand) const {
+        if (at_hand > 0) {
+            had.push_back(at_hand);
+        }
+        const std::vector<int>& wanted = settings_.passes;
+        if (!wanted.empty() && (had.size() > wanted.size() || !std::equal(had.begin(), had.end(), wanted.begin()))) {
+            throw InputError(
+                fmt::format("{} are its passes, and those to be repeated do not begin so", fmt::join(had, ",")));
+        }
     }
 
     /// Whether time ends the render.
