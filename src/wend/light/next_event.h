@@ -84,7 +84,8 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     }
     for (int crossed = 0; crossed < most_interfaces; ++crossed) {
         const std::optional<Hit> hit = scene.has_interfaces() ? scene.intersect_interface(ray, rest) : std::nullopt;
-        if (hit && scene.blocks(*hit, ray)) {
+        const bool is_there = hit && scene.is_there(*hit, ray);
+        if (is_there && !scene.is_interface(*hit)) {
             return blocked;
         }
         const float length = hit ? hit->distance : rest;
@@ -102,10 +103,12 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
             return shadow.medium == vacuum || shadow.medium == medium.id ? passage : blocked;
         }
         rest -= length;
-        const MediumId before = medium.id;
-        medium = scene.medium_beyond(*hit, ray.direction, medium);
-        if (medium.id != before) {
-            interior = nullptr;
+        if (is_there) {
+            const MediumId before = medium.id;
+            medium = scene.medium_beyond(*hit, ray.direction, medium);
+            if (medium.id != before) {
+                interior = nullptr;
+            }
         }
         ray.pass(*hit);
     }
