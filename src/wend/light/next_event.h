@@ -115,14 +115,15 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     return blocked;
 }
 
-/// The same along a way that boundaries refract; the interior walk ends with its first leg's medium.
+/// The same along a way that boundaries refract. The interior walk ends with its first leg's medium, or where one
+/// within it turns the walk: from there on that does not go where it chose to.
 template <DistanceDecision Distance>
 Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk* interior,
              Pcg32& random) {
     Passage passage{way.transmitted, Rgb(1.0f)};
     const MediumId first = way.legs().front().medium;
     for (const SpecularChain::Leg& leg : way.legs()) {
-        if (leg.medium != first) {
+        if (leg.medium != first || leg.refractions > 0) {
             interior = nullptr;
         }
         if (leg.medium != vacuum) {
