@@ -283,6 +283,9 @@ TEST(SpecularChain, KnowsTheMediaOfItsLegs) {
     EXPECT_EQ(way->legs()[0].medium, liquid);
     EXPECT_EQ(way->legs()[1].medium, fog);
     EXPECT_EQ(way->legs()[2].medium, vacuum);
+    EXPECT_EQ(way->legs()[0].refractions, 0);
+    EXPECT_EQ(way->legs()[1].refractions, 1);
+    EXPECT_EQ(way->legs()[2].refractions, 1);
     EXPECT_EQ(way->refractions, 1);
 }
 

@@ -249,7 +249,7 @@ TEST(SceneVisibility, InterfacesDoNotOcclude) {
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, 2, 1e-5f);
     EXPECT_TRUE(scene.is_interface(*hit));
-    EXPECT_FALSE(scene.blocks(*hit, ray));
+    EXPECT_TRUE(scene.is_there(*hit, ray));
     EXPECT_FALSE(scene.intersect_interface(ray, 1.9f));
 }
 
@@ -277,7 +277,7 @@ TEST(SceneVisibility, PartlyTransparentSurfacesPassTheirShare) {
         met.add(hit.has_value());
         const auto passable = scene.intersect_interface(ray, infinity);
         ASSERT_TRUE(passable);
-        blocked.add(scene.blocks(*passable, ray));
+        blocked.add(scene.is_there(*passable, ray));
         EXPECT_FALSE(scene.is_occluded(ray, infinity));
     }
     EXPECT_TRUE(test::is_within_one_percent(met, 0.3));

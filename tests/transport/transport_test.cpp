@@ -89,6 +89,25 @@ TEST(Transmittance, OfAWhiteSkyOverAFloorUnderAnAbsorber) {
     }
 }
 
+TEST(Transmittance, OfAnAbsorberWhoseBoundaryIsPartlyThere) {
+    // What is not there for a ray is passed, as if there were no boundary: what gets in only gets out again where the
+    // next one is there. Connections to the sky and directions that run into it see the same.
+    constexpr float reflectance = 0.6f;
+    for (const float there : {0.0f, 0.5f, 0.9f}) {
+        SceneDescription s;
+        const MediumId m = test::add_homogeneous(s, Rgb(1.0f), Rgb(0.0f));
+        test::add_box(s, Box3(Vec3(-1e3f, -1e3f, 0), Vec3(1e3f, 1e3f, 1)), test::add_interface(s), m);
+        s.surfaces.back().alpha = s.textures.add_constant(Rgb(there));
+        test::add_parallelogram(s, Vec3(-1e3f, -1e3f, 1.5f), Vec3(2e3f, 0, 0), Vec3(0, 2e3f, 0),
+                                test::add_diffuse(s, Rgb(reflectance)));
+        test::add_environment(s, Rgb(1.0f));
+        const double e1 = -std::expint(-1.0), e2 = std::exp(-1.0) - e1, e3 = (std::exp(-1.0) - e2) / 2;
+        const double passes = 1 - double{there} + sqr(double{there}) * 2 * e3;
+        expect_agrees(test::measure_radiance(Scene(std::move(s)), {{0.1f, 0.2f, 1.2f}, {0, 0, 1}}, {1000000, 0.0023}),
+                      double{reflectance} * passes);
+    }
+}
+
 TEST(SingleScattering, OfASlabUnderParallelLight) {
     // Light from behind the camera at normal incidence, one scattering event: albedo * phase(-1) * E * (1 - exp(-2
     // tau)) / 2.

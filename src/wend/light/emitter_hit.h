@@ -55,8 +55,9 @@ public:
         EmitterHit arriving;
         const Light& light = scene_.lights()[static_cast<std::size_t>(hit.light)];
         Rgb emitted = emitted_radiance(light, hit.normal, hit.uv, -direction);
-        if (last.unconnected && presence_of(light) == Presence::partly) {
-            // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark.
+        if ((last.unconnected || last.refractions > 0) && presence_of(light) == Presence::partly) {
+            // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark. No connection
+            // looks for such a lamp through boundaries.
             emitted *= scene_.presence(hit.light, texture_point(hit));
         }
         if (!is_black(emitted)) {

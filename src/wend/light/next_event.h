@@ -84,7 +84,8 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     }
     for (int crossed = 0; crossed < most_interfaces; ++crossed) {
         const std::optional<Hit> hit = scene.has_interfaces() ? scene.intersect_interface(ray, rest) : std::nullopt;
-        if (hit && scene.blocks(*hit, ray)) {
+        const bool is_there = hit && scene.is_there(*hit, ray);
+        if (is_there && !scene.is_interface(*hit)) {
             return blocked;
         }
         const float length = hit ? hit->distance : rest;
@@ -102,24 +103,27 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
             return shadow.medium == vacuum || shadow.medium == medium.id ? passage : blocked;
         }
         rest -= length;
-        const MediumId before = medium.id;
-        medium = scene.medium_beyond(*hit, ray.direction, medium);
-        if (medium.id != before) {
-            interior = nullptr;
+        if (is_there) {
+            const MediumId before = medium.id;
+            medium = scene.medium_beyond(*hit, ray.direction, medium);
+            if (medium.id != before) {
+                interior = nullptr;
+            }
         }
         ray.pass(*hit);
     }
     return blocked;
 }
 
-/// The same along a way that boundaries refract; the interior walk ends with its first leg's medium.
+/// The same along a way that boundaries refract. The interior walk ends with its first leg's medium, or where one
+/// within it turns the walk: from there on that does not go where it chose to.
 template <DistanceDecision Distance>
 Passage pass(const Scene& scene, const Distance& distance, const SpecularChain& way, InteriorWalk* interior,
              Pcg32& random) {
     Passage passage{way.transmitted, Rgb(1.0f)};
     const MediumId first = way.legs().front().medium;
     for (const SpecularChain::Leg& leg : way.legs()) {
-        if (leg.medium != first) {
+        if (leg.medium != first || leg.refractions > 0) {
             interior = nullptr;
         }
         if (leg.medium != vacuum) {

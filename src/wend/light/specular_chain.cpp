@@ -115,7 +115,7 @@ std::optional<Trial> follow(const Scene& scene, const Ray& straight, const Frame
         const Bsdf bsdf = passes && !is_interface ? scene.bsdf(*hit) : Bsdf();
         const DielectricBsdf* const dielectric =
             passes && !is_interface ? smooth_dielectric(scene, *hit, bsdf) : nullptr;
-        if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium.id})) {
+        if (!trial.way.add({beam.ray, hit ? hit->distance : *along, medium.id, trial.way.refractions})) {
             return std::nullopt;
         }
         if (!is_interface && !dielectric) {

@@ -17,6 +17,7 @@ struct SpecularChain {
         Ray ray;
         float length;  ///< infinite for the last one to a light at infinity
         MediumId medium;
+        int refractions = 0;  ///< before it
     };
 
     Vec3 direction;  ///< of its first leg, unit length

@@ -35,8 +35,8 @@ struct Guidable {
 /// no walk has a say in its own weight. All begin with walks that follow nothing learned: classical ones, but for the
 /// guides of dense media, which know what they do from the start. Then a few of every kind are tried. Where that leaves
 /// it open whether guiding pays, as many of each kind follow; else those that take directions from the fields. The best
-/// of a tile goes on, and others as long as they are close. A picture that is too small for a trial has one kind, guided
-/// in all ways.
+/// of a tile goes on, and others as long as they are close. A picture that is too small for a trial has one kind,
+/// guided in all ways.
 class GuidingChoice {
 public:
     /// By fewer pixels a trial of a few samples tells nothing.

@@ -8,18 +8,6 @@
 namespace wend {
 namespace {
 
-/// Whether a partly transparent surface is there for this ray.
-bool is_there(const Hit& hit, const Ray& ray, const Textures& textures) {
-    if (hit.surface->alpha < 0) {
-        return true;
-    }
-    const float alpha = textures.evaluate_grey(hit.surface->alpha, texture_point(hit));
-    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    const std::uint64_t h = hash_of(bits(ray.origin.x), bits(ray.origin.y), bits(ray.origin.z), bits(ray.direction.x),
-                                    bits(ray.direction.y), bits(ray.direction.z), bits(hit.distance));
-    return to_unit_float(static_cast<std::uint32_t>(h)) < alpha;
-}
-
 /// Primitives of a surface, each of which is a light if the surface shines.
 std::size_t lights_on(const Surface& surface) {
     const auto* mesh = std::get_if<TriangleMesh>(surface.shape.get());
@@ -187,7 +175,7 @@ std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
         }
         if (d_.surfaces[found->element.surface].alpha >= 0) {
             const Hit hit = caster_->complete(*found, rest);
-            if (!is_there(hit, rest, d_.textures)) {
+            if (!is_there(hit, rest)) {
                 rest.pass(hit);
                 continue;
             }
@@ -238,8 +226,15 @@ bool Scene::is_occluded(const TracedRay& ray, float distance) const {
     return caster_->is_occluded(ray, distance);
 }
 
-bool Scene::blocks(const Hit& hit, const Ray& ray) const {
-    return !is_interface(hit) && is_there(hit, ray, d_.textures);
+bool Scene::is_there(const Hit& hit, const Ray& ray) const {
+    if (hit.surface->alpha < 0) {
+        return true;
+    }
+    const float alpha = d_.textures.evaluate_grey(hit.surface->alpha, texture_point(hit));
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const std::uint64_t h = hash_of(bits(ray.origin.x), bits(ray.origin.y), bits(ray.origin.z), bits(ray.direction.x),
+                                    bits(ray.direction.y), bits(ray.direction.z), bits(hit.distance));
+    return to_unit_float(static_cast<std::uint32_t>(h)) < alpha;
 }
 
 std::optional<Hit> Scene::intersect_interface(const TracedRay& ray, float distance) const {

@@ -143,8 +143,9 @@ public:
     bool is_occluded(const TracedRay& ray, float distance) const;
     /// The nearest interface or partly transparent surface ahead within `distance`; opaque ones are not seen.
     std::optional<Hit> intersect_interface(const TracedRay& ray, float distance) const;
-    /// Whether a surface found by intersect_interface() blocks this ray.
-    bool blocks(const Hit& hit, const Ray& ray) const;
+    /// Whether a surface found by intersect_interface() is there for this ray: as find() has it, what is not is neither
+    /// met nor a boundary of its media.
+    bool is_there(const Hit& hit, const Ray& ray) const;
     /// Whether intersect_interface() can return anything.
     bool has_interfaces() const { return has_interfaces_; }
 

@@ -147,7 +147,10 @@ private:
                     .id;
             path_.now.ray.pass(hit);
             path_.now.last.emitters_ahead = 0;
-            enter_medium(hit, from);
+            // Where the medium goes on an interior walk does, as the same way through it that connections know.
+            if (path_.now.medium.id != from) {
+                enter_medium(hit, from);
+            }
             return ++path_.now.counts.interfaces < most_interfaces;
         }
         return scatter_at(hit);
