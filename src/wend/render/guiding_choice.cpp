@@ -101,8 +101,7 @@ TallyProducts GuidingChoice::squared_errors(const TallyProducts& unguided) const
     TallyProducts squares = unguided;
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
         // By its own walks, which share most of their noise.
-        squares.kind[kind] =
-            unguided.kind[0] * tally_ratio(tallies_, kind, &WalkTally::square, &WalkTally::unguided);
+        squares.kind[kind] = unguided.kind[0] * tally_ratio(tallies_, kind, &WalkTally::square, &WalkTally::unguided);
     }
     const TallyProducts values = products(&WalkTally::value), spreads = products(&WalkTally::spread);
     const double hard = squares.mean_of_tiles(), bright = values.mean_of_tiles(), spread = spreads.mean_of_tiles();
