@@ -63,19 +63,5 @@ TEST_F(PipedScene, HasItsFilesInTheCurrentFolder) {
     EXPECT_EQ(result.status, 0) << result.err;
 }
 
-TEST_F(PipedScene, ItsFilesAreNoPipes) {
-    const std::string mesh = folder_.file("mesh");
-    ASSERT_EQ(mkfifo(mesh.c_str(), 0600), 0);
-    std::thread writer([&] {
-        std::ofstream(mesh) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    });
-    const auto result = render(one_ + "Shape \"plymesh\" \"string filename\" \"" + mesh + "\"\n", "a.exr");
-    writer.join();
-    EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.err.find("mesh: error: is a pipe"), std::string::npos) << result.err;
-}
-
 }  // namespace
 }  // namespace wend
