@@ -1,6 +1,7 @@
 """Stages as programs write them: what is bound, shown, coloured and asked for in more than the plainest way."""
 
 import struct
+import warnings
 import zlib
 
 import numpy as np
@@ -302,31 +303,73 @@ def test_a_camera_that_is_focused_on_nothing_is_sharp(stage):
         assert '"float lensradius"' not in stage.read().text()
 
 
-def moved_by_a_joint(stage, translations):
-    """A card that a joint moves, by time code."""
-    UsdSkel.Root.Define(stage.stage, "/root")
-    skeleton = UsdSkel.Skeleton.Define(stage.stage, "/root/skeleton")
+def moved_by_a_joint(stage, translations, root="/root", turn=0):
+    """A card that a joint moves, by time code, and turns around y."""
+    UsdSkel.Root.Define(stage.stage, root)
+    skeleton = UsdSkel.Skeleton.Define(stage.stage, f"{root}/skeleton")
     skeleton.CreateJointsAttr(["joint"])
     skeleton.CreateBindTransformsAttr([Gf.Matrix4d(1)])
     skeleton.CreateRestTransformsAttr([Gf.Matrix4d(1)])
-    animation = UsdSkel.Animation.Define(stage.stage, "/root/animation")
+    animation = UsdSkel.Animation.Define(stage.stage, f"{root}/animation")
     animation.CreateJointsAttr(["joint"])
-    animation.CreateRotationsAttr([Gf.Quatf(1)])
+    animation.CreateRotationsAttr([Gf.Quatf(Gf.Rotation(Gf.Vec3d(0, 1, 0), turn).GetQuat())])
     animation.CreateScalesAttr([Gf.Vec3h(1, 1, 1)])
     for time, x in translations:
         animation.CreateTranslationsAttr().Set([Gf.Vec3f(x, 0, 0)], *time)
-    card = stage.card(path="/root/card", colour=(0.2, 0.2, 0.2), half=1)
+    card = stage.card(path=f"{root}/card", colour=(0.2, 0.2, 0.2), half=1)
     binding = UsdSkel.BindingAPI.Apply(card.GetPrim())
-    binding.CreateSkeletonRel().AddTarget("/root/skeleton")
+    binding.CreateSkeletonRel().AddTarget(skeleton.GetPath())
     binding.CreateJointIndicesPrimvar(False, 1).Set([0] * 4)
     binding.CreateJointWeightsPrimvar(False, 1).Set([1.0] * 4)
-    UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().AddTarget("/root/animation")
+    UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().AddTarget(animation.GetPath())
+    return card
 
 
 @pytest.mark.parametrize(("time", "is_there"), [(1, True), (6, False), (11, True), (16, False), (21, False)])
 def test_skeletons_move_meshes(stage, time, is_there):
     moved_by_a_joint(stage, [((1,), 0), ((6,), 50), ((11,), 0), ((21,), 50)])
     assert middle(stage.image(time=time)) == pytest.approx(np.full(3, 0.2 if is_there else 1), abs=0.01)
+
+
+@pytest.mark.parametrize("time", [1, 15, 21])
+def test_skeletons_that_are_beside_others_move_what_is_theirs(stage, time):
+    """The one with a single sample has none near most times."""
+    for path, times in (("/root/sampled", (1, 11, 21)), ("/root/once", (1,))):
+        moved_by_a_joint(stage, [((t,), 50) for t in times], path)
+        UsdGeom.Xform.Define(stage.stage, path)
+    UsdSkel.Root.Define(stage.stage, "/root")
+    assert middle(stage.image(time=time)) == pytest.approx((1, 1, 1), abs=1e-3)
+
+
+@pytest.mark.parametrize("is_primvar", [False, True])
+@pytest.mark.parametrize(("interpolation", "count"), [("vertex", 4), ("faceVarying", 4), ("uniform", 1), ("constant", 1)])
+def test_normals_turn_with_their_joint(stage, interpolation, count, is_primvar):
+    card = moved_by_a_joint(stage, [((), 0)], turn=60)
+    normals = [(0, 0, 1)] * count
+    if is_primvar:
+        UsdGeom.PrimvarsAPI(card).CreatePrimvar("normals", TYPES.Normal3fArray, interpolation).Set(normals)
+    else:
+        card.CreateNormalsAttr(normals)
+        card.SetNormalsInterpolation(interpolation)
+    written = stage.read().text().split('"normal3 N" [ ')[1].split(" ]")[0].split()
+    turned = (np.sin(np.radians(60)), 0, np.cos(np.radians(60)))
+    assert np.reshape([float(x) for x in written], (-1, 3)) == pytest.approx(np.tile(turned, (4, 1)), abs=1e-6)
+
+
+@pytest.mark.parametrize("of_another_file", [False, True])
+def test_skeletons_in_instances_move_or_are_named(stage, tmp_path, of_another_file):
+    """What refers to the same file is moved with what it refers to."""
+    moved_by_a_joint(stage, [((), 50)], "/all/root")
+    stage.stage.GetRootLayer().Export(str(tmp_path / "other.usda"))
+    for name in ("/a", "/b"):
+        copy = stage.stage.DefinePrim(name)
+        copy.GetReferences().AddReference(str(tmp_path / "other.usda") if of_another_file else "", "/all")
+        copy.SetInstanceable(True)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        stage.read()
+    words = [str(w.message) for w in told if "as at rest" in str(w.message)]
+    assert len(words) == of_another_file and all(w.startswith("/a/root: warning: ") for w in words)
 
 
 def test_a_pose_without_time_is_taken(stage):
