@@ -64,7 +64,7 @@ def connect(stage, shader, name, kind, inputs, output="rgb", of=TYPES.Color3f):
     return node
 
 
-def on_a_card(stage, file, name="emissiveColor", output="rgb", u=(0, 1), **inputs):
+def on_a_card(stage, file, name="emissiveColor", output="rgb", u=(0, 1), kind="UsdUVTexture", **inputs):
     """A card with a picture as an input; the sky is dark where the card shines."""
     card = stage.card()
     UsdGeom.PrimvarsAPI(card).CreatePrimvar("st", TYPES.TexCoord2fArray, "vertex").Set(
@@ -72,7 +72,7 @@ def on_a_card(stage, file, name="emissiveColor", output="rgb", u=(0, 1), **input
     )
     made, shader = material(stage)
     given = {key: (TYPES.Token, value) for key, value in inputs.items()} | {"file": (TYPES.Asset, str(file))}
-    connect(stage, shader, name, "UsdUVTexture", given, output, TYPES.Color3f if output == "rgb" else TYPES.Float)
+    connect(stage, shader, name, kind, given, output, TYPES.Color3f if output == "rgb" else TYPES.Float)
     bind(card, made)
     if name == "emissiveColor":
         stage.stage.RemovePrim("/sky")
@@ -143,6 +143,12 @@ def test_beyond_a_picture_is_black_unless_it_is_said(stage, tmp_path, wrap):
     assert image[4, 4][0] < 0.1 and image[4, 8][0] < 0.1 and image[4, 6][0] < 0.1
 
 
+@pytest.mark.parametrize("kind", ["ND_UsdUVTexture", "ND_UsdUVTexture_23"])
+def test_beyond_a_picture_of_materialx_it_is_repeated(stage, tmp_path, kind):
+    on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 255)), "diffuseColor", u=(-2, 1), kind=kind)
+    assert '"string wrap" [ "repeat" ]' in stage.read().text()
+
+
 def test_ways_to_go_on_that_differ_are_named(stage, tmp_path):
     on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 255)), "diffuseColor", wrapS="repeat", wrapT="clamp")
     with pytest.warns(wend.SceneWarning, match=r"/m/diffuseColor: .*upwards as it does sideways \(wrapS\)"):
@@ -197,6 +203,15 @@ def test_colours_that_cannot_vary_are_named(stage):
 def test_a_display_opacity_lets_light_through(stage):
     stage.card(colour=(0, 0, 0)).CreateDisplayOpacityAttr([0.25])
     assert stage.image(spp=1024).mean() == pytest.approx(0.75, abs=0.01)
+
+
+@pytest.mark.parametrize("kind", ["Float", "FloatArray"])
+def test_a_display_opacity_is_inherited(stage, kind):
+    above = UsdGeom.Xform.Define(stage.stage, "/above")
+    value = 0.25 if kind == "Float" else [0.25]
+    UsdGeom.PrimvarsAPI(above).CreatePrimvar("displayOpacity", getattr(TYPES, kind), "constant").Set(value)
+    stage.card(path="/above/card")
+    assert '"float alpha" [ 0.25 ]' in stage.read().text()
 
 
 def test_what_shines_and_is_not_opaque_is_seen_as_such(stage):

@@ -55,10 +55,12 @@ def display_colour(prim: Any, time: Any) -> tuple[float, float, float]:
 def display_opacity(reader: Any, prim: Any) -> dict[str, Any]:
     """As a parameter of the shape; nothing where all of it is there."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayOpacity")
-    values = primvar.ComputeFlattened(reader.time) if primvar and primvar.HasValue() else None
-    if not values or min(values) >= 1:
+    found = primvar.ComputeFlattened(reader.time) if primvar and primvar.HasValue() else None
+    # Of those that are inherited some are one number.
+    values = np.atleast_1d(np.array([] if found is None else found, dtype=np.float64))
+    if not values.size or values.min() >= 1:
         return {}
-    if min(values) != max(values):
+    if np.ptp(values) > 0:
         reader.warn(prim, "of an opacity that varies the mean is taken")
     return {"float alpha": float(np.clip(np.mean(values), 0, 1))}
 

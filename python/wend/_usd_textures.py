@@ -180,7 +180,10 @@ class Inputs:
 
     def _wrap(self, is_usd: bool) -> str:
         """What is beyond the edges."""
-        names, fallback = (("wrapS", "wrapT"), "useMetadata") if is_usd else (("uaddressmode", "vaddressmode"), "periodic")
+        names = ("wrapS", "wrapT") if is_usd else ("uaddressmode", "vaddressmode")
+        # MaterialX repeats, also by its own nodes of USD's names.
+        is_plain = not str(self.shader.GetIdAttr().Get()).startswith("ND_")
+        fallback = "useMetadata" if is_plain else "periodic"
         across, upwards = (_WRAPS.get(str(self.constant(name, fallback)), "repeat") for name in names)
         if across != upwards:
             self.reader.warn(self.shader.GetPrim(), f"a picture goes on upwards as it does sideways ({names[0]})")
