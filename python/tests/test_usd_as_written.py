@@ -200,6 +200,84 @@ def test_colours_that_cannot_vary_are_named(stage):
         stage.read()
 
 
+STANDARD = {"kind": "ND_standard_surface_surfaceshader", "name": "base_color"}
+
+
+def by_its_colours(stage, name="displayColor", path="/m", weight=1.0, converted=True):
+    """A material whose base colour is a primvar, by nodes of MaterialX."""
+    made, shader = material(stage, path=path, **STANDARD)
+    shader.CreateInput("base", TYPES.Float).Set(weight)
+    if converted:
+        shader = connect(stage, shader, "base_color", "ND_convert_color4_color3", {}, "out")
+    socket, of = ("in", TYPES.Color4f) if converted else ("base_color", TYPES.Color3f)
+    kind = "ND_geompropvalue_color4" if converted else "ND_geompropvalue_color3"
+    connect(stage, shader, socket, kind, {"geomprop": (TYPES.String, name)}, "out", of)
+    return made
+
+
+def constants(text, name):
+    return [float(x) for x in text.split(f'"{name}" [ ')[1].split(" ]")[0].split()]
+
+
+@pytest.mark.parametrize("converted", [False, True])
+@pytest.mark.parametrize("weight", [1.0, 0.5])
+def test_colours_of_points_are_converted_and_weighted(stage, converted, weight):
+    card = stage.card()
+    card.CreateDisplayColorPrimvar("vertex").Set(COLOURS)
+    bind(card, by_its_colours(stage, weight=weight, converted=converted))
+    assert constants(stage.read().text(), "float values") == pytest.approx(weight * np.ravel(COLOURS), rel=1e-5)
+
+
+def test_one_colour_of_a_shape_is_weighted(stage):
+    card = stage.card(colour=(0.8, 0.4, 0.2))
+    bind(card, by_its_colours(stage, weight=0.5))
+    made = stage.read().text().split('"/m of /card"')[1]
+    assert constants(made, "rgb reflectance") == pytest.approx((0.4, 0.2, 0.1), rel=1e-5)
+
+
+def test_pictures_are_weighted(stage, tmp_path):
+    made, shader = material(stage, **STANDARD)
+    shader.CreateInput("base", TYPES.Float).Set(0.5)
+    file = png(tmp_path / "map.png", np.full((4, 4, 3), 128))
+    connect(stage, shader, "base_color", "ND_image_color3", {"file": (TYPES.Asset, str(file))}, "out")
+    bind(stage.card(), made)
+    assert '"float scale" [ 0.5 ]' in stage.read().text()
+
+
+def test_a_constant_is_converted(stage):
+    made, shader = material(stage, **STANDARD)
+    converting = connect(stage, shader, "base_color", "ND_convert_color4_color3", {}, "out")
+    given = {"value": (TYPES.Color4f, Gf.Vec4f(0.3, 0.4, 0.5, 1))}
+    connect(stage, converting, "in", "ND_constant_color4", given, "out", TYPES.Color4f)
+    bind(stage.card(), made)
+    assert constants(stage.read().text(), "rgb reflectance") == pytest.approx((0.3, 0.4, 0.5), rel=1e-5)
+
+
+def test_a_channel_of_colours_is_named(stage):
+    made, shader = material(stage, **STANDARD)
+    taking = connect(stage, shader, "base_color", "ND_extract_color4", {}, "out")
+    connect(stage, taking, "in", "ND_geompropvalue_color4", {"geomprop": (TYPES.String, "displayColor")}, "out", TYPES.Color4f)
+    bind(stage.card(), made)
+    with pytest.warns(wend.SceneWarning, match="/m/surface: .*ND_geompropvalue_color4 as base_color is left out"):
+        stage.read()
+
+
+@pytest.mark.parametrize("name", ["displayColor", "other"])
+def test_subsets_that_read_other_colours_are_named(stage, name):
+    card = stage.card()
+    card.GetFaceVertexCountsAttr().Set([3, 3])
+    card.GetFaceVertexIndicesAttr().Set([0, 1, 2, 0, 2, 3])
+    for path, primvar, face in (("/m", "displayColor", 0), ("/n", name, 1)):
+        UsdGeom.PrimvarsAPI(card).CreatePrimvar(primvar, TYPES.Color3fArray, "vertex").Set(COLOURS)
+        subset = UsdGeom.Subset.CreateGeomSubset(card, f"of{path[1:]}", "face", [face], "materialBind")
+        bind(subset, by_its_colours(stage, primvar, path))
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        stage.read()
+    words = [str(w.message) for w in told]
+    assert any("/card: warning: all parts of a mesh have the colours of the first: displayColor" in w for w in words) == (name == "other")
+
+
 def test_a_display_opacity_lets_light_through(stage):
     stage.card(colour=(0, 0, 0)).CreateDisplayOpacityAttr([0.25])
     assert stage.image(spp=1024).mean() == pytest.approx(0.75, abs=0.01)
@@ -236,9 +314,7 @@ def test_constants_of_materialx_are_values(stage, kind, name):
     made, shader = material(stage, kind=kind, name=name)
     connect(stage, shader, name, "ND_constant_color3", {"value": (TYPES.Color3f, Gf.Vec3f(0.3, 0.4, 0.5))}, "out")
     bind(stage.card(), made)
-    text = stage.read().text()
-    written = text.split('"rgb reflectance" [ ')[1].split(" ]")[0].split()
-    assert [float(x) for x in written] == pytest.approx([0.3, 0.4, 0.5], rel=1e-5)
+    assert constants(stage.read().text(), "rgb reflectance") == pytest.approx([0.3, 0.4, 0.5], rel=1e-5)
 
 
 def test_a_stage_says_how_it_wants_to_be_rendered(stage):
@@ -366,9 +442,9 @@ def test_normals_turn_with_their_joint(stage, interpolation, count, is_primvar):
     else:
         card.CreateNormalsAttr(normals)
         card.SetNormalsInterpolation(interpolation)
-    written = stage.read().text().split('"normal3 N" [ ')[1].split(" ]")[0].split()
+    written = constants(stage.read().text(), "normal3 N")
     turned = (np.sin(np.radians(60)), 0, np.cos(np.radians(60)))
-    assert np.reshape([float(x) for x in written], (-1, 3)) == pytest.approx(np.tile(turned, (4, 1)), abs=1e-6)
+    assert np.reshape(written, (-1, 3)) == pytest.approx(np.tile(turned, (4, 1)), abs=1e-6)
 
 
 @pytest.mark.parametrize("of_another_file", [False, True])

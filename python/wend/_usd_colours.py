@@ -76,7 +76,7 @@ def coloured(reader: Any, prim: Any, look: Any, given: npt.NDArray[np.float32] |
     name = f"{look.name} of {prim.GetPath()}"
     if given is not None:
         name += f" {len(reader.builder)}"
-        texture = {"float values": np.clip(given, 0, 1), "integer indices": indices}
+        texture = {"float values": np.clip(given * look.weight, 0, 1), "integer indices": indices}
         reader.builder.add("Texture", name, "spectrum", "mesh", texture)
         parameters["texture reflectance"] = name
     elif name in reader.materials:
@@ -86,6 +86,7 @@ def coloured(reader: Any, prim: Any, look: Any, given: npt.NDArray[np.float32] |
         colours = Colours.of(prim, look.colours, reader.time)
         if colours is not None and colours.vary():
             reader.warn(prim, "of colours that vary over what is no mesh of plain faces the mean is taken")
-        parameters["rgb reflectance"] = look.fallback if colours is None else np.clip(colours.mean(), 0, 1)
+        colour = np.array(look.fallback if colours is None else colours.mean())
+        parameters["rgb reflectance"] = np.clip(colour * look.weight, 0, 1)
     reader.builder.add("MakeNamedMaterial", name, parameters)
     return name

@@ -30,6 +30,7 @@ class UsdLook(Look):
     coordinates: str | None = None  #: the primvar that its pictures lie by; None: the usual one
     colours: str | None = None  #: the primvar that is its base colour; None: the material has one
     fallback: Any = (0.0, 0.0, 0.0)  #: the colour where there is no such primvar
+    weight: float = 1.0  #: which both are multiplied by
     parameters: dict[str, Any] = field(default_factory=dict)  #: of the material
 
 
@@ -187,9 +188,11 @@ class _Surface:
     def constant(self, word: str, fallback: Any) -> Any:
         return self.inputs.constant(self.words[word], fallback) if word in self.words else fallback
 
-    def add_to(self, parameters: dict[str, Any], word: str, ours: str, kind: str, fallback: Any) -> None:
+    def add_to(
+        self, parameters: dict[str, Any], word: str, ours: str, kind: str, fallback: Any, factor: float = 1.0
+    ) -> None:
         if word in self.words:
-            self.inputs.add_to(parameters, self.words[word], ours, kind, fallback)
+            self.inputs.add_to(parameters, self.words[word], ours, kind, fallback, factor)
 
     def made(self) -> UsdLook:
         """The look, after its material was made."""
@@ -232,8 +235,10 @@ class _Surface:
     def _colours(self, parameters: dict[str, Any]) -> None:
         """Where the base colour is one of the shape's."""
         found = self.inputs.primvar(self.words["colour"])
-        if found is not None and "rgb reflectance" in parameters:
+        # What is clear or waxen has none, or another one.
+        if found is not None and parameters["string type"] in ("diffuse", "principled"):
             self.look.colours, self.look.fallback = found
+            self.look.weight = float(self.constant("weight", 1))
 
     def _shine(self) -> None:
         name = self.words["shine_colour"]
@@ -308,7 +313,7 @@ class _Surface:
 
     def _solid(self, ior: float) -> dict[str, Any]:
         parameters: dict[str, Any] = {"string type": "principled", "float eta": ior}
-        self.add_to(parameters, "colour", "reflectance", "rgb", self._grey())
+        self.add_to(parameters, "colour", "reflectance", "rgb", self._grey(), float(self.constant("weight", 1)))
         self.add_to(parameters, "roughness", "roughness", "float", self._roughness())
         self.add_to(parameters, "metal", "metallic", "float", 0.0)
         self.add_to(parameters, "coat", "coat", "float", 0.0)
@@ -326,8 +331,6 @@ class _Surface:
             root = min(((ior - 1) / (ior + 1)) ** 2 * max(specular, 0.0), 0.99) ** 0.5
             parameters["float eta"] = (1 + root) / (1 - root) if ior >= 1 else (1 - root) / (1 + root)
         self._details(parameters, ior)
-        if "rgb reflectance" in parameters:
-            parameters["rgb reflectance"] = np.array(parameters["rgb reflectance"]) * float(self.constant("weight", 1))
         return parameters
 
     def _details(self, parameters: dict[str, Any], ior: float) -> None:

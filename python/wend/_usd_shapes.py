@@ -34,8 +34,9 @@ def mesh_parts(
     is_left_handed = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
     parts = _parts(mesh, time, len(counts))
     looks = [look_of(reader, prim, bound) for bound, chosen in parts if chosen.any()]
-    coordinates = _coordinates(reader, prim, next((look.coordinates for look in looks if look.coordinates), None))
-    named = next((look.colours for look in looks if look.colours), None)
+    by = _first(reader, prim, "texture coordinates", [look.coordinates for look in looks])
+    coordinates = _coordinates(reader, prim, by)
+    named = _first(reader, prim, "colours", [look.colours for look in looks])
     colours = Colours.of(prim, named, time) if named is not None else None
     values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates, colours)
     if scheme != UsdGeom.Tokens.none:
@@ -62,6 +63,14 @@ def mesh_parts(
         selected = chosen[of_triangle]
         if selected.any():
             yield bound, ("trianglemesh", _mesh(points, corners, triangles[selected], of_triangle[selected], values))
+
+
+def _first(reader: Any, prim: Any, what: str, names: list[str | None]) -> str | None:
+    """Of what is read by the materials of a mesh."""
+    named = [name for name in names if name]
+    if any(name != named[0] for name in named):
+        reader.warn(prim, f"all parts of a mesh have the {what} of the first: {named[0]}")
+    return named[0] if named else None
 
 
 def _points(reader: Any, prim: Any) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32] | None]:

@@ -30,6 +30,9 @@ _CHANNELS = {"r": 0, "g": 1, "b": 2, "outr": 0, "outg": 1, "outb": 2}
 #: Inputs that may be colours of the shape: see `Inputs.primvar`.
 _BASES = ("diffuseColor", "base_color")
 
+#: Nodes that read a primvar.
+_PRIMVARS = ("UsdPrimvarReader_", "ND_geompropvalue_")
+
 #: How many nodes are followed from an input to its picture.
 _DEEPEST = 16
 
@@ -91,8 +94,12 @@ class Inputs:
         attribute = attributes[0]
         if UsdShade.Output.IsOutput(attribute):
             maker = UsdShade.Shader(attribute.GetPrim())
-            if kind_of(maker).startswith("ND_constant_") and depth < _DEEPEST:
+            kind = kind_of(maker)
+            if kind.startswith("ND_constant_") and depth < _DEEPEST:
                 return Inputs(self.reader, maker, self.key)._source("value", depth + 1)
+            if kind.startswith("ND_convert_color") and depth < _DEEPEST:
+                value, _ = Inputs(self.reader, maker, self.key)._source("in", depth + 1)
+                return (None, attribute) if value is None else (tuple(value)[:3], None)
             return None, attribute
         return attribute.Get(self.reader.time), None
 
@@ -106,46 +113,57 @@ class Inputs:
             self.reader.warn(self.shader.GetPrim(), f"a texture of {name} is left out")
         return fallback if value is None else value
 
-    def add_to(self, parameters: dict[str, Any], name: str, ours: str, kind: str, fallback: Any) -> None:
-        """Adds the parameter, as a constant or a texture. `kind` is "rgb" or "float"."""
+    def add_to(
+        self, parameters: dict[str, Any], name: str, ours: str, kind: str, fallback: Any, factor: float = 1.0
+    ) -> None:
+        """Adds the parameter, as a constant or a texture, times a factor. `kind` is "rgb" or "float"."""
         value, _ = self._source(name)
         picture = self.picture(name)
         if picture is not None:
+            picture.scale, picture.bias = picture.scale * factor, picture.bias * factor
             parameters[f"texture {ours}"] = self._texture(name, picture, kind)
         else:
-            parameters[f"{kind} {ours}"] = fallback if value is None else value
+            # What is no number ends here.
+            parameters[f"{kind} {ours}"] = np.array(fallback if value is None else value) * factor
 
     def primvar(self, name: str) -> tuple[str, Any] | None:
         """The primvar that an input is connected to, and the value where there is none; None for anything else."""
-        _, output = self._source(name)
-        if output is None:
+        _, inputs, channel = self._origin(name)
+        if inputs is None or channel is not None:
             return None
-        inputs = Inputs(self.reader, UsdShade.Shader(output.GetPrim()), self.key)
         kind = kind_of(inputs.shader)
-        if not kind.startswith(("UsdPrimvarReader_", "ND_geompropvalue_")):
+        if not kind.startswith(_PRIMVARS):
             return None
         is_usd = kind.startswith("Usd")
         called = inputs.constant("varname" if is_usd else "geomprop", None)
         fallback = inputs.constant("fallback" if is_usd else "default", (0.0, 0.0, 0.0))
         return (str(called), np.broadcast_to(np.array(fallback, dtype=np.float64)[:3], 3)) if called else None
 
-    def picture(self, name: str) -> Picture | None:
-        """What an input is connected to; None where that is no picture, which is told if it is something else."""
+    def _origin(self, name: str) -> tuple[Any, Inputs | None, str | None]:
+        """The output that an input's value comes from, its node, and the channel that is taken of it, if it is one; through
+        nodes that convert it. None where nothing is connected."""
         _, output = self._source(name)
-        channel = None
+        inputs, channel = None, None
         for _ in range(_DEEPEST):
             if output is None:
-                return None
-            shader = UsdShade.Shader(output.GetPrim())
-            kind = kind_of(shader)
-            inputs = Inputs(self.reader, shader, self.key)
+                return None, None, None
+            inputs = Inputs(self.reader, UsdShade.Shader(output.GetPrim()), self.key)
+            kind = kind_of(inputs.shader)
             if kind.startswith("ND_extract_color"):
                 channel = "rgba"[min(max(int(inputs.constant("index", 0)), 0), 3)]
             elif not kind.startswith("ND_convert_color"):
                 break
             _, output = inputs._source("in")
+        return output, inputs, channel
+
+    def picture(self, name: str) -> Picture | None:
+        """What an input is connected to; None where that is no picture, which is told if it is something else."""
+        output, inputs, channel = self._origin(name)
+        if inputs is None or output is None:
+            return None
+        kind = kind_of(inputs.shader)
         if kind != "UsdUVTexture" and not kind.startswith(("ND_image_", "ND_tiledimage_")):
-            if kind.startswith(("UsdPrimvarReader_", "ND_geompropvalue_")) and name in _BASES:
+            if kind.startswith(_PRIMVARS) and name in _BASES and channel is None:
                 return None
             self.reader.warn(self.shader.GetPrim(), f"{kind} as {name} is left out")
             return None
