@@ -79,7 +79,8 @@ TEST_F(SlowStoppedRender, StoppedBySignalItGoesOnWhereItWas) {
                                            "1000"};
     {
         std::vector<std::string> more = kept;
-        more.insert(more.end(), {"--write-every", "1000"});
+        // On one thread it takes long enough to be stopped.
+        more.insert(more.end(), {"--write-every", "1000", "--threads", "1"});
         test::WendProcess process(arguments("room.exr", 150, more), folder_);
         ASSERT_TRUE(wait_for("room.exr")) << "the first pass leaves a picture";
         process.signal(SIGTERM);
@@ -133,7 +134,8 @@ TEST_F(SlowStoppedRender, WherePicturesCannotBeWrittenTheCheckpointIsLeft) {
                                            "1000"};
     {
         std::vector<std::string> more = kept;
-        more.insert(more.end(), {"--write-every", "1000"});
+        // On one thread it takes long enough to be stopped.
+        more.insert(more.end(), {"--write-every", "1000", "--threads", "1"});
         test::WendProcess process(arguments("gone/room.exr", 150, more), folder_);
         ASSERT_TRUE(wait_for("gone/room.exr"));
         std::filesystem::remove_all(folder_.path() / "gone");
@@ -229,7 +231,8 @@ TEST_F(SlowStoppedRender, ResumesWithTheFieldThatItBeganWith) {
     std::filesystem::remove(file);
     {
         std::vector<std::string> more = kept;
-        more.insert(more.end(), {"--write-every", "1000"});
+        // On one thread it takes long enough to be stopped.
+        more.insert(more.end(), {"--write-every", "1000", "--threads", "1"});
         test::WendProcess process(arguments("room.exr", 150, more), folder_);
         ASSERT_TRUE(wait_for("room.exr"));
         process.signal(SIGTERM);

@@ -58,6 +58,19 @@ std::string rendered(const Scene& scene, const RenderSettings& settings, int wid
     return bytes_of(film);
 }
 
+TEST(Taught, NoFieldIsFilledBySoFewSamplesThatNoneFollowsIt) {
+    const Scene scene = foggy_block();
+    const auto is_filled = [&](int samples, bool keeps_fields) {
+        RenderSettings settings = settings_of(samples, 1);
+        settings.keeps_fields = keeps_fields;
+        Film film = new_film();
+        return render(scene, film, settings).fields->volume.is_trained();
+    };
+    EXPECT_FALSE(is_filled(4, false));
+    EXPECT_TRUE(is_filled(4, true));
+    EXPECT_TRUE(is_filled(8, false));
+}
+
 class SlowTaught : public testing::Test {
 protected:
     static void SetUpTestSuite() {

@@ -15,7 +15,7 @@ namespace wend {
 namespace {
 
 constexpr std::string_view signature = "WENDCHECKPOINT\n";
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 
 /// Bytes that go into a file one part after another, with the checksum of all.
 class CheckedStream {

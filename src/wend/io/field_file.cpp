@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view signature = "WENDFIELDS\n";
 // The version is that of what a render notes (render/taught.h).
-constexpr guide::SealedKind notes{"notes of a guiding field", "notes", "WENDNOTE\x1a", 2};
+constexpr guide::SealedKind notes{"notes of a guiding field", "notes", "WENDNOTE\x1a", 3};
 constexpr guide::SealedKind digest{"scene of a guiding field", "a scene's digest", "WENDSCENE\x1a", 1};
 
 }  // namespace

@@ -50,7 +50,7 @@ FieldLearner::FieldLearner(const LearningContext& context)
 }
 
 void FieldLearner::begin(const PassPlan& plan) {
-    records_ = plan.learns && !context_.settings.preset.is_classical();
+    records_ = plan.fills_fields && !context_.settings.preset.is_classical();
     // Photons cost as much as the first samples do, which may be all. They are wanted where fields are given, too.
     const RenderSettings& settings = context_.settings;
     const bool are_due = plan.first >= warm_up_samples && (records_ || plan.first < settings.training_samples);

@@ -33,6 +33,7 @@ struct PassPlan {
     /// Of each pixel of the crop: the first of its samples, and how many follow; empty where all have as many.
     std::vector<std::uint32_t> firsts, counts;
     bool learns = false;        ///< whether walks are there to learn from
+    bool fills_fields = false;  ///< whether the fields learn from them, too
     bool guides = false;        ///< whether any walk may be guided
     bool steers = false;        ///< whether where walks go is guided: by the fields, or inside dense media
     double recorded_share = 1;  ///< of the walks, those that are recorded
@@ -47,8 +48,8 @@ struct PassPlan {
     /// See ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
-        bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.guides, plan.steers,
-              plan.recorded_share, plan.recorded_share_directed, plan.recorded_walks, plan.estimates,
+        bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.fills_fields, plan.guides,
+              plan.steers, plan.recorded_share, plan.recorded_share_directed, plan.recorded_walks, plan.estimates,
               plan.mean_estimate, plan.sample_variance);
     }
 

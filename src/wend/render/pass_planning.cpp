@@ -31,6 +31,14 @@ bool learns_in_vain(const KnownSoFar& known, bool is_last) {
            (known.taught && Schedule(known.context.settings).total() <= known.taught->samples);
 }
 
+/// Whether a render ends before any of its walks but a few follow the fields: too few samples are left for a trial once
+/// there is something to try.
+bool ends_before_trial(const KnownSoFar& known) {
+    constexpr int before_trial = 3;
+    const auto kinds = static_cast<int>(known.choice.kinds().size());
+    return kinds > 1 && !known.taught && Schedule(known.context.settings).total() < before_trial + kinds;
+}
+
 double mean_variance(const std::vector<PixelNoise>& noise) {
     double sum = 0;
     for (const PixelNoise& pixel : noise) {
@@ -52,6 +60,7 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     const int enough = settings.training_samples;
     const bool is_taught = samples >= enough && (rendered.recorded >= enough || !choice.guiding_pays());
     plan.learns = !is_taught && (settings.keeps_fields || !learns_in_vain(known, is_last));
+    plan.fills_fields = plan.learns && (settings.keeps_fields || !ends_before_trial(known));
     plan.guides = choice.guides(count);
     plan.steers = preset.direction || learners.get<InteriorLearner>().can_guide();
     // In a small picture the fields would learn from too few.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace wend::mitsuba {
 namespace {
@@ -34,6 +35,25 @@ TEST(MitsubaReader, ASceneIsLoadedByItsExtension) {
     EXPECT_EQ(loaded.film_file, "scene.exr");
     EXPECT_EQ(loaded.files.size(), 1u);
     EXPECT_TRUE(loaded.warnings.empty());
+}
+
+// pbrt's longer normals count more, Mitsuba's do not.
+TEST(MitsubaReader, NormalsAreOfOneLength) {
+    const MitsubaFiles files;
+    files.write("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nf 1 2 3\nf 1 3 4\nf 2 5 3\n");
+    files.write("given.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvn 0 3 4\nvn 0 0 2\nf 1//1 2//2 3//3\n");
+    for (const char* name : {"roof.obj", "given.obj"}) {
+        files.write("scene.xml",
+                    scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"" + std::string(name) +
+                               "\"/><transform name=\"to_world\"><scale x=\"1\" y=\"3\" z=\"1\"/>"
+                               "</transform></shape><emitter type=\"constant\"/>"));
+        const LoadedScene loaded = load_scene(files.path("scene.xml"));
+        const std::vector<Vec3>& normals = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape).normals;
+        ASSERT_FALSE(normals.empty()) << name;
+        for (const Vec3& normal : normals) {
+            EXPECT_NEAR(length(normal), 1, 1e-5f) << name;
+        }
+    }
 }
 
 TEST(MitsubaReader, UnknownPluginsStopWithThoseThatThereAre) {

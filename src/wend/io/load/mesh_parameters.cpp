@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace wend {
 namespace {
@@ -19,23 +20,36 @@ void require_one_a_vertex(LoadContext& context, const pbrt::ShapeEntity& shape, 
     }
 }
 
-/// To the world. Normals of unequal length keep their ratios: the longer one counts more between them, as in pbrt.
-void place_normals(const pbrt::ShapeEntity& shape, std::vector<Vec3>& normals) {
+/// To the world; returns the lengths of the shortest and of the longest. A normal that is no direction becomes zero,
+/// which leaves its part of the surface flat.
+std::pair<float, float> place_normals(const pbrt::ShapeEntity& shape, std::vector<Vec3>& normals) {
     float shortest = infinity, longest = 0;
     for (Vec3& n : normals) {
         const Vec3 mapped = shape.world_from_object.normal(n) * (shape.reverse_orientation ? -1.0f : 1.0f);
         const float size = is_finite(mapped) ? length(mapped) : 0.0f;
-        // A normal that is no direction leaves its part of the surface flat.
         n = size > 0 && std::isfinite(size) ? mapped : Vec3(0, 0, 0);
         if (n != Vec3(0, 0, 0)) {
             shortest = std::min(shortest, size);
             longest = std::max(longest, size);
         }
     }
-    constexpr float equal = 0.999f;
-    const bool is_even = shortest > equal * longest;
-    for (Vec3& n : normals) {
-        n = n == Vec3(0, 0, 0) ? n : is_even ? normalize(n) : n / longest;
+    return {shortest, longest};
+}
+
+/// To the world, at both ends of a motion. Normals of unequal length keep their ratios: the longer one counts more
+/// between them, as in pbrt, though no more than a million times.
+void place_normals(const pbrt::ShapeEntity& shape, TriangleMesh& mesh) {
+    constexpr float equal = 0.999f, least = 1e-6f;
+    const auto [shortest, longest] = place_normals(shape, mesh.normals);
+    const auto [shortest_end, longest_end] = place_normals(shape, mesh.end_normals);
+    const bool are_even = shortest > equal * longest && shortest_end > equal * longest_end;
+    const float unit = std::max(longest, longest_end);
+    for (auto* const normals : {&mesh.normals, &mesh.end_normals}) {
+        for (Vec3& n : *normals) {
+            if (n != Vec3(0, 0, 0)) {
+                n = normalize(n) * (are_even ? 1.0f : std::max(length(n) / unit, least));
+            }
+        }
     }
 }
 
@@ -142,8 +156,7 @@ TriangleMesh place(const pbrt::ShapeEntity& shape, TriangleMeshData raw) {
         t = shape.world_from_object.vector(t);
         t = is_finite(t) ? t : Vec3(0, 0, 0);
     }
-    place_normals(shape, mesh.normals);
-    place_normals(shape, mesh.end_normals);
+    place_normals(shape, mesh);
     return mesh;
 }
 

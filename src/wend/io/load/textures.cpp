@@ -115,6 +115,9 @@ TextureId TextureLoader::load_scale(const pbrt::TextureEntity& texture) {
         }
         ImageTexture copy = *image;
         copy.scale *= constant->r;
+        if (!std::isfinite(copy.scale)) {
+            return std::nullopt;
+        }
         return textures_.add(std::move(copy));
     };
     std::optional<TextureId> whole = scaled(tex, scale);

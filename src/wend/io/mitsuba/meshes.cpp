@@ -145,6 +145,11 @@ TriangleMeshData mesh_of(const Object& shape) {
     } else if (mesh.normals.empty()) {
         add_smooth_normals(mesh);
     }
+    // Unlike pbrt, Mitsuba has all of one length.
+    for (Vec3& normal : mesh.normals) {
+        const float size = length(normal);
+        normal = size > 0 && std::isfinite(size) ? normal / size : Vec3(0, 0, 0);
+    }
     return mesh;
 }
 
