@@ -138,6 +138,52 @@ def test_a_sum_with_nothing_is_the_other(scene, tmp_path):
     check(scene, tmp_path, 64)
 
 
+def mixed_with_nothing(tree, kind=None, muted=False):
+    """0.4 of nothing, and the rest of it or a node of that kind."""
+    mixed = node(tree, "MixShader")
+    mixed.inputs[0].default_value = 0.4
+    if kind is not None:
+        link(tree, node(tree, kind), mixed.inputs[1])
+    if muted:
+        other = node(tree, "BsdfDiffuse")
+        other.mute = True
+        link(tree, other, mixed.inputs[2])
+    return mixed
+
+
+NOTHING = {
+    "sum": lambda tree: node(tree, "AddShader"),
+    "mixture": mixed_with_nothing,
+    "dark": lambda tree: node(tree, "Emission", strength=0.0),
+}
+
+
+def made_by(makes):
+    made = material()
+    tree = made.node_tree
+    link(tree, makes(tree), tree.nodes[0].inputs["Surface"])
+    return made
+
+
+@pytest.mark.parametrize("inside", [False, True])
+@pytest.mark.parametrize("kind", NOTHING)
+def test_nothing_is_black_around_no_volume(scene, tmp_path, kind, inside):
+    sky(scene, (1, 1, 1))
+    made = made_by(NOTHING[kind])
+    if inside:
+        link(made.node_tree, node(made.node_tree, "VolumeAbsorption", color=(0.8, 0.2, 0.1)), made.node_tree.nodes[0].inputs["Volume"])
+    mesh(scene, "cube", made, place=(0, 0, 0.5))
+    check(scene, tmp_path, 256)
+
+
+@pytest.mark.parametrize("muted", [False, True])
+@pytest.mark.parametrize("kind", ["BsdfTransparent", "BsdfDiffuse"])
+def test_a_share_of_nothing_is_black(scene, tmp_path, kind, muted):
+    sky(scene, (1, 1, 1))
+    mesh(scene, "plane", made_by(lambda tree: mixed_with_nothing(tree, kind, muted)), size=4)
+    check(scene, tmp_path, 512, tolerance=0.02)
+
+
 def test_an_output_for_cycles_comes_before_one_for_all(scene, tmp_path):
     sky(scene, (1, 1, 1))
     made = material("BsdfDiffuse", color=(0.8, 0.2, 0.1))
@@ -310,11 +356,18 @@ def test_a_world_is_that_of_the_frame(scene, tmp_path):
     agree(blocks(wend.render(ours, sampling="classical").image), blocks(by_cycles(scene, tmp_path, 256)))
 
 
-@pytest.mark.parametrize("name", ["caustics_reflective", "caustics_refractive", "use_fast_gi"])
-def test_light_that_is_switched_off_is_named(scene, name):
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("caustics_reflective", "caustics of reflections, which are switched off, are there"),
+        ("caustics_refractive", "caustics of refractions, which are switched off, are there"),
+        ("use_fast_gi", "the fast approximation of global illumination is left out: all of it is there"),
+    ],
+)
+def test_light_that_is_switched_off_is_named(scene, name, words):
     floor(scene)
     setattr(scene.cycles, name, not getattr(scene.cycles, name))
-    assert "scene 'Scene': warning: " in told(scene)
+    assert f"scene 'Scene': warning: {words}" in told(scene)
 
 
 def test_shadows_that_are_not_transparent_are_named(scene):
@@ -377,6 +430,21 @@ def test_what_is_hidden_by_the_eye_is_rendered(scene, tmp_path):
     made.hide_set(True)
     check(scene, tmp_path, 64)
     assert made.hide_get()
+
+
+@pytest.mark.parametrize("is_in_another", [False, True])
+def test_what_is_in_a_collection_hidden_by_the_eye_is_rendered(scene, tmp_path, is_in_another):
+    made = cube(scene)
+    outer, inner = (bpy.data.collections.new(name) for name in ("outer", "inner"))
+    scene.collection.children.link(outer)
+    outer.children.link(inner)
+    scene.collection.objects.unlink(made)
+    inner.objects.link(made)
+    hidden = scene.view_layers[0].layer_collection.children["outer"]
+    hidden = hidden if is_in_another else hidden.children["inner"]
+    hidden.hide_viewport = True
+    assert check(scene, tmp_path, 64).min() < 0.5
+    assert hidden.hide_viewport
 
 
 @pytest.mark.parametrize("change", ["hide_render", "hide_viewport", "levels", "shown"])

@@ -104,6 +104,9 @@ def _look(
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
+    # Nothing around an inside is not there, and else it is black.
+    if not surface.is_clear and not (medium is not None and _is_nothing(surface)):
+        surface = _reflecting(surface)
     named = _name(reader, key, surface)
     if named is None and emission is None and medium is None:
         # Nothing is seen of it.
@@ -384,6 +387,8 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
+    if _is_nothing(first) and _is_nothing(second):
+        return first
     emission = (1 - share) * first.emission + share * second.emission
     varies = first.shines_by_a_picture or second.shines_by_a_picture
     if first.is_held_out or second.is_held_out:
@@ -407,6 +412,11 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
         return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies, brushed=seen.brushed)
     varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
     return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
+
+
+def _is_nothing(surface: _Surface) -> bool:
+    is_made = surface.material is not None or surface.mixed is not None or bool(surface.alpha)
+    return not (is_made or surface.is_clear or surface.shines_by_a_picture or surface.emission.max() > 0)
 
 
 def _reflecting(surface: _Surface) -> _Surface:
