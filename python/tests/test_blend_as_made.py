@@ -265,6 +265,20 @@ def test_opaque_pictures_with_an_opacity_are_not_baked(scene, tmp_path):
     assert image.depth == 32 and "map.png" in blend.of_scene(scene).text()
 
 
+@pytest.mark.parametrize("projection", ["FLAT", "BOX"])
+def test_pictures_are_looked_through_once_and_only_where_that_matters(scene, tmp_path, monkeypatch, projection):
+    from wend import _blend_pictures
+
+    image, looked = squares(tmp_path, opacity=True), []
+    decides = _blend_pictures._is_opaque
+    monkeypatch.setattr(_blend_pictures, "_is_opaque", lambda image: looked.append(image) or decides(image))
+    for _ in range(3):
+        made = takes("BsdfDiffuse", "Color", picture(image, projection=projection))
+        mesh(scene, "plane", made, size=4)
+    blend.of_scene(scene)
+    assert len(looked) == (projection == "FLAT")
+
+
 def test_a_colour_as_a_number_is_its_luminance(scene, tmp_path):
     image = bpy.data.images.new("flat", 8, 8)
     image.pixels.foreach_set(np.tile(np.array([0.1, 0.9, 0.2, 1], dtype=np.float32), 64))

@@ -67,6 +67,7 @@ class _Silent(SceneReader):
 
     def __init__(self, reader: SceneReader) -> None:
         super().__init__("", None)
+        self.opaque_pictures = reader.opaque_pictures
 
     def tell(self, place: str, text: str, *, each: bool = False) -> None:
         pass

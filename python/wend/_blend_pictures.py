@@ -28,6 +28,8 @@ def picture_texture(nodes: Nodes, node: Any, kind: str, is_alpha: bool) -> str |
     is_linear = image.colorspace_settings.name in _LINEAR
     faults = _faults_of_picture(node, kind, is_alpha)
     mapping = mapping_of(nodes, node, faults)
+    if not (faults and nodes.bakery is not None) and not is_alpha and _is_multiplied(nodes, node):
+        faults.append("the colours of a picture are taken as its file has them, whatever its opacity")
     if faults and nodes.bakery is not None:
         return None
     for fault in faults:
@@ -63,15 +65,24 @@ def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
         faults.append(f"the extension {node.extension} of a picture is taken as repetition")
     if node.projection != "FLAT":
         faults.append(f"the projection {node.projection} of a picture is left out")
-    has_opacity = image.channels == 4 and image.depth not in (24, 8)
     if is_alpha and (kind == "rgb" or image.channels < 4 or image.alpha_mode == "NONE"):
         faults.append("the opacity of a picture is taken as its colour")
-    # Colours are multiplied by the opacity, unless somebody asks for that.
-    is_multiplied = has_opacity and space not in ("Non-Color", "Raw") and image.alpha_mode in ("STRAIGHT", "PREMUL")
-    is_asked_for = node.outputs["Alpha"].is_linked
-    if not is_alpha and is_multiplied and is_asked_for == image.is_float and not _is_opaque(image):
-        faults.append("the colours of a picture are taken as its file has them, whatever its opacity")
     return faults
+
+
+def _is_multiplied(nodes: Nodes, node: Any) -> bool:
+    """Whether Blender sees other colours than the file has: multiplied by its opacity, unless somebody asks for that."""
+    image = node.image
+    has_opacity = image.channels == 4 and image.depth not in (24, 8)
+    may_be = image.colorspace_settings.name not in ("Non-Color", "Raw") and image.alpha_mode in ("STRAIGHT", "PREMUL")
+    if not has_opacity or not may_be or node.outputs["Alpha"].is_linked != image.is_float:
+        return False
+    # All of its pixels are decoded for that.
+    known = nodes.reader.opaque_pictures
+    key = image.as_pointer()
+    if key not in known:
+        known[key] = _is_opaque(image)
+    return not known[key]
 
 
 def _is_opaque(image: Any) -> bool:

@@ -53,6 +53,7 @@ class SceneReader:
     def __init__(self, file: str, maps: str | os.PathLike[str] | None) -> None:
         self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
         self.materials: dict[str, Look] = {}
+        self.opaque_pictures: dict[int, bool] = {}  #: what is known of those that were looked through, by their addresses
         self.around: str | None = None  #: the medium that fills the world
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)
