@@ -347,9 +347,9 @@ def test_fields_that_are_left_out_are_named(stage, tmp_path):
 def test_a_prototype_may_be_defined_by_overs(stage):
     """As USD's documents have it, so that it is not seen where it is."""
     instancer = UsdGeom.PointInstancer.Define(stage.stage, "/instancer")
-    stage.stage.OverridePrim("/instancer/prototypes")
     UsdGeom.Xform.Define(stage.stage, "/instancer/prototypes/tree")
     stage.card(colour=(0.2, 0.2, 0.2), path="/instancer/prototypes/tree/card")
+    stage.stage.GetPrimAtPath("/instancer/prototypes").SetSpecifier(Sdf.SpecifierOver)
     instancer.CreatePrototypesRel().AddTarget("/instancer/prototypes/tree")
     instancer.CreateProtoIndicesAttr([0])
     instancer.CreatePositionsAttr([(0, 0, 0)])
@@ -461,6 +461,27 @@ def test_skeletons_in_instances_move_or_are_named(stage, tmp_path, of_another_fi
         stage.read()
     words = [str(w.message) for w in told if "as at rest" in str(w.message)]
     assert len(words) == of_another_file and all(w.startswith("/a/root: warning: ") for w in words)
+
+
+def test_instances_within_what_skeletons_move_are_named(stage, tmp_path):
+    moved_by_a_joint(stage, [((), 50)])
+    stage.stage.GetRootLayer().Export(str(tmp_path / "other.usda"))
+    held = UsdGeom.Xform.Define(stage.stage, "/root/held").GetPrim()
+    held.GetReferences().AddReference(str(tmp_path / "other.usda"), "/root")
+    held.SetInstanceable(True)
+    with pytest.warns(wend.SceneWarning, match="/root.*: .*in instances is as at rest"):
+        stage.read()
+
+
+def test_what_is_copied_is_posed_below_overs(stage):
+    moved_by_a_joint(stage, [((), 50)], "/held/more/root")
+    for path in ("/held", "/held/more"):
+        stage.stage.GetPrimAtPath(path).SetSpecifier(Sdf.SpecifierOver)
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/instancer")
+    instancer.CreatePrototypesRel().AddTarget("/held/more/root")
+    instancer.CreateProtoIndicesAttr([0])
+    instancer.CreatePositionsAttr([(-50, 0, 0)])
+    assert middle(stage.image()) == pytest.approx((0.2, 0.2, 0.2), abs=0.01)
 
 
 def test_a_pose_without_time_is_taken(stage):

@@ -5,7 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdSkel  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+
+#: All that may be copied.
+WITH_OVERS = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
 
 
 def pose(reader: Any) -> None:
@@ -17,13 +21,22 @@ def pose(reader: Any) -> None:
     stage.SetEditTarget(stage.GetSessionLayer())
     try:
         # By their paths: what is put into the stage may be referred to, which makes prims anew.
-        for path in [prim.GetPath() for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]:
+        found = [prim for prim in Usd.PrimRange(stage.GetPseudoRoot(), WITH_OVERS) if prim.IsA(UsdSkel.Root)]
+        posed = {prim.GetPath(): None for prim in found}
+        for path in posed:
+            # USD poses what is defined; what instancers copy may be below overs.
+            overs = [above for above in path.GetPrefixes() if not stage.GetPrimAtPath(above).HasDefiningSpecifier()]
+            for above in overs:
+                stage.GetPrimAtPath(above).SetSpecifier(Sdf.SpecifierDef)
             _pose_below(reader, stage.GetPrimAtPath(path), times)
+            for above in overs:
+                stage.GetPrimAtPath(above).SetSpecifier(Sdf.SpecifierOver)
     finally:
         stage.SetEditTarget(before)
-    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
-    for root in (prim for prim in everything if prim.IsA(UsdSkel.Root)):
-        if any(_is_left(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies())):
+    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(WITH_OVERS))
+    # Those that are posed are no longer of that type.
+    for root in (prim for prim in everything if prim.IsA(UsdSkel.Root) or prim.GetPath() in posed):
+        if any(_is_left(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies(WITH_OVERS))):
             reader.warn(root, "what skeletons move in instances is as at rest")
 
 
