@@ -184,6 +184,13 @@ def test_a_share_of_nothing_is_black(scene, tmp_path, kind, muted):
     check(scene, tmp_path, 512, tolerance=0.02)
 
 
+def test_a_share_around_a_volume_is_named(scene):
+    made = made_by(lambda tree: mixed_with_nothing(tree, "BsdfTransparent"))
+    link(made.node_tree, node(made.node_tree, "VolumeAbsorption"), made.node_tree.nodes[0].inputs["Volume"])
+    mesh(scene, "cube", made)
+    assert "material 'material', node 'Material Output': warning: what a surface lets through by its share" in told(scene)
+
+
 def test_an_output_for_cycles_comes_before_one_for_all(scene, tmp_path):
     sky(scene, (1, 1, 1))
     made = material("BsdfDiffuse", color=(0.8, 0.2, 0.1))
