@@ -68,7 +68,7 @@ TEST(Taught, NoFieldIsFilledBySoFewSamplesThatNoneFollowsIt) {
     };
     EXPECT_FALSE(is_filled(4, false));
     EXPECT_TRUE(is_filled(4, true));
-    EXPECT_TRUE(is_filled(8, false));
+    EXPECT_TRUE(is_filled(16, false));
 }
 
 class SlowTaught : public testing::Test {
