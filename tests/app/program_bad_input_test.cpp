@@ -175,7 +175,6 @@ TEST_F(BadInput, NumbersThatAreNone) {
     expect_refused_world("AreaLightSource \"diffuse\" \"rgb L\" [ 1 nan 1 ]\n" + triangle + "[ 0 0 0 0 1 0 1 0 0 ]\n",
                          "");
     expect_refused_world("Shape \"sphere\" \"float radius\" [ -1 ]\n", "radius");
-    expect_refused_world("Shape \"sphere\" \"float radius\" [ 0 ]\n", "radius");
     expect_refused_world("Translate nan 0 0\n", "");
     expect_refused_world("Transform [ 1 0 0 0 0 1 0 0 0 0 inf 0 0 0 0 1 ]\n", "");
 }
@@ -190,7 +189,6 @@ TEST_F(BadInput, MediaThatCannotBe) {
     for (const char* g : {"1", "-1", "1.5", "-7"}) {
         expect_refused_world(medium(std::string("\"float g\" [ ") + g + " ]"), "\"g\"");
     }
-    expect_refused_world(medium("\"string preset\" \"Soup\""), "Soup");
     expect_refused_world("MakeNamedMedium \"m\" \"string type\" \"syrup\"\n", "syrup");
     expect_refused_world("MakeNamedMedium \"m\"\n", "type");
     expect_refused_world("MediumInterface \"nowhere\" \"\"\nShape \"sphere\"\n", "nowhere");
@@ -261,7 +259,6 @@ TEST_F(BadInput, MeshesThatDoNotHoldTogether) {
     const std::string corners = R"("point3 P" [ 0 0 0  0 1 0  1 0 0 ] )";
     expect_refused_world("Shape \"trianglemesh\" " + corners + "\"integer indices\" [ 0 1 3 ]\n", "index 3");
     expect_refused_world("Shape \"trianglemesh\" " + corners + "\"integer indices\" [ 0 1 -1 ]\n", "index -1");
-    expect_refused_world("Shape \"trianglemesh\" " + corners + "\"integer indices\" [ 0 1 2 0 ]\n", "indices");
     expect_refused_world("Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ]\n", "");
     expect_refused_world("Shape \"trianglemesh\" \"point3 P\" [ 0 0 ]\n", "P");
 }
@@ -360,14 +357,18 @@ TEST_F(BadInput, OddScenesStillRender) {
                             black);
         }
     };
-    odd("", true);                                                    // nothing at all
-    odd("Shape \"sphere\"\n", true);                                  // no light
-    odd(sky);                                                         // no shape
-    odd(sky + "Shape \"sphere\" \"float radius\" [ 8 ]\n", true);     // the eye inside of a closed shape
-    odd(sky + "Shape \"disk\" \"float radius\" [ 1e-20 ]\n");         // hardly there
-    odd(sky + "Scale 1 1 1e-12\nShape \"sphere\"\n");                 // nearly flat
-    odd(sky + "Shape \"sphere\" \"float radius\" [ 1e15 ]\n", true);  // vast
-    odd(sky + "Translate 1e12 0 0\nShape \"sphere\"\n");              // far away
+    odd("", true);                                                 // nothing at all
+    odd("Shape \"sphere\"\n", true);                               // no light
+    odd(sky);                                                      // no shape
+    odd(sky + "Shape \"sphere\" \"float radius\" [ 8 ]\n", true);  // the eye inside of a closed shape
+    odd(sky + "Shape \"disk\" \"float radius\" [ 1e-20 ]\n");      // hardly there
+    odd(sky + "Shape \"sphere\" \"float radius\" [ 0 ]\n");        // not there at all, as in pbrt
+    odd(sky +
+        "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 ] \"point3 P\" [ 0 0 1 1 0 1 1 1 1 ]\n");  // one too many
+    odd(sky + "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" \"Soup\"\n");  // unknown to all
+    odd(sky + "Scale 1 1 1e-12\nShape \"sphere\"\n");                                                 // nearly flat
+    odd(sky + "Shape \"sphere\" \"float radius\" [ 1e15 ]\n", true);                                  // vast
+    odd(sky + "Translate 1e12 0 0\nShape \"sphere\"\n");                                              // far away
     odd("LightSource \"point\" \"rgb I\" [ 1e30 1e30 1e30 ]\nShape \"sphere\"\n", true);  // inside of the sphere
     odd("LightSource \"point\" \"point3 from\" [ 0 0 3 ] \"rgb I\" [ 1e30 1e30 1e30 ]\nShape \"sphere\"\n");
     odd(sky +
