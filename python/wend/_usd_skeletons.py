@@ -8,8 +8,9 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 
-#: All that may be copied.
-WITH_OVERS = Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
+def with_overs() -> Any:
+    """The predicate of all that may be copied."""
+    return Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract
 
 
 def pose(reader: Any) -> None:
@@ -21,7 +22,7 @@ def pose(reader: Any) -> None:
     stage.SetEditTarget(stage.GetSessionLayer())
     try:
         # By their paths: what is put into the stage may be referred to, which makes prims anew.
-        found = [prim for prim in Usd.PrimRange(stage.GetPseudoRoot(), WITH_OVERS) if prim.IsA(UsdSkel.Root)]
+        found = [prim for prim in Usd.PrimRange(stage.GetPseudoRoot(), with_overs()) if prim.IsA(UsdSkel.Root)]
         posed = {prim.GetPath(): None for prim in found}
         for path in posed:
             # USD poses what is defined; what instancers copy may be below overs.
@@ -33,10 +34,10 @@ def pose(reader: Any) -> None:
                 stage.GetPrimAtPath(above).SetSpecifier(Sdf.SpecifierOver)
     finally:
         stage.SetEditTarget(before)
-    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(WITH_OVERS))
+    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(with_overs()))
     # Those that are posed are no longer of that type.
     for root in (prim for prim in everything if prim.IsA(UsdSkel.Root) or prim.GetPath() in posed):
-        if any(_is_left(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies(WITH_OVERS))):
+        if any(_is_left(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies(with_overs()))):
             reader.warn(root, "what skeletons move in instances is as at rest")
 
 

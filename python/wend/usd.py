@@ -165,7 +165,7 @@ class _Reader(SceneReader):
     def prims(self, root: Any) -> Iterator[Any]:
         """Those that are to be seen; what an instancer copies is left to it."""
         # What is copied may be below overs, so that it is not seen where it is.
-        kept = Usd.PrimDefaultPredicate if root.IsDefined() else skeletons.WITH_OVERS
+        kept = Usd.PrimDefaultPredicate if root.IsDefined() else skeletons.with_overs()
         walk = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies(kept)))
         for prim in walk:
             imageable = UsdGeom.Imageable(prim)
