@@ -199,7 +199,7 @@ bool GuidingChoice::learn(std::span<const WalkTallies> pass, int samples, bool l
         return false;
     }
     remember(pass, learns);
-    if (state_ == State::classical) {
+    if (state_ == State::plain) {
         state_ = State::probe;
         return true;
     }
@@ -255,7 +255,7 @@ double GuidingChoice::recorded_share(int samples) const {
     }
     constexpr double at_first = 1.0 / 16, before_trial = 0.3, at_trial = 0.5, least = 0.15, most = 0.5, enough = 6;
     switch (state_) {
-        case State::classical:
+        case State::plain:
         case State::probe:
             return samples <= few_samples ? at_first : before_trial;
         case State::trial:

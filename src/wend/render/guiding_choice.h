@@ -89,7 +89,7 @@ public:
         const std::size_t tiles = choice.tallies_.size();
         bytes(choice.shares_, choice.tallies_, choice.state_, choice.gain_);
         bytes.require(choice.shares_.size() == tiles && choice.tallies_.size() == tiles &&
-                      choice.state_ >= State::classical && choice.state_ <= State::chosen);
+                      choice.state_ >= State::plain && choice.state_ <= State::chosen);
     }
 
 private:
@@ -102,7 +102,7 @@ private:
     /// Whether each kind that takes directions from the fields has walks in a pass.
     bool shows_directed(std::span<const WalkTallies> pass) const;
     TallyProducts products(double WalkTally::*what) const { return TallyProducts(tallies_, kinds_.size(), what); }
-    /// Of walks of the first kind, as those of every kind show it: the first of its kinds alone counts.
+    /// What walks of the first kind would show, as those of every kind tell it: tiles, times its first number.
     TallyProducts unguided_squares() const;
     /// Of squared errors, with those of light that a kind has not found yet.
     TallyProducts squared_errors(const TallyProducts& unguided) const;
@@ -115,7 +115,7 @@ private:
     std::vector<WalkKind> kinds_;
     std::vector<WalkShares> shares_;
     std::vector<WalkTallies> tallies_;
-    enum class State { classical, probe, trial, chosen } state_ = State::classical;
+    enum class State { plain, probe, trial, chosen } state_ = State::plain;
     double gain_ = 0;  ///< of what is learned, in the whole picture
 };
 
