@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Refuses an include that goes up: a module of src/wend may include itself and lower modules only (docs/architecture.md).
-Open PGL's headers in src/openpgl include nothing of Wend, and only the module of that name includes them. The tables of
-files in docs/architecture.md name files that there are.
+Open PGL's headers in src/openpgl include nothing of Wend, and only the module of that name includes them. A source
+begins with the header of its own name. The tables of files in docs/architecture.md name files that there are.
 
 usage: check_layers.py ROOT    checks ROOT/src; exit status 1 and one line per offence
 """
@@ -57,6 +57,16 @@ def offence_of_line(module, line):
     return None
 
 
+def begins_with_another(source, file):
+    """What is wrong with the first include of a source that has a header of its own name, or None."""
+    own = file.with_suffix(".h")
+    if file.suffix != ".cpp" or not own.exists():
+        return None
+    expected = f"#include <{own.relative_to(source).as_posix()}>"
+    first = next((line for line in file.read_text().splitlines() if line.startswith("#include")), None)
+    return None if first == expected else f"begins with '{first}', not with its own header: {expected}"
+
+
 def names_without_file(root):
     page, module = Path(root) / "docs" / "architecture.md", None
     for number, line in enumerate(page.read_text().splitlines() if page.exists() else [], 1):
@@ -87,6 +97,8 @@ def offences(root):
             yield f"{entry}: unknown module '{entry.name}'; known are {', '.join(LEVEL)}"
         else:
             for file in sorted(p for p in entry.rglob("*") if p.suffix in (".h", ".inl", ".cpp")):
+                if offence := begins_with_another(source.parent, file):
+                    yield f"{file}: {offence}"
                 for number, line in enumerate(file.read_text().splitlines(), 1):
                     offence = offence_of_line(entry.name, line)
                     if offence:

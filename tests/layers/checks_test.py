@@ -54,6 +54,13 @@ class Layers(Tree):
         text = "#include <wend/medium/phase.h>\n#include <wend/core/ray.h>\n#include <vector>\n#include <Imath/ImathVec.h>\n"
         self.assertEqual(self.offences("src/wend/medium/grid.cpp", text), [])
 
+    def test_a_source_begins_with_its_own_header(self):
+        self.write("src/wend/core/ray.h", "")
+        self.assertEqual(self.offences("src/wend/core/ray.cpp", "#include <wend/core/ray.h>\n\n#include <vector>\n"), [])
+        found = self.offences("src/wend/core/ray.cpp", "#include <vector>\n#include <wend/core/ray.h>\n")
+        self.assertEqual(len(found), 1)
+        self.assertIn("not with its own header", found[0])
+
     def test_tables_of_files_name_what_there_is(self):
         self.write("docs/architecture.md", "Files of `core`:\n\n| files | what |\n|---|---|\n| `ray`, `gone` | `x` |\n\n"
                                            "Beside them `others`:\n| `more` | |\n")
@@ -71,7 +78,7 @@ class Layers(Tree):
 
     def test_every_kind_of_source_is_read(self):
         for ending in ("h", "inl", "cpp"):
-            self.write(f"src/wend/core/a.{ending}", "#include <wend/io/volume.h>\n")
+            self.write(f"src/wend/core/{ending}.{ending}", "#include <wend/io/volume.h>\n")
         self.assertEqual(len(list(check_layers.offences(self.root))), 3)
 
     def test_modules_of_one_level_do_not_see_each_other(self):

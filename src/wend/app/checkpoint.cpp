@@ -1,4 +1,5 @@
 #include <wend/app/checkpoint.h>
+
 #include <wend/core/archive.h>
 #include <wend/core/error.h>
 #include <wend/io/checkpoint_file.h>

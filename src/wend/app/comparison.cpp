@@ -1,4 +1,5 @@
 #include <wend/app/comparison.h>
+
 #include <wend/app/progress.h>
 #include <wend/core/error.h>
 #include <wend/film/flip.h>

@@ -1,4 +1,5 @@
 #include <wend/app/comparison_data.h>
+
 #include <wend/app/text_table.h>
 
 #include <fmt/format.h>

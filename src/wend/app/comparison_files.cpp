@@ -1,5 +1,6 @@
-#include <wend/app/comparison_data.h>
 #include <wend/app/comparison_files.h>
+
+#include <wend/app/comparison_data.h>
 #include <wend/app/comparison_page.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/image_file.h>

@@ -1,5 +1,6 @@
-#include <wend/app/comparison_data.h>
 #include <wend/app/comparison_page.h>
+
+#include <wend/app/comparison_data.h>
 #include <wend/app/report_page.h>
 #include <wend/film/false_colour.h>
 #include <wend/io/image_file.h>

@@ -1,6 +1,7 @@
+#include <wend/app/comparison_report.h>
+
 #include <wend/app/comparison_data.h>
 #include <wend/app/comparison_files.h>
-#include <wend/app/comparison_report.h>
 #include <wend/app/gains.h>
 #include <wend/app/report_folder.h>
 #include <wend/app/scenes_page.h>

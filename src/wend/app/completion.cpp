@@ -1,4 +1,5 @@
 #include <wend/app/completion.h>
+
 #include <wend/app/markup.h>
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include <wend/app/config_file.h>
+
 #include <wend/core/error.h>
 
 #include <CLI/CLI.hpp>

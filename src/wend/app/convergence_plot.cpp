@@ -1,4 +1,5 @@
 #include <wend/app/convergence_plot.h>
+
 #include <wend/app/plot.h>
 
 #include <utility>

@@ -1,4 +1,5 @@
 #include <wend/app/denoiser.h>
+
 #include <wend/app/oidn_library.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <wend/app/direction_map.h>
+
 #include <wend/core/vector.h>
 #include <wend/view/direction_bins.h>
 

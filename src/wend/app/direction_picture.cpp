@@ -1,4 +1,5 @@
 #include <wend/app/direction_picture.h>
+
 #include <wend/app/raster_text.h>
 
 #include <fmt/format.h>

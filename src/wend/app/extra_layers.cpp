@@ -1,4 +1,5 @@
 #include <wend/app/extra_layers.h>
+
 #include <wend/core/error.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <wend/app/field_place.h>
+
 #include <wend/app/options.h>
 #include <wend/app/text_table.h>
 #include <wend/core/error.h>

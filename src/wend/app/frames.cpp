@@ -1,4 +1,5 @@
 #include <wend/app/frames.h>
+
 #include <wend/app/interrupt.h>
 #include <wend/core/error.h>
 

@@ -1,5 +1,6 @@
-#include <wend/app/comparison_data.h>
 #include <wend/app/gains.h>
+
+#include <wend/app/comparison_data.h>
 #include <wend/app/text_table.h>
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include <wend/app/gains_plot.h>
+
 #include <wend/app/markup.h>
 #include <wend/app/plot_scale.h>
 

@@ -1,4 +1,5 @@
 #include <wend/app/halfspace_figures.h>
+
 #include <wend/app/planar_options.h>
 #include <wend/app/plot.h>
 

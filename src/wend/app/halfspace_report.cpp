@@ -1,5 +1,6 @@
-#include <wend/app/halfspace_figures.h>
 #include <wend/app/halfspace_report.h>
+
+#include <wend/app/halfspace_figures.h>
 #include <wend/app/halfspace_table.h>
 #include <wend/app/markup.h>
 #include <wend/app/page_frame.h>

@@ -1,4 +1,5 @@
 #include <wend/app/halfspace_table.h>
+
 #include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
 #include <wend/planar/half_space.h>

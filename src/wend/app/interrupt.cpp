@@ -1,4 +1,5 @@
 #include <wend/app/interrupt.h>
+
 #include <wend/io/atomic_file.h>
 
 #include <unistd.h>

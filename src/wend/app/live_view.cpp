@@ -1,4 +1,5 @@
 #include <wend/app/live_view.h>
+
 #include <wend/core/error.h>
 #include <wend/view/display_client.h>
 #include <wend/view/page.h>

@@ -1,4 +1,5 @@
 #include <wend/app/lobe_page.h>
+
 #include <wend/app/lobe_template.h>
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>

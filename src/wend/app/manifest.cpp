@@ -1,4 +1,5 @@
 #include <wend/app/manifest.h>
+
 #include <wend/app/options.h>
 #include <wend/film/cryptomatte.h>
 

@@ -1,5 +1,6 @@
-#include <wend/app/manifest.h>
 #include <wend/app/merged_renders.h>
+
+#include <wend/app/manifest.h>
 #include <wend/core/error.h>
 #include <wend/film/cryptomatte.h>
 #include <wend/io/spectrum/colour_space.h>

@@ -1,4 +1,5 @@
 #include <wend/app/mpi_ranks.h>
+
 #include <wend/core/error.h>
 
 #include <sys/resource.h>

@@ -1,4 +1,5 @@
 #include <wend/app/oidn_library.h>
+
 #include <wend/core/error.h>
 
 #include <dlfcn.h>

@@ -1,4 +1,5 @@
 #include <wend/app/options.h>
+
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
 #include <wend/io/atomic_file.h>

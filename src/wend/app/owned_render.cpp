@@ -1,6 +1,7 @@
+#include <wend/app/owned_render.h>
+
 #include <wend/app/checkpoint.h>
 #include <wend/app/extra_layers.h>
-#include <wend/app/owned_render.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 

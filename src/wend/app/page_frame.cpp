@@ -1,5 +1,6 @@
-#include <wend/app/markup.h>
 #include <wend/app/page_frame.h>
+
+#include <wend/app/markup.h>
 #include <wend/app/report_template.h>
 #include <wend/film/false_colour.h>
 #include <wend/film/tone.h>

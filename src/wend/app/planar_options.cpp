@@ -1,4 +1,5 @@
 #include <wend/app/planar_options.h>
+
 #include <wend/core/error.h>
 
 #include <fmt/format.h>

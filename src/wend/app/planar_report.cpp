@@ -1,5 +1,6 @@
-#include <wend/app/planar_options.h>
 #include <wend/app/planar_report.h>
+
+#include <wend/app/planar_options.h>
 #include <wend/app/text_table.h>
 #include <wend/stats/figure_of_merit.h>
 

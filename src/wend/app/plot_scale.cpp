@@ -1,5 +1,6 @@
-#include <wend/app/markup.h>
 #include <wend/app/plot_scale.h>
+
+#include <wend/app/markup.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
+#include <wend/app/program.h>
+
 #include <wend/app/commands.h>
 #include <wend/app/config_file.h>
 #include <wend/app/interrupt.h>
-#include <wend/app/program.h>
 #include <wend/core/error.h>
 #include <wend/render/preset.h>
 #include <wend/version.h>

@@ -1,5 +1,6 @@
-#include <wend/app/options.h>
 #include <wend/app/progress_lines.h>
+
+#include <wend/app/options.h>
 #include <wend/core/error.h>
 
 #include <nlohmann/json.hpp>

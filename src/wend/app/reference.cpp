@@ -1,5 +1,6 @@
-#include <wend/app/options.h>
 #include <wend/app/reference.h>
+
+#include <wend/app/options.h>
 #include <wend/core/error.h>
 #include <wend/io/image_file.h>
 

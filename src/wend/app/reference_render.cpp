@@ -1,4 +1,5 @@
 #include <wend/app/reference_render.h>
+
 #include <wend/io/image_file.h>
 
 #include <fmt/format.h>

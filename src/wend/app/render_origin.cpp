@@ -1,5 +1,6 @@
-#include <wend/app/options.h>
 #include <wend/app/render_origin.h>
+
+#include <wend/app/options.h>
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/version.h>

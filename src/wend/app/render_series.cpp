@@ -1,5 +1,6 @@
-#include <wend/app/frames.h>
 #include <wend/app/render_series.h>
+
+#include <wend/app/frames.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 

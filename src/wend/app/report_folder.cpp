@@ -1,4 +1,5 @@
 #include <wend/app/report_folder.h>
+
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 

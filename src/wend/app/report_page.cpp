@@ -1,7 +1,8 @@
+#include <wend/app/report_page.h>
+
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>
 #include <wend/app/page_frame.h>
-#include <wend/app/report_page.h>
 #include <wend/app/report_template.h>
 #include <wend/film/tone.h>
 

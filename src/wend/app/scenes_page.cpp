@@ -1,10 +1,11 @@
+#include <wend/app/scenes_page.h>
+
 #include <wend/app/comparison_data.h>
 #include <wend/app/gains.h>
 #include <wend/app/gains_plot.h>
 #include <wend/app/markup.h>
 #include <wend/app/number_text.h>
 #include <wend/app/page_frame.h>
-#include <wend/app/scenes_page.h>
 #include <wend/app/scenes_template.h>
 
 #include <fmt/format.h>

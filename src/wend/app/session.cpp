@@ -1,6 +1,7 @@
+#include <wend/app/session.h>
+
 #include <wend/app/extra_layers.h>
 #include <wend/app/manifest.h>
-#include <wend/app/session.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/gzip.h>

@@ -1,7 +1,8 @@
+#include <wend/app/watched_render.h>
+
 #include <wend/app/checkpoint.h>
 #include <wend/app/progress.h>
 #include <wend/app/progress_lines.h>
-#include <wend/app/watched_render.h>
 #include <wend/core/error.h>
 #include <wend/core/team.h>
 #include <wend/io/atomic_file.h>

@@ -1,5 +1,6 @@
-#include <wend/capi/boundary.h>
 #include <wend/capi/field.h>
+
+#include <wend/capi/boundary.h>
 #include <wend/capi/handles.h>
 #include <wend/capi/settings.h>
 #include <wend/core/error.h>

@@ -1,4 +1,5 @@
 #include <wend/capi/interior.h>
+
 #include <wend/capi/media.h>
 #include <wend/capi/opaque.h>
 #include <wend/core/vector.h>

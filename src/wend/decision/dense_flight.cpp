@@ -1,5 +1,6 @@
-#include <wend/decision/channels.h>
 #include <wend/decision/dense_flight.h>
+
+#include <wend/decision/channels.h>
 #include <wend/medium/transmittance.h>
 #include <wend/sampling/warp.h>
 

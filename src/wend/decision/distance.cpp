@@ -1,6 +1,7 @@
+#include <wend/decision/distance.h>
+
 #include <wend/decision/channels.h>
 #include <wend/decision/dense_flight.h>
-#include <wend/decision/distance.h>
 #include <wend/medium/medium.h>
 #include <wend/medium/tentative_collisions.h>
 #include <wend/medium/transmittance.h>

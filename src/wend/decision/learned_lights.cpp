@@ -1,5 +1,6 @@
-#include <wend/core/parallel.h>
 #include <wend/decision/learned_lights.h>
+
+#include <wend/core/parallel.h>
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/film/comparable.h>
+
+#include <wend/core/error.h>
 
 namespace wend {
 namespace {

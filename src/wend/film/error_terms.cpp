@@ -1,7 +1,8 @@
+#include <wend/film/error_terms.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/film/comparable.h>
-#include <wend/film/error_terms.h>
 
 #include <algorithm>
 #include <cmath>

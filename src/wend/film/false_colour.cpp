@@ -1,6 +1,7 @@
+#include <wend/film/false_colour.h>
+
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
-#include <wend/film/false_colour.h>
 
 #include <algorithm>
 #include <array>

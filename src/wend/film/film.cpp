@@ -1,8 +1,9 @@
+#include <wend/film/film.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/film/chess_board.h>
-#include <wend/film/film.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
+#include <wend/film/flip.h>
+
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>
 #include <wend/core/vector.h>
 #include <wend/film/comparable.h>
-#include <wend/film/flip.h>
 #include <wend/film/perceptual_filters.h>
 
 #include <algorithm>

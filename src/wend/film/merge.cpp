@@ -1,10 +1,11 @@
+#include <wend/film/merge.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/film/chess_board.h>
 #include <wend/film/cryptomatte.h>
 #include <wend/film/film_layers.h>
-#include <wend/film/merge.h>
 #include <wend/film/merged_layers.h>
 #include <wend/stats/moments.h>
 

@@ -1,6 +1,7 @@
+#include <wend/film/merged_layers.h>
+
 #include <wend/core/error.h>
 #include <wend/film/film_layers.h>
-#include <wend/film/merged_layers.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,6 @@
-#include <wend/film/error_terms.h>
 #include <wend/film/metrics.h>
+
+#include <wend/film/error_terms.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
+#include <wend/film/perceptual_filters.h>
+
 #include <wend/core/parallel.h>
 #include <wend/core/vector.h>
-#include <wend/film/perceptual_filters.h>
 
 #include <algorithm>
 #include <cmath>

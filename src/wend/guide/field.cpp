@@ -1,4 +1,5 @@
 #include <wend/guide/field.h>
+
 #include <wend/guide/field_memory.h>
 
 #include <wend/core/contracts.h>

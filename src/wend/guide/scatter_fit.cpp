@@ -1,5 +1,6 @@
-#include <wend/guide/field_memory.h>
 #include <wend/guide/scatter_fit.h>
+
+#include <wend/guide/field_memory.h>
 
 #include <wend/core/error.h>
 #include <wend/core/parallel.h>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/guide/sealed_bytes.h>
+
+#include <wend/core/error.h>
 
 #include <boost/crc.hpp>
 

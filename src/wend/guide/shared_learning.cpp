@@ -1,7 +1,8 @@
+#include <wend/guide/shared_learning.h>
+
 #include <wend/core/parallel.h>
 #include <wend/guide/field_bytes.h>
 #include <wend/guide/scatter_fit.h>
-#include <wend/guide/shared_learning.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 #include <sys/stat.h>

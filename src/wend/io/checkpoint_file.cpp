@@ -1,6 +1,7 @@
+#include <wend/io/checkpoint_file.h>
+
 #include <wend/io/atomic_file.h>
 #include <wend/io/bytes.h>
-#include <wend/io/checkpoint_file.h>
 #include <wend/io/gzip.h>
 
 #include <zlib.h>

@@ -1,6 +1,7 @@
+#include <wend/io/exr_check.h>
+
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
-#include <wend/io/exr_check.h>
 #include <wend/io/image_size.h>
 
 #include <OpenEXR/ImfChannelList.h>

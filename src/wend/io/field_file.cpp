@@ -1,6 +1,7 @@
+#include <wend/io/field_file.h>
+
 #include <wend/guide/field.h>
 #include <wend/guide/sealed_bytes.h>
-#include <wend/io/field_file.h>
 #include <wend/io/parts_file.h>
 
 #include <array>

@@ -1,6 +1,7 @@
+#include <wend/io/file_stamp.h>
+
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
-#include <wend/io/file_stamp.h>
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,6 +1,7 @@
+#include <wend/io/gif_file.h>
+
 #include <wend/io/bytes.h>
 #include <wend/io/colour_encoding.h>
-#include <wend/io/gif_file.h>
 #include <wend/io/image_size.h>
 
 #include <algorithm>

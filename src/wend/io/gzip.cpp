@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/gzip.h>
+
+#include <wend/core/error.h>
 
 #include <zlib.h>
 

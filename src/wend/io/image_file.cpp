@@ -1,10 +1,11 @@
+#include <wend/io/image_file.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/io/atomic_file.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/gif_file.h>
 #include <wend/io/gzip.h>
-#include <wend/io/image_file.h>
 #include <wend/io/pfm_file.h>
 #include <wend/io/pnm_file.h>
 #include <wend/io/qoi_file.h>

@@ -1,5 +1,6 @@
-#include <wend/io/image_file.h>
 #include <wend/io/image_size.h>
+
+#include <wend/io/image_file.h>
 
 #include <fmt/format.h>
 

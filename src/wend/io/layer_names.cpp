@@ -1,6 +1,7 @@
+#include <wend/io/layer_names.h>
+
 #include <wend/core/error.h>
 #include <wend/film/cryptomatte.h>
-#include <wend/io/layer_names.h>
 
 #include <algorithm>
 #include <array>

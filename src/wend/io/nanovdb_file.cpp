@@ -1,7 +1,8 @@
+#include <wend/io/nanovdb_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/bytes.h>
 #include <wend/io/gzip.h>
-#include <wend/io/nanovdb_file.h>
 #include <wend/io/voxel_blocks.h>
 
 #include <blosc.h>

@@ -1,6 +1,7 @@
+#include <wend/io/openvdb_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
-#include <wend/io/openvdb_file.h>
 #include <wend/io/openvdb_layout.h>
 #include <wend/io/voxel_blocks.h>
 

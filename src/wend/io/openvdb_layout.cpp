@@ -1,5 +1,6 @@
-#include <wend/io/bytes.h>
 #include <wend/io/openvdb_layout.h>
+
+#include <wend/io/bytes.h>
 
 #include <blosc.h>
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
+#include <wend/io/parts_file.h>
+
 #include <wend/io/atomic_file.h>
 #include <wend/io/bytes.h>
 #include <wend/io/gzip.h>
-#include <wend/io/parts_file.h>
 
 #include <cstdint>
 

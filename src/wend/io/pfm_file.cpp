@@ -1,6 +1,7 @@
+#include <wend/io/pfm_file.h>
+
 #include <wend/io/header_words.h>
 #include <wend/io/image_size.h>
-#include <wend/io/pfm_file.h>
 
 #include <algorithm>
 #include <array>

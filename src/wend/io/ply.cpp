@@ -1,6 +1,7 @@
+#include <wend/io/ply.h>
+
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
-#include <wend/io/ply.h>
 #include <wend/io/ply_attributes.h>
 #include <wend/io/ply_header.h>
 

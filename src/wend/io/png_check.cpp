@@ -1,5 +1,6 @@
-#include <wend/io/image_size.h>
 #include <wend/io/png_check.h>
+
+#include <wend/io/image_size.h>
 
 #include <fmt/format.h>
 #include <zlib.h>

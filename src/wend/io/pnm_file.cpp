@@ -1,7 +1,8 @@
+#include <wend/io/pnm_file.h>
+
 #include <wend/io/colour_encoding.h>
 #include <wend/io/header_words.h>
 #include <wend/io/image_size.h>
-#include <wend/io/pnm_file.h>
 
 #include <algorithm>
 #include <cstdint>

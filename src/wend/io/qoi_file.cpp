@@ -1,7 +1,8 @@
+#include <wend/io/qoi_file.h>
+
 #include <wend/io/bytes.h>
 #include <wend/io/colour_encoding.h>
 #include <wend/io/image_size.h>
-#include <wend/io/qoi_file.h>
 
 #include <array>
 #include <cstdint>

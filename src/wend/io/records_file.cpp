@@ -1,5 +1,6 @@
-#include <wend/io/parts_file.h>
 #include <wend/io/records_file.h>
+
+#include <wend/io/parts_file.h>
 
 #include <algorithm>
 #include <array>

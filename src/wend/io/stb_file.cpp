@@ -1,9 +1,10 @@
+#include <wend/io/stb_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/colour_encoding.h>
 #include <wend/io/image_size.h>
 #include <wend/io/jpeg_check.h>
 #include <wend/io/png_check.h>
-#include <wend/io/stb_file.h>
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION

@@ -1,6 +1,7 @@
+#include <wend/io/tensor_file.h>
+
 #include <wend/io/bytes.h>
 #include <wend/io/gzip.h>
-#include <wend/io/tensor_file.h>
 
 #include <fmt/format.h>
 

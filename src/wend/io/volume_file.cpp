@@ -1,7 +1,8 @@
+#include <wend/io/volume_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/nanovdb_file.h>
 #include <wend/io/openvdb_file.h>
-#include <wend/io/volume_file.h>
 
 #include <fmt/ranges.h>
 

@@ -1,6 +1,7 @@
+#include <wend/io/voxel_blocks.h>
+
 #include <wend/core/error.h>
 #include <wend/io/negative_values.h>
-#include <wend/io/voxel_blocks.h>
 
 #include <fmt/format.h>
 

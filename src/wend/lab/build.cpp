@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/lab/build.h>
+
+#include <wend/core/error.h>
 #include <wend/numeric/legendre.h>
 
 #include <fmt/format.h>

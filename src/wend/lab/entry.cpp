@@ -1,4 +1,5 @@
 #include <wend/lab/entry.h>
+
 #include <wend/medium/fresnel.h>
 #include <wend/numeric/quadrature.h>
 

@@ -1,7 +1,8 @@
+#include <wend/lab/lab.h>
+
 #include <wend/core/parallel.h>
 #include <wend/lab/build.h>
 #include <wend/lab/chromatic.h>
-#include <wend/lab/lab.h>
 
 #include <time.h>
 

@@ -1,7 +1,8 @@
 // The library wend::render over the rest of the program.
+#include <wend/library/renderer.h>
+
 #include <wend/app/owned_render.h>
 #include <wend/io/image_file.h>
-#include <wend/library/renderer.h>
 
 #include <algorithm>
 #include <span>

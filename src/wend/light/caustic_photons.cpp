@@ -1,6 +1,7 @@
+#include <wend/light/caustic_photons.h>
+
 #include <wend/core/parallel.h>
 #include <wend/decision/distance.h>
-#include <wend/light/caustic_photons.h>
 #include <wend/light/next_event.h>
 #include <wend/light/scattering.h>
 #include <wend/scene/surface_sampler.h>

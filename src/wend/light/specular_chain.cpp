@@ -1,4 +1,5 @@
 #include <wend/light/specular_chain.h>
+
 #include <wend/medium/fresnel.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/medium/averaged_phase.h>
+
+#include <wend/core/contracts.h>
 #include <wend/numeric/elliptic.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
+#include <wend/medium/draine.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
-#include <wend/medium/draine.h>
 #include <wend/medium/phase.h>
 #include <wend/sampling/vmf.h>
 

@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/medium/emission_sampler.h>
+
+#include <wend/core/contracts.h>
 
 #include <algorithm>
 #include <cmath>

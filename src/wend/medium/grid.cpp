@@ -1,6 +1,7 @@
+#include <wend/medium/grid.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
-#include <wend/medium/grid.h>
 
 #include <algorithm>
 #include <array>

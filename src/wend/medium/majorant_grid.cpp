@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/medium/majorant_grid.h>
+
+#include <wend/core/contracts.h>
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
+#include <wend/medium/rough_boundary.h>
+
 #include <wend/medium/fresnel.h>
 #include <wend/medium/microfacet.h>
-#include <wend/medium/rough_boundary.h>
 #include <wend/sampling/warp.h>
 
 #include <cmath>

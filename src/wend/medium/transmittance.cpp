@@ -1,6 +1,7 @@
+#include <wend/medium/transmittance.h>
+
 #include <wend/medium/dense_cells.h>
 #include <wend/medium/tentative_collisions.h>
-#include <wend/medium/transmittance.h>
 
 namespace wend {
 namespace {

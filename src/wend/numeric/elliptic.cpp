@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/numeric/elliptic.h>
+
+#include <wend/core/contracts.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,9 @@
+#include <wend/planar/adjoint.h>
+
 #include <wend/core/vector.h>
 #include <wend/medium/fresnel.h>
 #include <wend/numeric/interpolation.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/planar/adjoint.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
+#include <wend/planar/albedo_inversion.h>
+
 #include <wend/medium/fresnel.h>
 #include <wend/numeric/interpolation.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/planar/albedo_inversion.h>
 #include <wend/planar/discrete_ordinates.h>
 
 #include <boost/math/interpolators/pchip.hpp>

@@ -1,6 +1,7 @@
+#include <wend/planar/case_modes.h>
+
 #include <wend/core/contracts.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/planar/case_modes.h>
 #include <wend/planar/h_function.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
-#include <wend/numeric/interpolation.h>
 #include <wend/planar/crossing.h>
+
+#include <wend/numeric/interpolation.h>
 #include <wend/sampling/warp.h>
 
 #include <algorithm>

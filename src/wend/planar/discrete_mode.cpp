@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/planar/discrete_mode.h>
+
+#include <wend/core/contracts.h>
 #include <wend/planar/eigenvalue.h>
 
 #include <cmath>

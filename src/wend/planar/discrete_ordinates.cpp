@@ -1,7 +1,8 @@
+#include <wend/planar/discrete_ordinates.h>
+
 #include <wend/medium/rough_boundary.h>
 #include <wend/numeric/legendre.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/planar/discrete_ordinates.h>
 
 #include <Eigen/Dense>
 

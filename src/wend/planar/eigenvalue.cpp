@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/planar/eigenvalue.h>
+
+#include <wend/core/contracts.h>
 
 #include <boost/math/tools/roots.hpp>
 

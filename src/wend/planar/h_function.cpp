@@ -1,6 +1,7 @@
+#include <wend/planar/h_function.h>
+
 #include <wend/core/contracts.h>
 #include <wend/numeric/quadrature.h>
-#include <wend/planar/h_function.h>
 
 #include <cmath>
 #include <numbers>

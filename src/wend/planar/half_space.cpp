@@ -1,6 +1,7 @@
+#include <wend/planar/half_space.h>
+
 #include <wend/core/contracts.h>
 #include <wend/planar/h_function.h>
-#include <wend/planar/half_space.h>
 
 #include <cmath>
 #include <limits>

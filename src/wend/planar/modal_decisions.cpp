@@ -1,5 +1,6 @@
-#include <wend/medium/averaged_phase.h>
 #include <wend/planar/modal_decisions.h>
+
+#include <wend/medium/averaged_phase.h>
 
 #include <algorithm>
 #include <cmath>

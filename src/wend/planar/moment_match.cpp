@@ -1,5 +1,6 @@
-#include <wend/numeric/quadrature.h>
 #include <wend/planar/moment_match.h>
+
+#include <wend/numeric/quadrature.h>
 
 #include <algorithm>
 #include <array>

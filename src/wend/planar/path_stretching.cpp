@@ -1,5 +1,6 @@
-#include <wend/core/vector.h>
 #include <wend/planar/path_stretching.h>
+
+#include <wend/core/vector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-#include <wend/guide/shared_learning.h>
 #include <wend/render/field_learner.h>
+
+#include <wend/guide/shared_learning.h>
 
 #include <algorithm>
 #include <cstdint>

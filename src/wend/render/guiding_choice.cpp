@@ -1,5 +1,6 @@
-#include <wend/core/random.h>
 #include <wend/render/guiding_choice.h>
+
+#include <wend/core/random.h>
 #include <wend/render/learner.h>
 
 #include <algorithm>

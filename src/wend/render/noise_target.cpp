@@ -1,5 +1,6 @@
-#include <wend/film/chess_board.h>
 #include <wend/render/noise_target.h>
+
+#include <wend/film/chess_board.h>
 #include <wend/render/sample_budget.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <wend/decision/roulette_splitting.h>
 #include <wend/render/pass_planning.h>
+
+#include <wend/decision/roulette_splitting.h>
 #include <wend/render/sample_budget.h>
 #include <wend/render/schedule.h>
 

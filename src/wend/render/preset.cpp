@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/render/preset.h>
+
+#include <wend/core/error.h>
 
 #include <algorithm>
 #include <array>

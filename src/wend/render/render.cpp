@@ -1,8 +1,9 @@
+#include <wend/render/render.h>
+
 #include <wend/render/guiding_choice.h>
 #include <wend/render/noise_target.h>
 #include <wend/render/pass.h>
 #include <wend/render/pass_planning.h>
-#include <wend/render/render.h>
 #include <wend/render/schedule.h>
 #include <wend/render/taught.h>
 #include <wend/render/tile_shares.h>

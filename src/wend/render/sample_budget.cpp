@@ -1,6 +1,7 @@
+#include <wend/render/sample_budget.h>
+
 #include <wend/core/random.h>
 #include <wend/film/chess_board.h>
-#include <wend/render/sample_budget.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
-#include <wend/core/archive.h>
 #include <wend/render/taught.h>
+
+#include <wend/core/archive.h>
 
 #include <algorithm>
 #include <cmath>

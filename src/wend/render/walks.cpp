@@ -1,5 +1,6 @@
-#include <wend/core/parallel.h>
 #include <wend/render/walks.h>
+
+#include <wend/core/parallel.h>
 #include <wend/transport/path_tracer.h>
 
 #include <optional>

@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/sampling/discrete.h>
+
+#include <wend/core/contracts.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/sampling/quantile_table.h>
+
+#include <wend/core/contracts.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include <wend/scene/boundary_faults.h>
+
 #include <wend/scene/loose_edges.h>
 
 #include <algorithm>

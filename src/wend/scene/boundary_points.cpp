@@ -1,5 +1,6 @@
-#include <wend/sampling/sobol.h>
 #include <wend/scene/boundary_points.h>
+
+#include <wend/sampling/sobol.h>
 #include <wend/scene/surface_sampler.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
+#include <wend/scene/camera.h>
+
 #include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
-#include <wend/scene/camera.h>
 #include <wend/scene/light.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <wend/scene/directional_light.h>
+
 #include <wend/scene/light.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <wend/scene/directional_light.h>
 #include <wend/scene/emission_profile.h>
+
+#include <wend/scene/directional_light.h>
 
 #include <algorithm>
 #include <cmath>

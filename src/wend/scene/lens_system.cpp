@@ -1,4 +1,5 @@
 #include <wend/scene/lens_system.h>
+
 #include <wend/scene/picture_lookup.h>
 
 #include <Imath/ImathBox.h>

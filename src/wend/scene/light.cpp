@@ -1,6 +1,7 @@
+#include <wend/scene/light.h>
+
 #include <wend/core/vector.h>
 #include <wend/sampling/warp.h>
-#include <wend/scene/light.h>
 #include <wend/scene/moving_light.h>
 
 #include <algorithm>

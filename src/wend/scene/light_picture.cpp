@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/scene/light_picture.h>
+
+#include <wend/core/contracts.h>
 #include <wend/scene/picture_lookup.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-#include <wend/core/vector.h>
 #include <wend/scene/light_sampler.h>
+
+#include <wend/core/vector.h>
 #include <wend/scene/moving_light.h>
 
 #include <algorithm>

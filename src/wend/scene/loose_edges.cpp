@@ -1,5 +1,6 @@
-#include <wend/core/random.h>
 #include <wend/scene/loose_edges.h>
+
+#include <wend/core/random.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,7 @@
+#include <wend/scene/material.h>
+
 #include <wend/core/contracts.h>
 #include <wend/core/random.h>
-#include <wend/scene/material.h>
 
 #include <algorithm>
 #include <bit>

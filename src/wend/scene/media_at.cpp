@@ -1,5 +1,6 @@
-#include <wend/core/random.h>
 #include <wend/scene/media_at.h>
+
+#include <wend/core/random.h>
 #include <wend/scene/scene.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
+#include <wend/scene/portal_light.h>
+
 #include <wend/core/contracts.h>
 #include <wend/scene/light.h>
 #include <wend/scene/picture_lookup.h>
-#include <wend/scene/portal_light.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/scene/ray_caster.h>
+
+#include <wend/core/error.h>
 #include <wend/scene/surface_point.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
+#include <wend/scene/scene.h>
+
 #include <wend/core/error.h>
 #include <wend/scene/ray_caster.h>
-#include <wend/scene/scene.h>
 
 #include <algorithm>
 #include <bit>

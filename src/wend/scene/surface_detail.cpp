@@ -1,5 +1,6 @@
-#include <wend/scene/picture_lookup.h>
 #include <wend/scene/surface_detail.h>
+
+#include <wend/scene/picture_lookup.h>
 
 #include <cmath>
 #include <optional>

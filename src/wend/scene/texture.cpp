@@ -1,7 +1,8 @@
+#include <wend/scene/texture.h>
+
 #include <wend/core/contracts.h>
 #include <wend/planar/albedo_inversion.h>
 #include <wend/scene/picture_lookup.h>
-#include <wend/scene/texture.h>
 
 #include <algorithm>
 #include <cmath>

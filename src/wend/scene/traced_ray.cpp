@@ -1,5 +1,6 @@
-#include <wend/scene/scene.h>
 #include <wend/scene/traced_ray.h>
+
+#include <wend/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>

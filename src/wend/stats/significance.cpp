@@ -1,5 +1,6 @@
-#include <wend/core/contracts.h>
 #include <wend/stats/significance.h>
+
+#include <wend/core/contracts.h>
 
 #include <cmath>
 

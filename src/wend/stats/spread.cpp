@@ -1,5 +1,6 @@
-#include <wend/stats/moments.h>
 #include <wend/stats/spread.h>
+
+#include <wend/stats/moments.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-#include <wend/numeric/fast_math.h>
 #include <wend/subsurface/half_space_mode.h>
+
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 #include <cmath>

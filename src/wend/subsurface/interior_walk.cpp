@@ -1,8 +1,9 @@
+#include <wend/subsurface/interior_walk.h>
+
 #include <wend/core/contracts.h>
 #include <wend/medium/transmittance.h>
 #include <wend/numeric/fast_math.h>
 #include <wend/sampling/discrete.h>
-#include <wend/subsurface/interior_walk.h>
 
 #include <algorithm>
 #include <cmath>

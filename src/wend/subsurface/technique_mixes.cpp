@@ -1,5 +1,6 @@
-#include <wend/subsurface/technique_comparison.h>
 #include <wend/subsurface/technique_mixes.h>
+
+#include <wend/subsurface/technique_comparison.h>
 
 #include <algorithm>
 #include <cmath>

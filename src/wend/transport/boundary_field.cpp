@@ -1,5 +1,6 @@
-#include <wend/numeric/fast_math.h>
 #include <wend/transport/boundary_field.h>
+
+#include <wend/numeric/fast_math.h>
 
 #include <algorithm>
 #include <cmath>

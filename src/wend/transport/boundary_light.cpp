@@ -1,5 +1,6 @@
-#include <wend/light/scattering.h>
 #include <wend/transport/boundary_light.h>
+
+#include <wend/light/scattering.h>
 
 #include <algorithm>
 #include <cmath>

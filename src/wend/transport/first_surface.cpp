@@ -1,7 +1,8 @@
+#include <wend/transport/first_surface.h>
+
 #include <wend/light/next_event.h>
 #include <wend/light/scattering.h>
 #include <wend/medium/transmittance.h>
-#include <wend/transport/first_surface.h>
 
 #include <optional>
 

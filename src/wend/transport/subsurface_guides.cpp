@@ -1,9 +1,10 @@
+#include <wend/transport/subsurface_guides.h>
+
 #include <wend/core/parallel.h>
 #include <wend/decision/channels.h>
 #include <wend/medium/fresnel.h>
 #include <wend/planar/half_space.h>
 #include <wend/subsurface/half_space_mode.h>
-#include <wend/transport/subsurface_guides.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/view/board.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/view/display_client.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 #include <boost/asio/connect.hpp>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/view/local_server.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 #include <boost/asio/ip/tcp.hpp>

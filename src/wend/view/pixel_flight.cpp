@@ -1,8 +1,9 @@
+#include <wend/view/pixel_flight.h>
+
 #include <wend/decision/guided_distance.h>
 #include <wend/light/beams.h>
 #include <wend/medium/transmittance.h>
 #include <wend/render/preset.h>
-#include <wend/view/pixel_flight.h>
 
 #include <algorithm>
 #include <bit>

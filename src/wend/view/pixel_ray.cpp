@@ -1,5 +1,6 @@
-#include <wend/light/next_event.h>
 #include <wend/view/pixel_ray.h>
+
+#include <wend/light/next_event.h>
 
 namespace wend {
 

@@ -1,8 +1,9 @@
+#include <wend/view/pixel_report.h>
+
 #include <wend/core/random.h>
 #include <wend/io/json_text.h>
 #include <wend/view/direction_bins.h>
 #include <wend/view/pixel_flight.h>
-#include <wend/view/pixel_report.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,8 @@
+#include <wend/view/questions.h>
+
 #include <wend/core/error.h>
 #include <wend/io/json_text.h>
 #include <wend/view/pixel_report.h>
-#include <wend/view/questions.h>
 
 #include <fmt/format.h>
 #include <half.h>

@@ -1,4 +1,5 @@
 #include <wend/io/load/area_lights.h>
+
 #include <wend/scene/moving_light.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #include <wend/io/load/boundaries.h>
+
 #include <wend/scene/boundary_faults.h>
 #include <wend/scene/medium_faults.h>
 

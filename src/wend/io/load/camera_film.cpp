@@ -1,4 +1,5 @@
 #include <wend/io/load/camera_film.h>
+
 #include <wend/io/load/lenses.h>
 #include <wend/io/load/panoramas.h>
 #include <wend/io/load/reach.h>

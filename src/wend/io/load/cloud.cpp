@@ -1,5 +1,6 @@
-#include <wend/core/parallel.h>
 #include <wend/io/load/cloud.h>
+
+#include <wend/core/parallel.h>
 #include <wend/scene/noise.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <wend/io/load/colours.h>
+
 #include <wend/io/pbrt/text_file.h>
 #include <wend/io/pbrt/token_stream.h>
 #include <wend/io/spectrum/blackbody.h>

@@ -1,4 +1,5 @@
 #include <wend/io/load/context.h>
+
 #include <wend/io/pbrt/token_stream.h>
 
 #include <fmt/format.h>

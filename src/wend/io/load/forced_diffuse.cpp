@@ -1,4 +1,5 @@
 #include <wend/io/load/forced_diffuse.h>
+
 #include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/bsdf.h>
 

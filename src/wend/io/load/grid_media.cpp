@@ -1,5 +1,6 @@
-#include <wend/io/load/colours.h>
 #include <wend/io/load/grid_media.h>
+
+#include <wend/io/load/colours.h>
 #include <wend/io/load/media_parameters.h>
 #include <wend/io/load/phase_functions.h>
 #include <wend/io/negative_values.h>

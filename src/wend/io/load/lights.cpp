@@ -1,6 +1,7 @@
+#include <wend/io/load/lights.h>
+
 #include <wend/core/vector.h>
 #include <wend/io/load/colours.h>
-#include <wend/io/load/lights.h>
 #include <wend/io/load/reach.h>
 #include <wend/io/load/sky_picture.h>
 #include <wend/io/spectrum/blackbody.h>

@@ -1,9 +1,10 @@
+#include <wend/io/load/load_scene.h>
+
 #include <wend/io/load/boundaries.h>
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/curves.h>
 #include <wend/io/load/forced_diffuse.h>
 #include <wend/io/load/lights.h>
-#include <wend/io/load/load_scene.h>
 #include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/materials.h>
 #include <wend/io/load/media.h>

@@ -1,6 +1,7 @@
+#include <wend/io/load/materials.h>
+
 #include <wend/io/load/artists_materials.h>
 #include <wend/io/load/colours.h>
-#include <wend/io/load/materials.h>
 #include <wend/io/load/measured.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/mixtures.h>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/load/measured.h>
+
+#include <wend/core/error.h>
 #include <wend/io/spectrum/colorimetry.h>
 #include <wend/io/tensor_file.h>
 

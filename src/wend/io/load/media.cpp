@@ -1,8 +1,9 @@
+#include <wend/io/load/media.h>
+
 #include <wend/io/load/cloud.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/grid_media.h>
 #include <wend/io/load/loaded_parts.h>
-#include <wend/io/load/media.h>
 #include <wend/io/load/media_parameters.h>
 #include <wend/io/load/phase_functions.h>
 #include <wend/io/negative_values.h>

@@ -1,5 +1,6 @@
-#include <wend/io/load/colours.h>
 #include <wend/io/load/media_parameters.h>
+
+#include <wend/io/load/colours.h>
 
 #include <cmath>
 #include <utility>

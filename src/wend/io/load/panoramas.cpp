@@ -1,7 +1,8 @@
+#include <wend/io/load/panoramas.h>
+
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
 #include <wend/io/load/context.h>
-#include <wend/io/load/panoramas.h>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-#include <wend/io/load/message_length.h>
 #include <wend/io/load/parse_scene.h>
+
+#include <wend/io/load/message_length.h>
 #include <wend/io/mitsuba/reader.h>
 #include <wend/io/pbrt/parser.h>
 

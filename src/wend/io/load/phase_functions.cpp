@@ -1,5 +1,6 @@
-#include <wend/io/load/media.h>
 #include <wend/io/load/phase_functions.h>
+
+#include <wend/io/load/media.h>
 #include <wend/io/pbrt/text_file.h>
 #include <wend/io/pbrt/token_stream.h>
 

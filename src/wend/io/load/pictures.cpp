@@ -1,7 +1,8 @@
+#include <wend/io/load/pictures.h>
+
 #include <wend/io/colour_encoding.h>
 #include <wend/io/exr_file.h>
 #include <wend/io/load/colours.h>
-#include <wend/io/load/pictures.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
+#include <wend/io/load/shapes.h>
+
 #include <wend/io/load/curves.h>
 #include <wend/io/load/mesh_parameters.h>
-#include <wend/io/load/shapes.h>
 #include <wend/io/load/subdivision_shapes.h>
 #include <wend/io/ply.h>
 

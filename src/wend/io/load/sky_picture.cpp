@@ -1,5 +1,6 @@
-#include <wend/core/vector.h>
 #include <wend/io/load/sky_picture.h>
+
+#include <wend/core/vector.h>
 #include <wend/scene/light.h>
 #include <wend/scene/picture_lookup.h>
 

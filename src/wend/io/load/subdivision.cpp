@@ -1,4 +1,5 @@
 #include <wend/io/load/subdivision.h>
+
 #include <wend/io/load/subdivision_topology.h>
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>

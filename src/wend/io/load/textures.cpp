@@ -1,6 +1,7 @@
+#include <wend/io/load/textures.h>
+
 #include <wend/io/image_file.h>
 #include <wend/io/load/colours.h>
-#include <wend/io/load/textures.h>
 
 #include <fmt/format.h>
 

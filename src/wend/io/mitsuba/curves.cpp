@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/curves.h>
+
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
-#include <wend/io/mitsuba/curves.h>
 
 #include <fmt/format.h>
 

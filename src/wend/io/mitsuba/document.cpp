@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/mitsuba/document.h>
+
+#include <wend/core/error.h>
 #include <wend/io/mitsuba/tags.h>
 #include <wend/io/mitsuba/version0.h>
 #include <wend/io/mitsuba/xml_text.h>

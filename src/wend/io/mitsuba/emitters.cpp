@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/emitters.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/directive.h>
-#include <wend/io/mitsuba/emitters.h>
 #include <wend/io/mitsuba/spectra.h>
 
 #include <fmt/format.h>

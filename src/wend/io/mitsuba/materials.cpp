@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/materials.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/indices.h>
-#include <wend/io/mitsuba/materials.h>
 
 #include <fmt/format.h>
 

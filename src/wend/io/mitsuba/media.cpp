@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/media.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/directive.h>
-#include <wend/io/mitsuba/media.h>
 #include <wend/io/mitsuba/phase_functions.h>
 #include <wend/io/mitsuba/spectra.h>
 #include <wend/io/mitsuba/volumes.h>

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/mitsuba/meshes.h>
+
+#include <wend/core/error.h>
 #include <wend/io/mitsuba/obj_file.h>
 #include <wend/io/mitsuba/serialized_file.h>
 

@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/obj_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
-#include <wend/io/mitsuba/obj_file.h>
 
 #include <fmt/format.h>
 

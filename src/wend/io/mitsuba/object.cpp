@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/object.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/document.h>
-#include <wend/io/mitsuba/object.h>
 #include <wend/io/mitsuba/transforms.h>
 
 #include <fmt/format.h>

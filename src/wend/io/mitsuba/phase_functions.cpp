@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/phase_functions.h>
+
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
-#include <wend/io/mitsuba/phase_functions.h>
 #include <wend/io/mitsuba/spectra.h>
 
 #include <fmt/format.h>

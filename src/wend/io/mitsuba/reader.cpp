@@ -1,7 +1,8 @@
+#include <wend/io/mitsuba/reader.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/document.h>
 #include <wend/io/mitsuba/emitters.h>
-#include <wend/io/mitsuba/reader.h>
 #include <wend/io/mitsuba/sensor.h>
 #include <wend/io/mitsuba/shapes.h>
 

@@ -1,8 +1,9 @@
+#include <wend/io/mitsuba/sensor.h>
+
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
 #include <wend/io/mitsuba/directive.h>
 #include <wend/io/mitsuba/media.h>
-#include <wend/io/mitsuba/sensor.h>
 
 #include <fmt/format.h>
 

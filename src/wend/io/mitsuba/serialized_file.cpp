@@ -1,7 +1,8 @@
+#include <wend/io/mitsuba/serialized_file.h>
+
 #include <wend/core/error.h>
 #include <wend/io/bytes.h>
 #include <wend/io/gzip.h>
-#include <wend/io/mitsuba/serialized_file.h>
 
 #include <fmt/format.h>
 #include <zlib.h>

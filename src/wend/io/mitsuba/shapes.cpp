@@ -1,9 +1,10 @@
+#include <wend/io/mitsuba/shapes.h>
+
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
 #include <wend/io/mitsuba/curves.h>
 #include <wend/io/mitsuba/emitters.h>
 #include <wend/io/mitsuba/meshes.h>
-#include <wend/io/mitsuba/shapes.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/spectra.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/document.h>
-#include <wend/io/mitsuba/spectra.h>
 #include <wend/io/pbrt/text_file.h>
 #include <wend/io/spectrum/colorimetry.h>
 

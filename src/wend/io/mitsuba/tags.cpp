@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/mitsuba/tags.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 

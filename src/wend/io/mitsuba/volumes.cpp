@@ -1,6 +1,7 @@
+#include <wend/io/mitsuba/volumes.h>
+
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/spectra.h>
-#include <wend/io/mitsuba/volumes.h>
 
 #include <fmt/format.h>
 

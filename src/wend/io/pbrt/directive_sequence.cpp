@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/pbrt/directive_sequence.h>
+
+#include <wend/core/error.h>
 #include <wend/io/pbrt/directives.h>
 
 #include <fmt/format.h>

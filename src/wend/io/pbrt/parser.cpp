@@ -1,6 +1,7 @@
+#include <wend/io/pbrt/parser.h>
+
 #include <wend/io/pbrt/directives.h>
 #include <wend/io/pbrt/parameter_reader.h>
-#include <wend/io/pbrt/parser.h>
 #include <wend/io/pbrt/token_stream.h>
 
 #include <fmt/format.h>

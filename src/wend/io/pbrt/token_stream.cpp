@@ -1,5 +1,6 @@
-#include <wend/io/pbrt/text_file.h>
 #include <wend/io/pbrt/token_stream.h>
+
+#include <wend/io/pbrt/text_file.h>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-#include <wend/core/error.h>
 #include <wend/io/spectrum/colorimetry.h>
+
+#include <wend/core/error.h>
 
 #include <fmt/format.h>
 

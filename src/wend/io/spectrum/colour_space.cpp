@@ -1,5 +1,6 @@
-#include <wend/io/spectrum/colorimetry.h>
 #include <wend/io/spectrum/colour_space.h>
+
+#include <wend/io/spectrum/colorimetry.h>
 #include <wend/io/spectrum/white_balance.h>
 
 #include <cstddef>

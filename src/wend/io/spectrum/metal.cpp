@@ -1,6 +1,7 @@
+#include <wend/io/spectrum/metal.h>
+
 #include <wend/core/vector.h>
 #include <wend/io/spectrum/colorimetry.h>
-#include <wend/io/spectrum/metal.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
+#include <wend/io/spectrum/named_spectra.h>
+
 #include <wend/core/error.h>
 #include <wend/io/spectrum/colorimetry.h>
-#include <wend/io/spectrum/named_spectra.h>
 
 #include <fmt/ranges.h>
 

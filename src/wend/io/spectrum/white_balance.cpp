@@ -1,7 +1,8 @@
+#include <wend/io/spectrum/white_balance.h>
+
 #include <wend/core/error.h>
 #include <wend/io/spectrum/blackbody.h>
 #include <wend/io/spectrum/colorimetry.h>
-#include <wend/io/spectrum/white_balance.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
+#include <wend/scene/bsdf/facet_albedo.h>
+
 #include <wend/medium/fresnel.h>
 #include <wend/medium/microfacet.h>
-#include <wend/scene/bsdf/facet_albedo.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
+#include <wend/scene/bsdf/measured.h>
+
 #include <wend/core/random.h>
 #include <wend/scene/bsdf/bsdf.h>
-#include <wend/scene/bsdf/measured.h>
 
 #include <cmath>
 

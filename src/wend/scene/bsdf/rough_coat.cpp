@@ -1,5 +1,6 @@
-#include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/rough_coat.h>
+
+#include <wend/sampling/warp.h>
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
-#include <wend/sampling/warp.h>
 #include <wend/scene/bsdf/sheen.h>
+
+#include <wend/sampling/warp.h>
 
 #include <algorithm>
 #include <array>
