@@ -83,6 +83,23 @@ TEST(MitsubaReader, WhatWendLacksIsNamed) {
                  "\"volpath\" takes its place");
 }
 
+// A mean of 3 renders of a ball of opacity .6 over a floor under an even sky by Mitsuba 3.9.1, "max_depth" 2: 5 % less by
+// "path" than by "volpath", which is within .5 % of Wend's.
+TEST(MitsubaReader, WhatPathAndVolpathSeeOtherwiseIsNamedOnce) {
+    const std::string mask = "<shape type=\"sphere\"><bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf></shape>";
+    const std::string pane = "<shape type=\"sphere\"><bsdf type=\"thindielectric\"/></shape>";
+    const std::string volpath = "<integrator type=\"volpath\"/>", point = "<emitter type=\"point\"/>";
+    const std::string holes = "what passes <bsdf type=\"mask\"> is no bounce";
+    const std::string panes = "light without size does not pass <bsdf type=\"thindielectric\">";
+    EXPECT_EQ(read_text(mask + mask).warnings.size(), 1u);
+    EXPECT_PRED2(contains, warnings_of(read_text(mask)), holes);
+    EXPECT_TRUE(read_text(volpath + mask).warnings.empty());
+    EXPECT_TRUE(read_text(point + pane).warnings.empty());
+    EXPECT_TRUE(read_text(volpath + pane).warnings.empty());
+    EXPECT_EQ(read_text(volpath + point + pane + pane).warnings.size(), 1u);
+    EXPECT_PRED2(contains, warnings_of(read_text(volpath + point + pane)), panes);
+}
+
 TEST(MitsubaReader, WhatNobodyAskedForIsNamed) {
     const auto scene = read_text(
         "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/><bsdf type=\"diffuse\"><float name=\"alpha\" "
