@@ -83,8 +83,8 @@ TEST(MitsubaReader, WhatWendLacksIsNamed) {
                  "\"volpath\" takes its place");
 }
 
-// A mean of 3 renders of a ball of opacity .6 over a floor under an even sky by Mitsuba 3.9.1, "max_depth" 2: 5 % less by
-// "path" than by "volpath", which is within .5 % of Wend's.
+// By three renders of Mitsuba 3.9.1 of a cylinder of opacity .6 on a floor under an even sky, with "max_depth" 2: in a
+// quarter of the picture "path" is 5 % below "volpath", which is within .5 % of Wend's.
 TEST(MitsubaReader, WhatPathAndVolpathSeeOtherwiseIsNamedOnce) {
     const std::string mask = "<shape type=\"sphere\"><bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf></shape>";
     const std::string pane = "<shape type=\"sphere\"><bsdf type=\"thindielectric\"/></shape>";

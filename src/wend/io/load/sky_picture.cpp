@@ -34,8 +34,8 @@ Image equal_area_sky(const Image& by_longitude, SkyRows rows) {
             Rgb sum;
             for (int i = 0; i < samples * samples; ++i) {
                 const auto within = [&](int pixel, int sample) {
-                    return (static_cast<float>(pixel) + (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples)) /
-                           static_cast<float>(side);
+                    const float middle = (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples);
+                    return (static_cast<float>(pixel) + middle) / static_cast<float>(side);
                 };
                 sum += towards(by_longitude, rows,
                                equal_area_square_to_sphere({within(x, i % samples), within(y, i / samples)}));

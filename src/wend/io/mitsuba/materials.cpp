@@ -225,7 +225,12 @@ void Materials::set_detail(const Element& element, Parameters& p) {
                                   "(\"use_shadowing_function\")",
                                   detail.type()));
     }
-    detail.ignore("flip_invalid_normals");
+    if (detail.flag("flip_invalid_normals", true)) {
+        context_.warn(detail.place_of("flip_invalid_normals"),
+                      fmt::format("what the normals of a {} show is dark where it faces away from the view "
+                                  "(\"flip_invalid_normals\")",
+                                  detail.type()));
+    }
     const std::vector<const Element*> maps = detail.nested("texture");
     if (maps.size() != 1) {
         throw InputError(detail.place(), fmt::format("{} has one <texture>, not {}", detail.title(), maps.size()));
