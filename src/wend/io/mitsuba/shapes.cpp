@@ -22,9 +22,13 @@ bool has_texture(const Object& object, int depth = 0) {
     if (depth > deepest || !object.nested("texture").empty()) {
         return true;
     }
-    const std::vector<const Element*> inner = object.nested("bsdf");
-    return std::any_of(inner.begin(), inner.end(),
-                       [&](const Element* bsdf) { return has_texture(Object(object.context(), *bsdf), depth + 1); });
+    const auto has_inner = [&](std::string_view tag) {
+        const std::vector<const Element*> inner = object.nested(tag);
+        return std::any_of(inner.begin(), inner.end(), [&](const Element* element) {
+            return has_texture(Object(object.context(), *element), depth + 1);
+        });
+    };
+    return has_inner("bsdf") || has_inner("emitter");
 }
 
 /// Disks with textures are: their texture coordinates are others than those of a disk of pbrt.
@@ -52,6 +56,20 @@ Quadric sphere_of(const Object& shape, Parameters& p) {
     const Vec3 center = shape.vector("center").value_or(Vec3(0, 0, 0));
     // v = 0 is at the top, where pbrt's is 1.
     return {"sphere", shape.transform("to_world") * translate(center) * Transform::scale(1, 1, -1)};
+}
+
+/// Mitsuba finds the picture of a ball that is turned where it were if it was not, and weighs it so.
+void warn_of_turned_lamp(const Object& sphere, const Element& emitter) {
+    const Transform to_world = sphere.transform("to_world");
+    const Vec3 x = to_world.vector({1, 0, 0}), z = to_world.vector({0, 0, 1});
+    constexpr float straight = 1e-4f;
+    if (x.x >= (1 - straight) * length(x) && z.z >= (1 - straight) * length(z)) {
+        return;
+    }
+    if (!Object(sphere.context(), emitter).nested("texture").empty()) {
+        sphere.context().warn(emitter.place, "the picture of a turned sphere lights as it is seen: where Mitsuba "
+                                             "samples it, it is not turned");
+    }
 }
 
 Quadric cylinder_of(const Object& shape, Parameters& p) {
@@ -139,6 +157,9 @@ void Shapes::add_object(const Object& shape) {
         to_world = quadric.to_world;
     }
     const Element* emitter = emitter_of(shape);
+    if (emitter && shape.type() == "sphere") {
+        warn_of_turned_lamp(shape, *emitter);
+    }
     const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr, &mesh);
     if (shape.element().has("id")) {
         p.text("name", std::string(shape.element().attribute("id")));
