@@ -67,8 +67,9 @@ void warn_of_turned_lamp(const Object& sphere, const Element& emitter) {
         return;
     }
     if (!Object(sphere.context(), emitter).nested("texture").empty()) {
-        sphere.context().warn(emitter.place, "the picture of a turned sphere lights as it is seen: where Mitsuba "
-                                             "samples it, it is not turned");
+        sphere.context().warn(emitter.place,
+                              "the picture of a turned sphere lights as it is seen: where Mitsuba samples it, it is "
+                              "not turned");
     }
 }
 
@@ -93,12 +94,23 @@ Quadric quadric_of(const Object& shape, Parameters& p) {
                                         : Quadric{"disk", shape.transform("to_world")};
 }
 
+/// Whether a shape of pbrt's is to be reversed. pbrt turns normals where a transform mirrors, and has those of curves
+/// inside; Mitsuba's stay outside, but for those of a sphere, whose radius is below 0 then.
+bool is_turned(const Object& shape, const Transform& to_world) {
+    const bool is_inside_out = shape.type() == "sphere" && shape.transform("to_world").swaps_handedness();
+    const bool is_flipped = shape.flag("flip_normals", false) != is_inside_out;
+    return is_curve(shape) || is_flipped != to_world.swaps_handedness();
+}
+
 /// Null for curves, too: they never shine.
 const Element* emitter_of(const Object& shape) {
     const Element* emitter = shape.nested_one("emitter");
     if (emitter && is_curve(shape)) {
         shape.context().warn(emitter->place, fmt::format("{} does not shine: it is dark", shape.title()));
         return nullptr;
+    }
+    if (emitter && shape.type() == "sphere") {
+        warn_of_turned_lamp(shape, *emitter);
     }
     return emitter;
 }
@@ -157,9 +169,6 @@ void Shapes::add_object(const Object& shape) {
         to_world = quadric.to_world;
     }
     const Element* emitter = emitter_of(shape);
-    if (emitter && shape.type() == "sphere") {
-        warn_of_turned_lamp(shape, *emitter);
-    }
     const SurfaceLook look = materials_.look_of(shape.nested_one("bsdf"), shape.place(), emitter != nullptr, &mesh);
     if (shape.element().has("id")) {
         p.text("name", std::string(shape.element().attribute("id")));
@@ -176,8 +185,7 @@ void Shapes::add_object(const Object& shape) {
         return element ? media_.name_of(*element) : std::string();
     };
     const std::string interior = medium("interior"), exterior = medium("exterior");
-    // pbrt turns normals where a transform mirrors, and has those of curves inside; Mitsuba's stay outside.
-    const bool is_turned = is_curve(shape) || shape.flag("flip_normals", false) != to_world.swaps_handedness();
+    const bool has_turned_normals = is_turned(shape, to_world);
     shape.ignore("silhouette_sampling_weight");
     std::vector<pbrt::ParameterSet> pieces{p.take()};
     if (is_curve(shape)) {
@@ -190,7 +198,7 @@ void Shapes::add_object(const Object& shape) {
         if (emitter) {
             add_area_emitter(context_, *emitter);
         }
-        if (is_turned) {
+        if (has_turned_normals) {
             builder.reverse_orientation(shape.place());
         }
         for (pbrt::ParameterSet& piece : pieces) {
