@@ -47,6 +47,23 @@ TEST(SkyPicture, SmallOnesAreNotBlurred) {
     EXPECT_GT(brightest, 0.85f);
 }
 
+// Between the middles of eight pixels a sky grows evenly; a view straight into it must not see steps.
+TEST(SkyPicture, FewPixelsAreSmooth) {
+    Image ramp(8, 4);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            ramp.at(x, y) = Rgb(static_cast<float>(std::min(x, 7 - x)) + 0.5f);
+        }
+    }
+    const ImageInfiniteLight light(equal_area_sky(ramp, SkyRows::in_strips), 1, Transform());
+    for (int i = 0; i < 500; ++i) {
+        const float phi = -2.7f + 0.005f * static_cast<float>(i);  // of u = 1/2 - phi / 2 pi
+        const float u = 8 * (0.5f - phi / (2 * pi));
+        const float wanted = u < 3.5f ? u : u < 4.5f ? 3.5f : 8 - u;
+        EXPECT_NEAR(light.radiance({std::cos(phi), std::sin(phi), 0.1f}).r, wanted, 0.02f) << phi;
+    }
+}
+
 TEST(SkyPicture, RowsMayBeginAtThePole) {
     Image rows(8, 3);
     for (int x = 0; x < 8; ++x) {

@@ -3,6 +3,7 @@
 #include <wend/core/vector.h>
 #include <wend/io/load/colours.h>
 #include <wend/io/load/reach.h>
+#include <wend/io/load/refined_picture.h>
 #include <wend/io/load/sky_picture.h>
 #include <wend/io/spectrum/blackbody.h>
 
@@ -197,7 +198,7 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
         throw InputError(p.place_of("fov"), fmt::format("\"fov\" must lie between 0 and 180 degrees, not {}", fov));
     }
     ProjectionLight projector;
-    projector.picture = std::make_shared<const LightPicture>(load_picture(context, textures, light));
+    projector.picture = std::make_shared<const LightPicture>(refined(load_picture(context, textures, light), p));
     projector.position = load_position(light, {0, 0, 0});
     // The first row is on top.
     projector.light_from_world = AffineMap((light.world_from_light * Transform::scale(1, -1, 1)).inverse());
@@ -402,7 +403,7 @@ AreaLight load_area_light(LoadContext& context, TextureLoader& textures, const p
         if (p.has("L")) {
             throw InputError(p.place_of("L"), "an area light takes either \"L\" or \"filename\"");
         }
-        Image image = load_picture(context, textures, light);
+        Image image = refined(load_picture(context, textures, light), p);
         result.picture =
             std::make_shared<const LightPicture>(is_from_top(p, "origin") ? upside_down(image) : std::move(image));
     }

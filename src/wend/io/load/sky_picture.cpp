@@ -23,23 +23,25 @@ Rgb towards(const Image& by_longitude, SkyRows rows, const Vec3& d) {
 }  // namespace
 
 Image equal_area_sky(const Image& by_longitude, SkyRows rows) {
-    constexpr int samples = 4;
-    constexpr double finer = 1.25, least = 128, most = 4096;  // small ones must not be blurred
-    const double pixels = static_cast<double>(by_longitude.width) * by_longitude.height;
-    const int side = static_cast<int>(std::clamp(std::ceil(finer * std::sqrt(pixels)), least, most));
+    // Pixels of lights at infinity are even: what is smooth between a few large ones is so only by many small ones.
+    constexpr double finer = 1.25, least = 1024, most = 4096;
+    constexpr double samples_for_each = 5;  // along a side of a given pixel
+    const double given = std::sqrt(static_cast<double>(by_longitude.width) * by_longitude.height);
+    const int side = static_cast<int>(std::clamp(std::ceil(finer * given), least, most));
+    const int samples = std::max(1, static_cast<int>(std::ceil(samples_for_each * given / side)));
     Image sky(side, side);
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             Rgb sum;
             for (int i = 0; i < samples * samples; ++i) {
                 const auto within = [&](int pixel, int sample) {
-                    return (static_cast<float>(pixel) + (static_cast<float>(sample) + 0.5f) / samples) /
-                           static_cast<float>(side);
+                    const float middle = (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples);
+                    return (static_cast<float>(pixel) + middle) / static_cast<float>(side);
                 };
                 sum += towards(by_longitude, rows,
                                equal_area_square_to_sphere({within(x, i % samples), within(y, i / samples)}));
             }
-            sky.at(x, y) = sum / (samples * samples);
+            sky.at(x, y) = sum / static_cast<float>(samples * samples);
         }
     }
     return sky;

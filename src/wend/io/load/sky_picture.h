@@ -13,7 +13,7 @@ enum class SkyRows {
 
 /// The square picture of a sphere by the equal-area octahedral mapping, of one by longitude and latitude: there the
 /// first row is around +z, the middle of a row is towards +x, and +y is to the left of it. Its pixels are means, and
-/// about as fine as those in the middle of the given one, up to 4096 x 4096.
+/// about as fine as those in the middle of the given one, from 1024 x 1024 to 4096 x 4096.
 Image equal_area_sky(const Image& by_longitude, SkyRows rows);
 
 }  // namespace wend

@@ -3,6 +3,7 @@
 #include <wend/core/error.h>
 #include <wend/io/mitsuba/directive.h>
 #include <wend/io/mitsuba/spectra.h>
+#include <wend/io/mitsuba/textures.h>
 
 #include <fmt/format.h>
 
@@ -93,9 +94,11 @@ void set_picture(const Object& bitmap, Parameters& p) {
     if (bitmap.flag("raw", false)) {
         p.text("encoding", "raw");
     }
-    for (const char* name : {"format", "filter_type", "wrap_mode"}) {
-        bitmap.ignore(name);
-    }
+    // Where it is mirrored, its edges are as where it is clamped.
+    const BitmapWays ways = ways_of_bitmap(bitmap);
+    p.text("filter", ways.filter).text("wrap", ways.wrap == "repeat" ? "repeat" : "clamp");
+    bitmap.ignore("format");
+    bitmap.ignore("accel");
     bitmap.warn_of_unused();
 }
 

@@ -55,12 +55,31 @@ SurfaceLook Materials::look_of(const Element* element, const pbrt::Location& sha
     return {name_of(*element, {}), {}};
 }
 
+void Materials::warn_of_holes(const Object& bsdf) {
+    if (is_of_surfaces_ && !is_told_of_holes_) {
+        is_told_of_holes_ = true;
+        context_.warn(bsdf.place(), fmt::format("what passes {} is no bounce, and light without size passes, too, as "
+                                                "in Mitsuba's \"volpath\": in its \"path\" neither is so",
+                                                bsdf.title()));
+    }
+}
+
+void Materials::warn_of_panes(const Object& bsdf) {
+    if (!is_of_surfaces_ && has_points_ && !is_told_of_panes_) {
+        is_told_of_panes_ = true;
+        context_.warn(bsdf.place(), fmt::format("light without size does not pass {}, as in Mitsuba's \"path\": in its "
+                                                "\"volpath\" it does",
+                                                bsdf.title()));
+    }
+}
+
 /// Where a part of a surface is not there: `mask`, or a blend with `null`.
 std::optional<SurfaceLook> Materials::masked(const Object& bsdf) {
     if (bsdf.type() == "mask") {
         const Element* inner = inner_of(bsdf, 1, 1).front();
         const SurfaceLook look{name_of(*inner, {}), textures_.number(bsdf, "opacity", 0.5)};
         bsdf.warn_of_unused();
+        warn_of_holes(bsdf);
         return look;
     }
     if (bsdf.type() != "blendbsdf") {
@@ -76,6 +95,7 @@ std::optional<SurfaceLook> Materials::masked(const Object& bsdf) {
     const NumberOrTexture rest = texture ? NumberOrTexture(textures_.inverted(*texture, bsdf.place()))
                                          : NumberOrTexture(1 - std::get<float>(weight));
     bsdf.warn_of_unused();
+    warn_of_holes(bsdf);
     return SurfaceLook{name_of(*inner[first ? 1 : 0], {}), first ? weight : rest};
 }
 
@@ -206,7 +226,12 @@ void Materials::set_detail(const Element& element, Parameters& p) {
                                   "(\"use_shadowing_function\")",
                                   detail.type()));
     }
-    detail.ignore("flip_invalid_normals");
+    if (detail.flag("flip_invalid_normals", true)) {
+        context_.warn(detail.place_of("flip_invalid_normals"),
+                      fmt::format("what the normals of a {} show is dark where it faces away from the view "
+                                  "(\"flip_invalid_normals\")",
+                                  detail.type()));
+    }
     const std::vector<const Element*> maps = detail.nested("texture");
     if (maps.size() != 1) {
         throw InputError(detail.place(), fmt::format("{} has one <texture>, not {}", detail.title(), maps.size()));
@@ -300,6 +325,7 @@ Materials::Leaf Materials::dielectric(const Object& bsdf) {
         }
     }
     if (bsdf.type() == "thindielectric") {
+        warn_of_panes(bsdf);
         return {"thindielectric", std::move(p), false};
     }
     if (bsdf.type() == "roughdielectric") {

@@ -23,6 +23,13 @@ public:
     /// Both must outlive this.
     Materials(Context& context, Textures& textures) : context_(context), textures_(textures) {}
 
+    /// Who asks: an integrator of surfaces alone, in a scene that has lights without size or has not. What it sees
+    /// otherwise than Wend through surfaces that let light pass straight on is told, once.
+    void set_integrator(bool is_of_surfaces, bool has_points) {
+        is_of_surfaces_ = is_of_surfaces;
+        has_points_ = has_points;
+    }
+
     /// Of a BSDF; null: the one that shapes have without any, which is black where they shine. Throws InputError for a
     /// BSDF that there is not; what Mitsuba has and Wend lacks is replaced by a diffuse one, with a warning.
     /// `mesh` is the shape's, for what its textures take of it; null: it is no mesh.
@@ -65,6 +72,8 @@ private:
     Leaf replaced(const Object& bsdf);
     void set_detail(const Element& detail, Parameters& p);
     void set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p);
+    void warn_of_holes(const Object& bsdf);
+    void warn_of_panes(const Object& bsdf);
     void require_one(const Object& bsdf, std::string_view name);
 
     Context& context_;
@@ -72,6 +81,8 @@ private:
     std::map<std::tuple<const Element*, bool, const Element*, int>, std::string> names_;
     std::string black_, default_;
     int depth_ = 0;
+    bool is_of_surfaces_ = false, has_points_ = false;
+    bool is_told_of_holes_ = false, is_told_of_panes_ = false;
 };
 
 }  // namespace wend::mitsuba

@@ -6,6 +6,9 @@
 #include <wend/io/mitsuba/sensor.h>
 #include <wend/io/mitsuba/shapes.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +24,12 @@ void refuse_sensors_of_shapes(const Object& scene) {
                              "as a \"radiancemeter\" for one ray");
         }
     }
+}
+
+/// Whether rays cannot meet it.
+bool is_point(const Element* emitter) {
+    constexpr std::string_view types[] = {"directional", "point", "projector", "spot"};
+    return std::find(std::begin(types), std::end(types), emitter->attribute("type")) != std::end(types);
 }
 
 pbrt::Description translate(const Document& document, const std::string& name) {
@@ -39,10 +48,12 @@ pbrt::Description translate(const Document& document, const std::string& name) {
     if (sensors.size() > 1) {
         context.warn(sensors[1]->place, "the scene has several sensors: the first one is taken");
     }
-    add_integrator(context, scene.nested_one("integrator"));
+    const std::vector<const Element*> emitters = scene.nested("emitter");
+    materials.set_integrator(add_integrator(context, scene.nested_one("integrator")),
+                             std::any_of(emitters.begin(), emitters.end(), is_point));
     add_sensor(context, media, *sensors.front(), std::filesystem::path(name).stem().string() + ".exr");
     builder.world_begin(scene.place());
-    for (const Element* emitter : scene.nested("emitter")) {
+    for (const Element* emitter : emitters) {
         add_emitter(context, *emitter);
     }
     for (const Element* shape : scene.nested("shape")) {

@@ -260,7 +260,7 @@ void add_sensor(Context& context, Media& media, const Element& element, const st
     sensor.warn_of_unused();
 }
 
-void add_integrator(Context& context, const Element* element) {
+bool add_integrator(Context& context, const Element* element) {
     Parameters p(element ? element->place : pbrt::Location{});
     // Of pbrt's maxdepth: as many as there can be.
     constexpr int endless = std::numeric_limits<int>::max() - 1;
@@ -303,6 +303,7 @@ void add_integrator(Context& context, const Element* element) {
     p.integer("maxdepth", depth < 0 ? endless : depth - 1);
     const pbrt::Location place = p.place();
     context.builder.integrator(type, p.take(), place);
+    return type == "path";
 }
 
 }  // namespace wend::mitsuba

@@ -14,7 +14,7 @@ class Media;
 /// InputError for a sensor, film or filter that there is not, or that Wend lacks: there is nothing to take its place.
 void add_sensor(Context& context, Media& media, const Element& sensor, const std::string& picture);
 
-/// Adds the integrator; null: the default.
-void add_integrator(Context& context, const Element* integrator);
+/// Adds the integrator; null: the default. Returns whether it is one of surfaces alone, such as `path`.
+bool add_integrator(Context& context, const Element* integrator);
 
 }  // namespace wend::mitsuba

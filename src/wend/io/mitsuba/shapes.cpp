@@ -23,9 +23,13 @@ bool has_texture(const Object& object, int depth = 0) {
     if (depth > deepest || !object.nested("texture").empty()) {
         return true;
     }
-    const std::vector<const Element*> inner = object.nested("bsdf");
-    return std::any_of(inner.begin(), inner.end(),
-                       [&](const Element* bsdf) { return has_texture(Object(object.context(), *bsdf), depth + 1); });
+    const auto has_inner = [&](std::string_view tag) {
+        const std::vector<const Element*> inner = object.nested(tag);
+        return std::any_of(inner.begin(), inner.end(), [&](const Element* element) {
+            return has_texture(Object(object.context(), *element), depth + 1);
+        });
+    };
+    return has_inner("bsdf") || has_inner("emitter");
 }
 
 /// Disks with textures are: their texture coordinates are others than those of a disk of pbrt.
@@ -55,6 +59,21 @@ Quadric sphere_of(const Object& shape, Parameters& p) {
     return {"sphere", shape.transform("to_world") * translate(center) * Transform::scale(1, 1, -1)};
 }
 
+/// Mitsuba finds the picture of a ball that is turned where it were if it was not, and weighs it so.
+void warn_of_turned_lamp(const Object& sphere, const Element& emitter) {
+    const Transform to_world = sphere.transform("to_world");
+    const Vec3 x = to_world.vector({1, 0, 0}), z = to_world.vector({0, 0, 1});
+    constexpr float straight = 1e-4f;
+    if (x.x >= (1 - straight) * length(x) && z.z >= (1 - straight) * length(z)) {
+        return;
+    }
+    if (!Object(sphere.context(), emitter).nested("texture").empty()) {
+        sphere.context().warn(emitter.place,
+                              "the picture of a turned sphere lights as it is seen: where Mitsuba samples it, it is "
+                              "not turned");
+    }
+}
+
 Quadric cylinder_of(const Object& shape, Parameters& p) {
     const Vec3 p0 = shape.vector("p0").value_or(Vec3(0, 0, 0)), p1 = shape.vector("p1").value_or(Vec3(0, 0, 1));
     const float height = length(p1 - p0);
@@ -76,12 +95,23 @@ Quadric quadric_of(const Object& shape, Parameters& p) {
                                         : Quadric{"disk", shape.transform("to_world")};
 }
 
+/// Whether a shape of pbrt's is to be reversed. pbrt turns normals where a transform mirrors, and has those of curves
+/// inside; Mitsuba's stay outside, but for those of a sphere, whose radius is below 0 then.
+bool is_turned(const Object& shape, const Transform& to_world) {
+    const bool is_inside_out = shape.type() == "sphere" && shape.transform("to_world").swaps_handedness();
+    const bool is_flipped = shape.flag("flip_normals", false) != is_inside_out;
+    return is_curve(shape) || is_flipped != to_world.swaps_handedness();
+}
+
 /// Null for curves, too: they never shine.
 const Element* emitter_of(const Object& shape) {
     const Element* emitter = shape.nested_one("emitter");
     if (emitter && is_curve(shape)) {
         shape.context().warn(emitter->place, fmt::format("{} does not shine: it is dark", shape.title()));
         return nullptr;
+    }
+    if (emitter && shape.type() == "sphere") {
+        warn_of_turned_lamp(shape, *emitter);
     }
     return emitter;
 }
@@ -156,8 +186,7 @@ void Shapes::add_object(const Object& shape) {
         return element ? media_.name_of(*element) : std::string();
     };
     const std::string interior = medium("interior"), exterior = medium("exterior");
-    // pbrt turns normals where a transform mirrors, and has those of curves inside; Mitsuba's stay outside.
-    const bool is_turned = is_curve(shape) || shape.flag("flip_normals", false) != to_world.swaps_handedness();
+    const bool has_turned_normals = is_turned(shape, to_world);
     shape.ignore("silhouette_sampling_weight");
     std::vector<pbrt::ParameterSet> pieces{p.take()};
     if (is_curve(shape)) {
@@ -170,7 +199,7 @@ void Shapes::add_object(const Object& shape) {
         if (emitter) {
             add_area_emitter(context_, *emitter);
         }
-        if (is_turned) {
+        if (has_turned_normals) {
             builder.reverse_orientation(shape.place());
         }
         for (pbrt::ParameterSet& piece : pieces) {

@@ -123,20 +123,23 @@ TextureRef Textures::add(const Element& element, const std::string& kind) {
     return name;
 }
 
-void Textures::set_bitmap(const Object& texture, const std::string& kind, Parameters& p) {
-    p.text("filename", texture.file("filename").string());
-    const std::string filter = texture.text("filter_type", "bilinear");
+BitmapWays ways_of_bitmap(const Object& texture) {
+    const std::string filter = texture.text("filter_type", "bilinear"), wrap = texture.text("wrap_mode", "repeat");
     if (filter != "bilinear" && filter != "nearest") {
         throw InputError(texture.place_of("filter_type"),
                          fmt::format("\"{}\" is no filter; known are bilinear, nearest", filter));
     }
-    p.text("filter", filter == "nearest" ? "point" : "bilinear");
-    const std::string wrap = texture.text("wrap_mode", "repeat");
     if (wrap != "repeat" && wrap != "clamp" && wrap != "mirror") {
         throw InputError(texture.place_of("wrap_mode"),
                          fmt::format("\"{}\" is no way to wrap; known are repeat, mirror, clamp", wrap));
     }
-    p.text("wrap", wrap);
+    return {filter == "nearest" ? "point" : filter, wrap};
+}
+
+void Textures::set_bitmap(const Object& texture, const std::string& kind, Parameters& p) {
+    p.text("filename", texture.file("filename").string());
+    const BitmapWays ways = ways_of_bitmap(texture);
+    p.text("filter", ways.filter).text("wrap", ways.wrap);
     if (texture.flag("raw", false)) {
         p.text("encoding", "raw");
     }

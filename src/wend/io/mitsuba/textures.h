@@ -11,6 +11,15 @@
 
 namespace wend::mitsuba {
 
+/// How a "bitmap" goes on between its pixels, as pbrt calls it, and beyond them.
+struct BitmapWays {
+    std::string filter;  ///< "bilinear" or "point"
+    std::string wrap;    ///< "repeat", "mirror" or "clamp"
+};
+
+/// Throws InputError for others.
+BitmapWays ways_of_bitmap(const Object& texture);
+
 /// Adds textures to the scene when they are first asked for.
 class Textures {
 public:

@@ -54,6 +54,13 @@ def write_pictures() -> None:
         bitmap.write(str(HERE / name), quality=100 if name.endswith("jpg") else -1)
 
 
+def write_few_pixels(name: str) -> None:
+    """So few that what is between them is seen."""
+    row, column, channel = np.mgrid[0:3, 0:4, 0:3]
+    bitmap = mitsuba.Bitmap((25 * ((7 * row + 5 * column + 3 * channel) * 37 % 11)).astype(np.uint8))
+    bitmap.write(str(HERE / name))
+
+
 def write_measured(name: str) -> None:
     """A glossy reflection, redder towards the normal, in the format of measured ones with colours."""
     angles, size = np.linspace(0, 1.5, 6), 16
@@ -132,6 +139,7 @@ def main() -> None:
     write_sky("sky.pfm")
     write_serialized("meshes.serialized")
     write_pictures()
+    write_few_pixels("few.png")
     write_measured("gloss.bsdf")
     write_dyed("dyed.ply")
     write_lump("lump")
