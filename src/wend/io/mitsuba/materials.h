@@ -1,7 +1,7 @@
 // BSDFs of Mitsuba scenes as materials.
 #pragma once
 
-#include <wend/io/mitsuba/textures.h>
+#include <wend/io/mitsuba/models.h>
 
 #include <map>
 #include <optional>
@@ -21,7 +21,8 @@ struct SurfaceLook {
 class Materials {
 public:
     /// Both must outlive this.
-    Materials(Context& context, Textures& textures) : context_(context), textures_(textures) {}
+    Materials(Context& context, Textures& textures)
+        : context_(context), textures_(textures), models_(context, textures) {}
 
     /// Who asks: an integrator of surfaces alone, in a scene that has lights without size or has not. What it sees
     /// otherwise than Wend through surfaces that let light pass straight on is told, once.
@@ -41,16 +42,11 @@ private:
         bool is_two_sided = false;
         const Element* detail = nullptr;  ///< a bumpmap or normalmap
     };
-    struct Leaf {
-        std::string type;
-        Parameters parameters;
-        bool is_one_sided = true;
-    };
 
     std::string name_of(const Element& bsdf, const Setting& setting);
     std::string make(const Object& bsdf, const Setting& setting);
     std::string add(const Object& bsdf, const std::string& type, Parameters& p);
-    std::string add_leaf(const Object& bsdf, Leaf leaf, const Setting& setting);
+    std::string add_model(const Object& bsdf, Model model, const Setting& setting);
     std::string mix(const Object& bsdf, const std::string& first, const std::string& second,
                     const NumberOrTexture& amount);
     std::string black();
@@ -60,24 +56,13 @@ private:
     std::string blended(const Object& bsdf, const Setting& setting);
     std::optional<SurfaceLook> masked(const Object& bsdf);
     std::optional<SurfaceLook> filter(const Object& bsdf);
-    Leaf leaf_of(const Object& bsdf);
-    Leaf diffuse(const Object& bsdf);
-    Leaf dielectric(const Object& bsdf);
-    Leaf conductor(const Object& bsdf);
-    Leaf plastic(const Object& bsdf);
-    Leaf principled(const Object& bsdf);
-    Leaf hair(const Object& bsdf);
-    Leaf thin(const Object& bsdf);
-    Leaf measured(const Object& bsdf);
-    Leaf replaced(const Object& bsdf);
     void set_detail(const Element& detail, Parameters& p);
-    void set_roughness(const Object& bsdf, const std::string& prefix, Parameters& p);
     void warn_of_holes(const Object& bsdf);
     void warn_of_panes(const Object& bsdf);
-    void require_one(const Object& bsdf, std::string_view name);
 
     Context& context_;
     Textures& textures_;
+    Models models_;
     std::map<std::tuple<const Element*, bool, const Element*, int>, std::string> names_;
     std::string black_, default_;
     int depth_ = 0;
