@@ -101,8 +101,8 @@ class Film:
 def read(path: str | os.PathLike[str]) -> Film:
     """Read a picture file: OpenEXR with its layers and metadata, or the colours of PNG, JPEG, HDR, PFM and others.
 
-    Layers of files that pbrt or Blender (multilayer, the first view layer) wrote have Wend's names where they mean the
-    same.
+    An opacity that is not 1 everywhere is the layer `alpha`. Layers of files that pbrt or Blender (multilayer, the first
+    view layer) wrote have Wend's names where they mean the same.
 
     Raises:
         InputError: for a file that is missing or broken.

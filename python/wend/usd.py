@@ -115,6 +115,8 @@ class _Reader(SceneReader):
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.prototypes: dict[str, Prototype] = {}
+        self.unpacked: dict[str, str] = {}  #: files of packages
+        self.pictures = 0  #: how many others were made
         self.nested = self.lights = 0
         self.has_light = False
 
@@ -229,6 +231,8 @@ class _Reader(SceneReader):
             self.builder.add("NamedMaterial", name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
+            if "point2 uv" in parameters and not np.array_equal(look.frame, np.eye(3)):
+                parameters["point2 uv"] = parameters["point2 uv"] @ look.frame[:2, :2].T + look.frame[:2, 2]
             if look.shine is not None:
                 coordinates = parameters.get("point2 uv", 0)
                 if "string filename" in look.shine and (np.min(coordinates) < -1e-4 or np.max(coordinates) > 1 + 1e-4):
