@@ -18,8 +18,8 @@ COLOURS = {1001: (0.8, 0.1, 0.1, 1), 1002: (0.1, 0.7, 0.2, 1), 1011: (0.2, 0.2, 
 def tiles(folder, colours, name="map.<UDIM>.png", space="sRGB"):
     """A picture in tiles; of each the left half is darker."""
     for number, colour in colours.items():
-        made = bpy.data.images.new("tile", 64, 8, alpha=True)
-        pixels = np.broadcast_to(np.array(colour, dtype=np.float32), (8, 64, 4)).copy()
+        made = bpy.data.images.new("tile", 64, 64, alpha=True)
+        pixels = np.broadcast_to(np.array(colour, dtype=np.float32), (64, 64, 4)).copy()
         pixels[:, :32, :3] *= 0.5
         made.pixels.foreach_set(pixels.ravel())
         made.filepath_raw, made.file_format = str(folder / name.replace("<UDIM>", str(number))), "PNG"

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._blend_reach import is_uv
 from ._blend_wanted import Probe
-from ._film import Film, read
+from ._film import Film, opacity_of, read
 from ._udim import Tile, encoded, laid_out, tile_of
 
 if TYPE_CHECKING:
@@ -118,11 +118,10 @@ def _files_of_tiles(nodes: Nodes, image: Any) -> dict[Tile, str]:
 
 def _pixels_of(file: str, is_linear: bool, is_alpha: bool) -> npt.NDArray[np.float32]:
     """The values of a file, of 8 bits as they are or decoded."""
-    film = read(file)
     if is_alpha:
-        opacity = film["alpha"] if "alpha" in film else np.ones(film.image.shape[:2], dtype=np.float32)
-        return np.repeat(opacity[:, :, None], 3, axis=2)
-    return encoded(film.image) if is_linear and not file.lower().endswith((".exr", ".hdr", ".pfm")) else film.image
+        return np.repeat(opacity_of(file)[:, :, None], 3, axis=2)
+    image = read(file).image
+    return encoded(image) if is_linear and not file.lower().endswith((".exr", ".hdr", ".pfm")) else image
 
 
 def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:

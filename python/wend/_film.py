@@ -113,6 +113,12 @@ def read(path: str | os.PathLike[str]) -> Film:
     return Film(_wend.read_image(name))
 
 
+def opacity_of(path: str | os.PathLike[str]) -> npt.NDArray[np.float32]:
+    """Of a picture file, (height, width); 1 where it has none."""
+    film = Film(_wend.read_image(os.fspath(path)))
+    return film["alpha"] if "alpha" in film else np.ones(film.image.shape[:2], dtype=np.float32)
+
+
 def merge(renders: Iterable[Film | str | os.PathLike[str]]) -> Film:
     """Join independent renders of one picture, weighted by what their samples are worth, with no bias.
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
-from ._film import Film, read
+from ._film import Film, opacity_of, read
 from ._udim import Tile, encoded, laid_out
 from ._usd_files import file_called, name_of, tiles_of
 
@@ -69,12 +69,10 @@ class Picture:
 
     def pixels(self) -> npt.NDArray[np.float32]:
         """The values, linear, (height, width, 3); of one channel three times."""
-        film = read(self.file)
         if self.is_opacity:
-            # What is not there is 1 everywhere.
-            opacity = film["alpha"] if "alpha" in film else np.ones(film.image.shape[:2], dtype=np.float32)
-            return np.repeat((opacity * self.scale[3] + self.bias[3])[:, :, None], 3, axis=2).astype(np.float32)
-        image = np.asarray(film.image, dtype=np.float64)
+            opacity = opacity_of(self.file) * self.scale[3] + self.bias[3]
+            return np.repeat(opacity[:, :, None], 3, axis=2).astype(np.float32)
+        image = np.asarray(read(self.file).image, dtype=np.float64)
         if not self.is_encoded and has_bytes(self.file):
             image = encoded(image)
         image = image * self.scale[:3] + self.bias[:3]
