@@ -36,6 +36,12 @@ class UsdLook(Look):
     frame: npt.NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     parameters: dict[str, Any] = field(default_factory=dict)  #: of the material
 
+    @property
+    def has_pictures(self) -> bool:
+        """Whether some of it lies by texture coordinates."""
+        given = [*self.parameters, *self.shape_parameters, *(self.shine or {})]
+        return any(name.startswith("texture ") or name in ("string normalmap", "string filename") for name in given)
+
 
 def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
     """Makes the material if it is not there yet, wherever the builder is."""

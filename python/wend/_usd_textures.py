@@ -73,7 +73,8 @@ class Picture:
             opacity = opacity_of(self.file) * self.scale[3] + self.bias[3]
             return np.repeat(opacity[:, :, None], 3, axis=2).astype(np.float32)
         image = np.asarray(read(self.file).image, dtype=np.float64)
-        if not self.is_encoded and has_bytes(self.file):
+        if not self.is_encoded and (has_bytes(self.file) or self.file.lower().endswith(".png")):
+            # They were decoded.
             image = encoded(image)
         image = image * self.scale[:3] + self.bias[:3]
         channel = _CHANNELS.get(self.channel)

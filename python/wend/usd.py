@@ -231,6 +231,8 @@ class _Reader(SceneReader):
             self.builder.add("NamedMaterial", name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
+            if look.has_pictures and "point2 uv" not in parameters:
+                self.warn(prim, "a shape without texture coordinates has the pictures of its material somewhere")
             if "point2 uv" in parameters and not np.array_equal(look.frame, np.eye(3)):
                 parameters["point2 uv"] = parameters["point2 uv"] @ look.frame[:2, :2].T + look.frame[:2, 2]
             if look.shine is not None:
