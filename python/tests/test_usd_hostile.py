@@ -164,6 +164,7 @@ def test_what_cannot_be_is_named(tmp_path, name):
 
 
 LEFT = {
+    "a light of a plugin": (prim("PluginLight"), "/x: warning: a PluginLight is left out"),
     "an absent picture": (
         material("color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>", more=texture("absent.png")),
         "/m/t: warning: absent.png: there is no such file: its texture has its fallback",

@@ -173,11 +173,14 @@ def strands(system: Any, modifier: Any, object_: Any) -> Iterator[Parameters]:
     """Of a particle system that grows hair, in the world."""
     settings = system.settings
     steps = 2**settings.render_step + 1
-    root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
+    # They are diameters, whatever they are called.
+    root, tip = (settings.radius_scale / 2 * width for width in (settings.root_radius, settings.tip_radius))
     radii = _tapered(root, tip, settings.shape, steps)
     if settings.use_close_tip:
         radii[-1] = 0
-    for particle in range(len(system.particles) + len(system.child_particles)):
+    parents, children = len(system.particles), len(system.child_particles)
+    # Where there are children their parents are not seen.
+    for particle in range(parents if settings.child_type != "NONE" and children else 0, parents + children):
         points = [system.co_hair(object=object_, particle_no=particle, step=step) for step in range(steps)]
         yield from _segments(np.array(points, dtype=np.float32), radii)
 

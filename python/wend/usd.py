@@ -380,7 +380,9 @@ def _named(prim: Any) -> Iterator[None]:
 
 
 def _is_light(prim: Any) -> bool:
-    return bool(prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase))
+    """Also one that only a plugin knows; shapes that shine are none."""
+    is_known = prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase)
+    return bool(is_known or prim.GetTypeName() == "PluginLight")
 
 
 def _reason(error: Any) -> str:
