@@ -3,6 +3,7 @@
 #include <wend/film/flip.h>
 #include <wend/film/metrics.h>
 #include <wend/io/atomic_file.h>
+#include <wend/io/colour_encoding.h>
 #include <wend/io/image_file.h>
 
 #include "bindings.h"
@@ -10,7 +11,9 @@
 #include <nanobind/stl/variant.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace wend::python {
@@ -49,6 +52,21 @@ Picture picture_of(const Pixels& pixels) {
     Image image = to_image(pixels);
     const Vec2i size(image.width, image.height);
     return {std::move(image), {}, {}, {0, 0}, size};
+}
+
+/// The opacity, where it is not 1 everywhere, is a layer as files of OpenEXR have it: of 0 to 1, never encoded.
+Picture picture_with_opacity(const std::filesystem::path& file) {
+    ImageWithOpacity read = read_image_with_opacity(file);
+    const Vec2i size(read.image.width, read.image.height);
+    Picture picture{std::move(read.image), {}, {}, {0, 0}, size};
+    if (!read.opacity.empty()) {
+        if (is_png(file)) {
+            // It was decoded as the colours were.
+            std::transform(read.opacity.begin(), read.opacity.end(), read.opacity.begin(), &linear_to_srgb);
+        }
+        picture.layers.push_back({"alpha", {"A"}, std::move(read.opacity)});
+    }
+    return picture;
 }
 
 Values metrics_of(const Pixels& pixels, const Pixels& a, const Pixels& b) {
@@ -130,9 +148,7 @@ void bind_pictures(nb::module_& module) {
         "read_image",
         [](const std::string& file) {
             const nb::gil_scoped_release release;
-            Image image = read_image(file);
-            const Vec2i size(image.width, image.height);
-            return Picture{std::move(image), {}, {}, {0, 0}, size};
+            return picture_with_opacity(file);
         },
         nb::arg("file"));
     module.def("metrics", &metrics_of, nb::arg("image"), nb::arg("a"), nb::arg("b"));

@@ -155,6 +155,8 @@ def test_an_exposure_multiplies(stage):
         ("Plane", {"width": 4.0, "length": 2.0}, 8 / 400),
         ("Cone", {"radius": 2.0, "height": 0.01}, math.pi * 4 / 400),
         ("Capsule", {"radius": 2.0, "height": 0.01}, math.pi * 4 / 400 * 100 / 96),
+        ("Cylinder_1", {"radiusBottom": 2.0, "radiusTop": 1.0, "height": 0.01}, math.pi * 4 / 400),
+        ("Capsule_1", {"radiusBottom": 1.0, "radiusTop": 0.5, "height": 2.0, "axis": "Y"}, (math.pi * 0.625 + 3) / 400),
     ],
 )
 def test_primitives_have_their_sizes(stage, kind, values, share):

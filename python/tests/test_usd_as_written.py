@@ -24,9 +24,9 @@ def stage(tmp_path):
     return made
 
 
-def png(file, pixels):
-    """Of 8 bits: grey, colours, or colours with an opacity."""
-    pixels = np.asarray(pixels, dtype=np.uint8)
+def png(file, pixels, bits=8):
+    """Grey, colours, or colours with an opacity."""
+    pixels = np.asarray(pixels, dtype=np.uint8 if bits == 8 else ">u2")
     height, width = pixels.shape[:2]
     kind = {1: 0, 3: 2, 4: 6}[pixels.size // (height * width)]
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
@@ -34,7 +34,7 @@ def png(file, pixels):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
-    head = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
+    head = struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0)
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
     return file
 
@@ -118,6 +118,12 @@ def test_grey_pictures_are_numbers_unless_it_is_said(stage, tmp_path, channels, 
     pixels = np.full((4, 4, channels), 128)
     pixels[..., 3:] = 255
     on_a_card(stage, png(tmp_path / "map.png", pixels), sourceColorSpace=space)
+    assert middle(stage.image()) == pytest.approx(np.full(3, value), rel=1e-3)
+
+
+@pytest.mark.parametrize(("space", "value"), [("auto", 0.5), ("sRGB", 0.2140)])
+def test_numbers_of_16_bits_are_as_they_are(stage, tmp_path, space, value):
+    on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 32768), bits=16), sourceColorSpace=space)
     assert middle(stage.image()) == pytest.approx(np.full(3, value), rel=1e-3)
 
 
@@ -379,6 +385,28 @@ def test_a_shape_without_the_coordinates_that_are_asked_for_is_named(stage, tmp_
     connect(stage, texture, "st", "UsdPrimvarReader_float2", name, "result", TYPES.Float2)
     with pytest.warns(wend.SceneWarning, match="/card: .*without texture coordinates"):
         stage.read()
+
+
+@pytest.mark.parametrize("kind", ["Cube", "Sphere"])
+def test_other_shapes_have_no_coordinates(stage, tmp_path, kind):
+    made, shader = material(stage)
+    file = {"file": (TYPES.Asset, str(png(tmp_path / "map.png", np.full((4, 4, 3), 255))))}
+    connect(stage, shader, "diffuseColor", "UsdUVTexture", file)
+    bind(stage.stage.DefinePrim("/thing", kind), made)
+    with pytest.warns(wend.SceneWarning, match="/thing: .*without texture coordinates"):
+        stage.read()
+
+
+def test_two_pictures_of_a_material_are_two_files(stage, tmp_path):
+    """Both are scaled, so that they are made anew."""
+    card = on_a_card(stage, png(tmp_path / "red.png", np.broadcast_to((255, 0, 0), (4, 4, 3))))
+    shader = UsdShade.Shader.Get(stage.stage, "/m/surface")
+    given = {"file": (TYPES.Asset, str(png(tmp_path / "green.png", np.broadcast_to((0, 255, 0), (4, 4, 3)))))}
+    half = {"scale": (TYPES.Float4, Gf.Vec4f(0.5, 0.25, 1, 1))}
+    connect(stage, shader, "diffuseColor", "UsdUVTexture", given | half)
+    shader.CreateInput("ior", TYPES.Float).Set(1.0)
+    stage.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+    assert card and middle(stage.image(spp=256)) == pytest.approx((1, 0.25, 0), abs=0.02)
 
 
 def test_a_picture_that_shines_and_is_left_by_its_coordinates_is_named(stage, tmp_path):

@@ -139,10 +139,6 @@ ERRORS = {
     "an extent of one corner": (volume("/etc/passwd", "float3[] extent = [(0,0,0)]"), "/v: error: "),
     "a colour of no number": (material("color3f inputs:diffuseColor = (nan,1,1)"), "a colour must be finite"),
     "a colour of text": (material('string inputs:diffuseColor = "x"'), "/q: error: "),
-    "an absent picture": (
-        material("color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>", more=texture("absent.png")),
-        "absent.png: error: there is no such file",
-    ),
     "a picture that is none": (
         material("float inputs:roughness.connect = </m/t.outputs:r>", more=texture("/etc/passwd", "r")),
         "/etc/passwd: error: not a picture",
@@ -168,6 +164,19 @@ def test_what_cannot_be_is_named(tmp_path, name):
 
 
 LEFT = {
+    "a light of a plugin": (prim("PluginLight"), "/x: warning: a PluginLight is left out"),
+    "an absent picture": (
+        material("color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>", more=texture("absent.png")),
+        "/m/t: warning: absent.png: there is no such file: its texture has its fallback",
+    ),
+    "a picture without an end": (
+        material("color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>", more=texture("/dev/zero")),
+        "/dev/zero: there is no such file",
+    ),
+    "tiles of nothing": (
+        material("normal3f inputs:normal.connect = </m/t.outputs:rgb>", more=texture("<UDIM>")),
+        "<UDIM>: there is no such file",
+    ),
     "more corners than there are": (mesh(counts="[1000000000]"), "a mesh whose faces are not of its points"),
     "corners that overflow": (mesh(counts="[2147483647,2147483647,4]"), "a mesh whose faces are not of its points"),
     "fewer than none": (mesh(counts="[-3]"), "a mesh whose faces are not of its points"),

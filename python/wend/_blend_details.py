@@ -37,6 +37,7 @@ def _normal_map(nodes: Nodes, node: Any) -> str | None:
         return None
     texture, uv_name = picture.node, nodes.bakery.uv_name if nodes.bakery is not None else ""
     is_plain = texture.extension == "REPEAT" and texture.projection == "FLAT" and node.uv_map in ("", uv_name)
+    is_plain = is_plain and texture.image.source != "TILED"
     strength = nodes.known(node.inputs["Strength"])
     faults: list[str] = []
     mapping = mapping_of(nodes, texture, faults)

@@ -94,8 +94,6 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
         surface = _surface(nodes, node) if node else _Surface(is_clear=True) if volume else _reflecting(_Surface())
     if surface.alpha and not getattr(material, "use_transparent_shadow", True):
         nodes.warn(output, "transparent shadows that are switched off are there")
-    if surface.alpha and medium is not None:
-        nodes.warn(output, "what a surface lets through by its share passes the volume inside as if that were not there")
     picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
     return _look(reader, key, surface, medium, picture)
 

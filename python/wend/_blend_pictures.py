@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ._blend_reach import is_uv
 from ._blend_wanted import Probe
+from ._film import Film, opacity_of, read
+from ._udim import Tile, encoded, laid_out, tile_of
 
 if TYPE_CHECKING:
     from ._blend_nodes import Nodes
 
 _WRAPS = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black", "MIRROR": "mirror"}
+#: Endings of files that are read as they are.
+_READ = (".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")
 _LINEAR = ("Non-Color", "Linear Rec.709", "Raw", "Linear")
 
 
@@ -34,6 +40,8 @@ def picture_texture(nodes: Nodes, node: Any, kind: str, is_alpha: bool) -> str |
         return None
     for fault in faults:
         nodes.warn(node, fault)
+    if image.source == "TILED":
+        return _of_tiles(nodes, node, kind, is_alpha, mapping)
     file = file_of(nodes, node, image)
     if file is None:
         return None
@@ -52,6 +60,70 @@ def picture_texture(nodes: Nodes, node: Any, kind: str, is_alpha: bool) -> str |
     return nodes.add_texture(kind, "imagemap", parameters | mapping)
 
 
+#: The colour, and the opacity, that Blender shows where there is no tile.
+_MISSING = (1.0, 0.0, 1.0, 1.0)
+
+
+def _of_tiles(nodes: Nodes, node: Any, kind: str, is_alpha: bool, mapping: dict[str, Any]) -> str | None:
+    """The name of a texture by one picture of all tiles; None where none of them has pixels, which is told."""
+    image = node.image
+    if isinstance(nodes.bakery, Probe):
+        nodes.bakery.modes.add("picture")
+        return ""
+    is_linear = image.colorspace_settings.name in _LINEAR or is_alpha
+    sheets = nodes.reader.sheets
+    key = f"{image.name_full} {is_linear} {is_alpha}"
+    if key not in sheets:
+        files = _files_of_tiles(nodes, image)
+        if not files:
+            nodes.warn(node, f"a picture in tiles of which there is none is left out: {image.filepath}")
+            return None
+        pixels = {tile: _pixels_of(file, is_linear, is_alpha) for tile, file in files.items()}
+        missing = _MISSING[3:] * 3 if is_alpha else _MISSING[:3]
+        sheet, matrix = laid_out(pixels, missing, lambda text: nodes.warn(node, text))
+        sheets[key] = (nodes.reader.map_file(f"tiles{len(sheets)}.exr"), matrix)
+        Film.of(sheet).save(sheets[key][0])
+    file, matrix = sheets[key]
+    before = np.eye(3)
+    before[:2] = np.reshape(mapping.get("float uvmatrix", before[:2]), (2, 3))
+    parameters = {"string filename": file, "string wrap": "clamp", "float uvmatrix": (matrix @ before)[:2].reshape(-1)}
+    if kind == "float" and not is_alpha:
+        parameters["string channels"] = "luminance"
+    if node.interpolation == "Closest":
+        parameters["string filter"] = "point"
+    return nodes.add_texture(kind, "imagemap", parameters)
+
+
+def _files_of_tiles(nodes: Nodes, image: Any) -> dict[Tile, str]:
+    """Those that there are; all are written out where one cannot be read."""
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    numbers = {tile_of(tile.number): tile.number for tile in image.tiles}
+
+    def named(pattern: str) -> dict[Tile, str]:
+        names = {
+            tile: pattern.replace("<UDIM>", str(number)).replace("<UVTILE>", f"u{tile[0] + 1}_v{tile[1] + 1}")
+            for tile, number in numbers.items()
+            if tile is not None
+        }
+        return {tile: name for tile, name in names.items() if os.path.isfile(name)}
+
+    pattern = str(bpy.path.abspath(image.filepath, library=image.library))
+    if not image.packed_file and not image.is_dirty and pattern.lower().endswith(_READ):
+        return named(pattern)
+    made = nodes.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.<UDIM>.{_suffix(image)}")
+    _write(image, made)
+    return named(made)
+
+
+def _pixels_of(file: str, is_linear: bool, is_alpha: bool) -> npt.NDArray[np.float32]:
+    """The values of a file, of 8 bits as they are or decoded."""
+    if is_alpha:
+        return np.repeat(opacity_of(file)[:, :, None], 3, axis=2)
+    image = read(file).image
+    return encoded(image) if is_linear and not file.lower().endswith((".exr", ".hdr", ".pfm")) else image
+
+
 def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
     """What of an image node a texture by its file cannot be."""
     image = node.image
@@ -59,7 +131,7 @@ def _faults_of_picture(node: Any, kind: str, is_alpha: bool) -> list[str]:
     faults = []
     if space != "sRGB" and space not in _LINEAR:
         faults.append(f"the colour space {space} of a picture is taken as sRGB")
-    if image.source not in ("FILE", "GENERATED"):
+    if image.source not in ("FILE", "GENERATED", "TILED"):
         faults.append(f"a picture of the kind {image.source} is not read")
     if node.extension not in _WRAPS:
         faults.append(f"the extension {node.extension} of a picture is taken as repetition")
@@ -135,15 +207,22 @@ def file_of(nodes: Nodes, node: Any, image: Any) -> str | None:
         return ""
     if image.source == "FILE" and not image.packed_file and image.filepath:
         path = str(bpy.path.abspath(image.filepath, library=image.library))
-        if path.lower().endswith((".png", ".exr", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm", ".qoi")):
+        if path.lower().endswith(_READ):
             return path
     if image.source in ("FILE", "GENERATED") and image.size[0] > 0:
-        suffix = "exr" if image.is_float else "png"
-        file = nodes.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.{suffix}")
-        before = image.file_format
-        image.file_format = "OPEN_EXR" if image.is_float else "PNG"
-        image.save(filepath=file, save_copy=True)
-        image.file_format = before
+        file = nodes.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.{_suffix(image)}")
+        _write(image, file)
         return str(file)
     nodes.warn(node, f"a picture of the kind {image.source}, or without pixels, is left out")
     return None
+
+
+def _suffix(image: Any) -> str:
+    return "exr" if image.is_float else "png"
+
+
+def _write(image: Any, file: str) -> None:
+    before = image.file_format
+    image.file_format = "OPEN_EXR" if image.is_float else "PNG"
+    image.save(filepath=file, save_copy=True)
+    image.file_format = before

@@ -103,6 +103,31 @@ def mesh_parts(
         yield int(number), parameters
 
 
+#: Of the size of a mesh, how far below it what it encloses begins where it is partly there.
+_BELOW = 2e-4
+
+
+def shrunk(parameters: Parameters) -> Parameters:
+    """A mesh a little below another one, without what is of surfaces alone."""
+    indices = np.asarray(parameters["integer indices"])
+
+    def below(points: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+        # Points at one place stay together.
+        places, of_place = np.unique(points, axis=0, return_inverse=True)
+        corners = of_place.reshape(-1)[indices]
+        a, b, c = (places[corners[:, k]].astype(np.float64) for k in range(3))
+        across = np.cross(b - a, c - a)
+        normals = np.zeros((len(places), 3))
+        for k in range(3):
+            np.add.at(normals, corners[:, k], across)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+        size = float(np.linalg.norm(np.ptp(places, axis=0)))
+        return np.asarray(points - _BELOW * size * normals[of_place.reshape(-1)], dtype=np.float32)
+
+    moved = {name: below(parameters[name]) for name in ("point3 P", "point3 P1") if name in parameters}
+    return moved | {"integer indices": parameters["integer indices"]}
+
+
 def brush(reader: SceneReader, name: str, parts: list[tuple[Look, Parameters]], place: npt.NDArray[np.float64]) -> None:
     """Adds to those parts of a mesh that are brushed along which way: around an axis of the box of all points. As Cycles
     has it, that goes to the world as normals do, by `place`, which has points as rows."""
@@ -148,11 +173,14 @@ def strands(system: Any, modifier: Any, object_: Any) -> Iterator[Parameters]:
     """Of a particle system that grows hair, in the world."""
     settings = system.settings
     steps = 2**settings.render_step + 1
-    root, tip = settings.root_radius * settings.radius_scale, settings.tip_radius * settings.radius_scale
+    # They are diameters, whatever they are called.
+    root, tip = (settings.radius_scale / 2 * width for width in (settings.root_radius, settings.tip_radius))
     radii = _tapered(root, tip, settings.shape, steps)
     if settings.use_close_tip:
         radii[-1] = 0
-    for particle in range(len(system.particles) + len(system.child_particles)):
+    parents, children = len(system.particles), len(system.child_particles)
+    # Where there are children their parents are not seen.
+    for particle in range(parents if settings.child_type != "NONE" and children else 0, parents + children):
         points = [system.co_hair(object=object_, particle_no=particle, step=step) for step in range(steps)]
         yield from _segments(np.array(points, dtype=np.float32), radii)
 

@@ -101,8 +101,8 @@ class Film:
 def read(path: str | os.PathLike[str]) -> Film:
     """Read a picture file: OpenEXR with its layers and metadata, or the colours of PNG, JPEG, HDR, PFM and others.
 
-    Layers of files that pbrt or Blender (multilayer, the first view layer) wrote have Wend's names where they mean the
-    same.
+    An opacity that is not 1 everywhere is the layer `alpha`. Layers of files that pbrt or Blender (multilayer, the first
+    view layer) wrote have Wend's names where they mean the same.
 
     Raises:
         InputError: for a file that is missing or broken.
@@ -111,6 +111,12 @@ def read(path: str | os.PathLike[str]) -> Film:
     if name.lower().endswith(".exr"):
         return Film(_wend.read_picture(name))
     return Film(_wend.read_image(name))
+
+
+def opacity_of(path: str | os.PathLike[str]) -> npt.NDArray[np.float32]:
+    """Of a picture file, (height, width); 1 where it has none."""
+    film = Film(_wend.read_image(os.fspath(path)))
+    return film["alpha"] if "alpha" in film else np.ones(film.image.shape[:2], dtype=np.float32)
 
 
 def merge(renders: Iterable[Film | str | os.PathLike[str]]) -> Film:

@@ -54,6 +54,8 @@ class SceneReader:
         self.builder = SceneBuilder(name=file, folder=os.path.dirname(file) or ".")
         self.materials: dict[str, Look] = {}
         self.opaque_pictures: dict[int, bool] = {}  #: what is known of those that were looked through, by their addresses
+        #: pictures that are made of tiles, and the matrices that take coordinates to theirs
+        self.sheets: dict[Any, tuple[str, npt.NDArray[np.float64]]] = {}
         self.around: str | None = None  #: the medium that fills the world
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)

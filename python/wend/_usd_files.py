@@ -5,9 +5,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from pxr import Ar  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Ar, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._errors import InputError
+from ._udim import Tile, tile_of
+
+
+def name_of(asset: Any) -> str:
+    """Where the asset should be."""
+    return str(asset.resolvedPath or asset.path)
 
 
 def file_of(reader: Any, asset: Any) -> str:
@@ -16,14 +22,36 @@ def file_of(reader: Any, asset: Any) -> str:
     Raises:
         InputError: where there is no file; pipes and devices, which may never end, are none.
     """
-    name = str(asset.resolvedPath or asset.path)
+    found = file_called(reader, name_of(asset))
+    if found is None:
+        raise InputError(f"{name_of(asset)}: error: there is no such file")
+    return found
+
+
+def file_called(reader: Any, name: str) -> str | None:
+    """The same by its name; None where there is no file."""
     if os.path.isfile(name):
         return name
+    unpacked: dict[str, str] = reader.unpacked
+    if name in unpacked:
+        return unpacked[name]
     if Ar.IsPackageRelativePath(name) and os.path.isfile(Ar.SplitPackageRelativePathOuter(name)[0]):
         opened = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(name))
         if opened:
-            made: str = reader.map_file(f"{len(reader.builder)}.{os.path.basename(name.rstrip(']'))}")
+            made: str = reader.map_file(f"{len(unpacked)}.{os.path.basename(name.rstrip(']'))}")
             with open(made, "wb") as out:
                 out.write(opened.GetBuffer())
+            unpacked[name] = made
             return made
-    raise InputError(f"{name}: error: there is no such file")
+    return None
+
+
+def tiles_of(attribute: Any, asset: Any) -> dict[Tile, str] | None:
+    """Names of the tiles that an asset of many has, by the layer that the attribute has it of; None for one file."""
+    pattern = str(asset.path)
+    if not UsdShade.UdimUtils.IsUdimIdentifier(pattern):
+        return None
+    layer = next((spec.layer for spec in attribute.GetPropertyStack() if spec.HasInfo("default") or spec.HasInfo("timeSamples")), None)
+    found = UsdShade.UdimUtils.ResolveUdimTilePaths(pattern, layer)
+    tiles = {tile_of(int(number)): str(name) for name, number in found}
+    return {tile: name for tile, name in tiles.items() if tile is not None}

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from . import _usd_blender as blender
@@ -31,7 +32,15 @@ class UsdLook(Look):
     colours: str | None = None  #: the primvar that is its base colour; None: the material has one
     fallback: Any = (0.0, 0.0, 0.0)  #: the colour where there is no such primvar
     weight: float = 1.0  #: which both are multiplied by
+    #: what takes its texture coordinates to those that it is given; columns are points
+    frame: npt.NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     parameters: dict[str, Any] = field(default_factory=dict)  #: of the material
+
+    @property
+    def has_pictures(self) -> bool:
+        """Whether some of it lies by texture coordinates."""
+        given = [*self.parameters, *self.shape_parameters, *(self.shine or {})]
+        return any(name.startswith("texture ") or name in ("string normalmap", "string filename") for name in given)
 
 
 def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
@@ -203,6 +212,7 @@ class _Surface:
             if 0 < float(self.constant(word, 0)) < 1:
                 whole = "all or nothing, by whether it is above 1/2"
                 self.reader.warn(self.inputs.shader.GetPrim(), f"{self.words[word]} is taken as {whole}")
+        self._find_frame()
         self._shine()
         is_clear = self._opacity() if self.is_preview else float(self.constant("clear", 0)) > 0.5
         ior = float(self.constant("ior", 1.5))
@@ -240,14 +250,33 @@ class _Surface:
             self.look.colours, self.look.fallback = found
             self.look.weight = float(self.constant("weight", 1))
 
+    def _find_frame(self) -> None:
+        """Where pictures lie that have no place of their own here: of what shines, and of normals. The shape's coordinates
+        are theirs, and all others' are taken back."""
+        names = [self.words["shine_colour"]] if self._strength() > 0 else []
+        for name in [*names, "normal"] if self.is_preview else names:
+            picture = self.inputs.picture(name, is_packed=name == "normal") if self.inputs.is_connected(name) else None
+            if picture is not None:
+                turn = picture.uv_matrix[:2, :2]
+                if turn[0, 1] == turn[1, 0] == 0 and np.diag(turn).min() > 0:
+                    self.look.frame = self.inputs.frame = picture.uv_matrix
+                    return
+
+    def _strength(self) -> float:
+        """Of what it shines with."""
+        return float(self.constant("shine", 1.0 if self.is_preview else 0.0))
+
+    def _tell_of_place(self, picture: Any, what: str) -> None:
+        if not np.allclose(picture.uv_matrix, self.look.frame, atol=1e-9):
+            self.reader.warn(self.inputs.shader.GetPrim(), f"a picture {what} lies where another one of its material does")
+
     def _shine(self) -> None:
         name = self.words["shine_colour"]
-        strength = float(self.constant("shine", 1.0 if self.is_preview else 0.0))
+        strength = self._strength()
         picture = self.inputs.picture(name) if strength > 0 else None
         if picture is not None:
             picture.scale = picture.scale * strength
-            if not np.array_equal(picture.uv_matrix, np.eye(3)):
-                self.reader.warn(self.inputs.shader.GetPrim(), "a picture that shines is not scaled or moved")
+            self._tell_of_place(picture, "that shines")
             self.look.shine = {"string filename": self.inputs.made(picture), "bool twosided": True}
             return
         colour = np.array(self.inputs.constant(name, (0, 0, 0) if self.is_preview else (1, 1, 1)), dtype=np.float64) * strength
@@ -369,14 +398,13 @@ class _Surface:
             if not np.allclose(self.inputs.constant("normal", (0, 0, 1)), (0, 0, 1)):
                 self.reader.warn(self.inputs.shader.GetPrim(), "a normal that is the same everywhere is left out")
             return
-        picture = self.inputs.picture("normal")
+        picture = self.inputs.picture("normal", is_packed=True)
         if picture is None:
             return
         unpacked = np.allclose(picture.scale[:3], 2) and np.allclose(picture.bias[:3], -1)
         if picture.is_encoded or not (unpacked or (np.allclose(picture.scale[:3], 1) and np.allclose(picture.bias[:3], 0))):
             self.reader.warn(self.inputs.shader.GetPrim(), "a picture of normals is taken as they are packed in 8 bits")
-        if not np.array_equal(picture.uv_matrix, np.eye(3)):
-            self.reader.warn(self.inputs.shader.GetPrim(), "a picture of normals is not scaled or moved")
+        self._tell_of_place(picture, "of normals")
         parameters["string normalmap"] = picture.file
 
 

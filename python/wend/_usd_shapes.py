@@ -35,7 +35,7 @@ def mesh_parts(
     parts = _parts(mesh, time, len(counts))
     looks = [look_of(reader, prim, bound) for bound, chosen in parts if chosen.any()]
     by = _first(reader, prim, "texture coordinates", [look.coordinates for look in looks])
-    coordinates = _coordinates(reader, prim, by)
+    coordinates = _coordinates(prim, time, by)
     named = _first(reader, prim, "colours", [look.colours for look in looks])
     colours = Colours.of(prim, named, time) if named is not None else None
     values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates, colours)
@@ -203,9 +203,9 @@ def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None
     return (np.array(found, dtype=np.float32).reshape(-1, 3), mesh.GetNormalsInterpolation()) if found else None
 
 
-def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
+def _coordinates(prim: Any, time: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
     """Those that are asked for, or the usual ones."""
-    api, time = UsdGeom.PrimvarsAPI(prim), reader.time
+    api = UsdGeom.PrimvarsAPI(prim)
     names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
     named = [*map(api.GetPrimvar, filter(Sdf.Path.IsValidNamespacedIdentifier, names))]
     for primvar in [*named, *api.GetPrimvarsWithValues()]:
@@ -215,8 +215,6 @@ def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArra
             array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
             if array.ndim == 2 and array.shape[1] in (2, 3):
                 return np.ascontiguousarray(array[:, :2]), primvar.GetInterpolation()
-    if wanted is not None:
-        reader.warn(prim, "a shape without texture coordinates has the pictures of its material somewhere")
     return None
 
 
@@ -239,7 +237,7 @@ def box_mesh(low: npt.NDArray[np.float64], high: npt.NDArray[np.float64]) -> Par
 
 
 def primitive_mesh(prim: Any, time: Any) -> Parameters | None:
-    """A cube, plane, cylinder, cone or capsule; None for another prim."""
+    """A cube, plane, cylinder, cone or capsule, also with two radii; None for another prim."""
     segments = 64
     kind = prim.GetTypeName()
 
@@ -256,15 +254,17 @@ def primitive_mesh(prim: Any, time: Any) -> Parameters | None:
         points = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
         return {"point3 P": _along(points, axis), "integer indices": np.array([0, 1, 2, 0, 2, 3], dtype=np.int32)}
     radius, half = value("radius", 1), value("height", 2) / 2
-    if kind == "Cylinder":
-        profile = [(0.0, -half), (radius, -half), (radius, half), (0.0, half)]
+    bottom, top = value("radiusBottom", radius), value("radiusTop", radius)
+    if kind in ("Cylinder", "Cylinder_1"):
+        profile = [(0.0, -half), (bottom, -half), (top, half), (0.0, half)]
     elif kind == "Cone":
         profile = [(0.0, -half), (radius, -half), (0.0, half)]
-    elif kind == "Capsule":
-        radius, half = value("radius", 0.5), value("height", 1) / 2
-        angles = np.linspace(-np.pi / 2, 0, segments // 4 + 1)
-        bottom = [(radius * np.cos(a), radius * np.sin(a) - half) for a in angles]
-        profile = bottom + [(r, -z) for r, z in reversed(bottom)]
+    elif kind in ("Capsule", "Capsule_1"):
+        half = value("height", 1) / 2
+        radii = [value(name, value("radius", 0.5)) for name in ("radiusBottom", "radiusTop")]
+        angles = np.linspace(0, np.pi / 2, segments // 4 + 1)
+        below, above = ([(r * np.cos(a), half + r * np.sin(a)) for a in angles] for r in radii)
+        profile = [(r, -z) for r, z in reversed(below)] + above
     else:
         return None
     return _turned(np.array(profile), segments, axis)

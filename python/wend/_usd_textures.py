@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from pxr import UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
-from ._film import Film, read
-from ._usd_files import file_of
+from ._film import Film, opacity_of, read
+from ._udim import Tile, encoded, laid_out
+from ._usd_files import file_called, name_of, tiles_of
 
 Matrix = npt.NDArray[np.float64]
 
@@ -29,6 +30,9 @@ _CHANNELS = {"r": 0, "g": 1, "b": 2, "outr": 0, "outg": 1, "outb": 2}
 
 #: Inputs that may be colours of the shape: see `Inputs.primvar`.
 _BASES = ("diffuseColor", "base_color")
+
+#: Nodes of pictures.
+_PICTURES = ("UsdUVTexture", "ND_image_", "ND_tiledimage_")
 
 #: Nodes that read a primvar.
 _PRIMVARS = ("UsdPrimvarReader_", "ND_geompropvalue_")
@@ -59,12 +63,19 @@ class Picture:
     uv_matrix: Matrix = field(default_factory=lambda: np.eye(3))  #: columns are points
     coordinates: str | None = None  #: the primvar; None: the usual one
 
+    @property
+    def is_opacity(self) -> bool:
+        return self.channel in ("a", "outa")
+
     def pixels(self) -> npt.NDArray[np.float32]:
         """The values, linear, (height, width, 3); of one channel three times."""
+        if self.is_opacity:
+            opacity = opacity_of(self.file) * self.scale[3] + self.bias[3]
+            return np.repeat(opacity[:, :, None], 3, axis=2).astype(np.float32)
         image = np.asarray(read(self.file).image, dtype=np.float64)
-        if not self.is_encoded and has_bytes(self.file):
+        if not self.is_encoded and (has_bytes(self.file) or self.file.lower().endswith(".png")):
             # They were decoded.
-            image = np.where(image <= 0.0031308, 12.92 * image, 1.055 * np.maximum(image, 0.0031308) ** (1 / 2.4) - 0.055)
+            image = encoded(image)
         image = image * self.scale[:3] + self.bias[:3]
         channel = _CHANNELS.get(self.channel)
         return (image if channel is None else np.repeat(image[:, :, [channel]], 3, axis=2)).astype(np.float32)
@@ -82,6 +93,8 @@ class Inputs:
         self.reader, self.shader, self.key = reader, shader, key
         #: names of the primvars that textures lie by
         self.coordinates: list[str] = []
+        #: what takes texture coordinates to those that the shape is given
+        self.frame = np.eye(3)
 
     def _source(self, name: str, depth: int = 0) -> tuple[Any, Any]:
         """The value, or the output of a shader that makes it."""
@@ -100,6 +113,14 @@ class Inputs:
             if kind.startswith("ND_convert_color") and depth < _DEEPEST:
                 value, _ = Inputs(self.reader, maker, self.key)._source("in", depth + 1)
                 return (None, attribute) if value is None else (tuple(value)[:3], None)
+            if kind.startswith("ND_extract_color") and depth < _DEEPEST:
+                inputs = Inputs(self.reader, maker, self.key)
+                value, _ = inputs._source("in", depth + 1)
+                return (None, attribute) if value is None else (tuple(value)[inputs._channel()], None)
+            if kind.startswith(_PICTURES):
+                inputs = Inputs(self.reader, maker, self.key)
+                if not inputs._is_there():
+                    return inputs._missing(str(attribute.GetBaseName())), None
             return None, attribute
         return attribute.Get(self.reader.time), None
 
@@ -121,6 +142,10 @@ class Inputs:
         picture = self.picture(name)
         if picture is not None:
             picture.scale, picture.bias = picture.scale * factor, picture.bias * factor
+            pixels = picture.pixels() if picture.is_opacity else None
+            if pixels is not None and np.ptp(pixels) == 0:
+                parameters[f"{kind} {ours}"] = pixels[0, 0, 0] if kind == "float" else pixels[0, 0]
+                return
             parameters[f"texture {ours}"] = self._texture(name, picture, kind)
         else:
             # What is no number ends here.
@@ -150,28 +175,64 @@ class Inputs:
             inputs = Inputs(self.reader, UsdShade.Shader(output.GetPrim()), self.key)
             kind = kind_of(inputs.shader)
             if kind.startswith("ND_extract_color"):
-                channel = "rgba"[min(max(int(inputs.constant("index", 0)), 0), 3)]
+                channel = "rgba"[inputs._channel()]
             elif not kind.startswith("ND_convert_color"):
                 break
             _, output = inputs._source("in")
         return output, inputs, channel
 
-    def picture(self, name: str) -> Picture | None:
-        """What an input is connected to; None where that is no picture, which is told if it is something else."""
+    def _channel(self) -> int:
+        """Of a node that takes one of a colour."""
+        return min(max(int(self.constant("index", 0)), 0), 3)
+
+    def _is_there(self) -> bool:
+        """Whether a texture's node has a picture; what it has not is told."""
+        asset = self.constant("file", None)
+        if asset is None or not asset.path:
+            self.reader.warn(self.shader.GetPrim(), "a texture without a file has its fallback")
+            return False
+        tiles = tiles_of(self._file_attribute(), asset)
+        if tiles or (tiles is None and file_called(self.reader, name_of(asset)) is not None):
+            return True
+        self.reader.warn(self.shader.GetPrim(), f"{name_of(asset)}: there is no such file: its texture has its fallback")
+        return False
+
+    def _file_attribute(self) -> Any:
+        """What says which file it is."""
+        given = self.shader.GetInput("file")
+        return (given.GetValueProducingAttributes() or [given.GetAttr()])[0]
+
+    def _missing(self, channel: str) -> Any:
+        """What a texture's node has where there is no picture, as it is: neither scaled nor moved."""
+        if kind_of(self.shader) != "UsdUVTexture":
+            value = self.constant("default", 0.0)
+            return tuple(value)[:3] if np.ndim(value) else value
+        value = tuple(float(x) for x in self.constant("fallback", (0, 0, 0, 1)))
+        place = "rgba".find(channel.removeprefix("out"))
+        return value[place] if place >= 0 and len(channel.removeprefix("out")) == 1 else value[:3]
+
+    def picture(self, name: str, is_packed: bool = False) -> Picture | None:
+        """What an input is connected to; None where that is no picture, which is told if it is something else.
+
+        Args:
+            is_packed: of normals as files have them, which are not scaled and moved.
+        """
         output, inputs, channel = self._origin(name)
         if inputs is None or output is None:
             return None
         kind = kind_of(inputs.shader)
-        if kind != "UsdUVTexture" and not kind.startswith(("ND_image_", "ND_tiledimage_")):
+        if not kind.startswith(_PICTURES):
             if kind.startswith(_PRIMVARS) and name in _BASES and channel is None:
                 return None
             self.reader.warn(self.shader.GetPrim(), f"{kind} as {name} is left out")
             return None
-        file = inputs.constant("file", None)
-        if not file or not file.path:
-            return None
+        asset = inputs.constant("file", None)
         is_usd = kind == "UsdUVTexture"
-        path = file_of(self.reader, file)
+        tiles = tiles_of(inputs._file_attribute(), asset)
+        path = file_called(self.reader, name_of(asset) if tiles is None else next(iter(tiles.values())))
+        if path is None:
+            # The tiles of a package that went away meanwhile.
+            return None
         picture = Picture(path, inputs._is_encoded(kind, path), inputs._wrap(is_usd), channel or str(output.GetBaseName()))
         if is_usd:
             picture.scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
@@ -180,9 +241,32 @@ class Inputs:
             tiling, offset = (inputs.constant(name, value) for name, value in (("uvtiling", (1, 1)), ("uvoffset", (0, 0))))
             picture.uv_matrix = _placed(np.array(tiling, dtype=np.float64), 0.0, np.array(offset, dtype=np.float64))
         inputs._find_coordinates("st" if is_usd else "texcoord", picture)
+        if tiles is not None:
+            inputs._lay_out(picture, tiles, is_packed)
         if picture.coordinates is not None:
             self.coordinates.append(picture.coordinates)
         return picture
+
+    def _lay_out(self, picture: Picture, tiles: dict[Tile, str], is_packed: bool) -> None:
+        """Makes one picture of tiles, with what its node has where there is none."""
+        missing = np.broadcast_to((0.5, 0.5, 1) if is_packed else self._missing(picture.channel), 3)
+        if is_packed:
+            picture.scale, picture.bias, picture.is_encoded = np.ones(4), np.zeros(4), False
+        key = (tuple(tiles.values()), is_packed, picture.channel, picture.is_encoded, *picture.scale, *picture.bias, *missing)
+        sheets = self.reader.sheets
+        if key not in sheets:
+            files = {tile: file_called(self.reader, name) for tile, name in tiles.items()}
+            pixels = {tile: replace(picture, file=file).pixels() for tile, file in files.items() if file is not None}
+            # Normals are repeated, so that those before the first tile are to be there.
+            begins = (0, 0) if is_packed else None
+            sheet, matrix = laid_out(pixels, missing, lambda text: self.reader.warn(self.shader.GetPrim(), text), begins)
+            sheets[key] = (self.reader.map_file(f"tiles{len(sheets)}.exr"), matrix)
+            Film.of(sheet).save(sheets[key][0])
+        picture.file, matrix = sheets[key]
+        picture.uv_matrix = matrix @ picture.uv_matrix
+        # The sheet has the values themselves, of one channel in all of its own.
+        picture.scale, picture.bias, picture.is_encoded, picture.wrap = np.ones(4), np.zeros(4), False, "clamp"
+        picture.channel = "r" if picture.is_opacity else picture.channel
 
     def _is_encoded(self, kind: str, file: str) -> bool:
         """Whether a texture's node has colours in sRGB; what it does not say is taken so, if they are colours of 8 bits."""
@@ -237,30 +321,29 @@ class Inputs:
     def _texture(self, name: str, picture: Picture, kind: str) -> str:
         parameters: dict[str, Any] = {"string wrap": picture.wrap}
         scale = picture.scale[:3]
-        is_opacity = picture.channel in ("a", "outa")
-        if is_opacity:
-            # Of a file with an opacity a number is the opacity.
-            scale = picture.scale[3:]
-            if picture.bias[3] != 0:
-                self.reader.warn(self.shader.GetPrim(), "the bias of an opacity is left out")
-        elif kind == "float" and picture.channel not in _CHANNELS:
+        if kind == "float" and picture.channel not in _CHANNELS and not picture.is_opacity:
             self.reader.warn(self.shader.GetPrim(), "of a texture for a number the luminance is taken")
             parameters["string channels"] = "luminance"
         is_plain = picture.channel not in _CHANNELS and np.ptp(scale) <= 1e-6 and np.abs(picture.bias[:3]).max() <= 1e-6
-        if not is_opacity and (kind == "float" or not is_plain):
+        if kind == "float" or picture.is_opacity or not is_plain:
             parameters |= {"string filename": self.made(picture), "string encoding": "linear"}
         else:
-            encoding = "sRGB" if picture.is_encoded and kind == "rgb" else "linear"
+            encoding = "sRGB" if picture.is_encoded else "linear"
             parameters |= {"string filename": picture.file, "string encoding": encoding, "float scale": float(scale.mean())}
-        if not np.array_equal(picture.uv_matrix, np.eye(3)):
-            parameters["float uvmatrix"] = picture.uv_matrix[:2].reshape(-1)
+        matrix = picture.uv_matrix @ np.linalg.inv(self.frame)
+        if not np.allclose(matrix, np.eye(3), atol=1e-9):
+            parameters["float uvmatrix"] = matrix[:2].reshape(-1)
         texture = f"{self.key} {name}"
         self.reader.builder.add("Texture", texture, "spectrum" if kind == "rgb" else "float", "imagemap", parameters)
         return texture
 
     def made(self, picture: Picture) -> str:
         """A file with the values of a picture."""
-        file: str = self.reader.map_file(f"texture{len(self.reader.builder)}.exr")
+        is_made = picture.file in (file for file, _ in self.reader.sheets.values())
+        if is_made and np.all(picture.scale == 1) and not np.any(picture.bias):
+            return picture.file
+        self.reader.pictures += 1
+        file: str = self.reader.map_file(f"texture{self.reader.pictures}.exr")
         Film.of(picture.pixels()).save(file)
         return file
 

@@ -11,6 +11,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ from ._blend_nodes import Nodes, output_node
 from ._blend_render_mode import as_rendered
 from ._blend_roles import view_of
 from ._blend_settings import tell_of_object, tell_of_scene
-from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, strands
+from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, shrunk, strands
 from ._blend_volumes import glow_parameters, volume_parameters
 from ._blend_world import add_world, add_world_volume
 
@@ -302,6 +303,11 @@ class _Reader(SceneReader):
     def add_shape(self, place: Any, look: Look, shape: tuple[str, dict[str, Any]], name: str) -> None:
         kind, parameters = shape
         add = self.builder.add
+        if look.medium is not None and look.shape_parameters and kind == "trianglemesh":
+            # What a surface lets through by its share goes into the volume, which begins right below it.
+            inside = Look(None, medium=look.medium)
+            self.add_shape(place, inside, (kind, shrunk(parameters)), name)
+            look = replace(look, medium=None)
         with self.builder.block():
             self.put(place)
             if look.name is None:

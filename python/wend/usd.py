@@ -115,6 +115,8 @@ class _Reader(SceneReader):
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
         self.prototypes: dict[str, Prototype] = {}
+        self.unpacked: dict[str, str] = {}  #: files of packages
+        self.pictures = 0  #: how many others were made
         self.nested = self.lights = 0
         self.has_light = False
 
@@ -229,6 +231,10 @@ class _Reader(SceneReader):
             self.builder.add("NamedMaterial", name)
             if look.medium is not None:
                 self.builder.add("MediumInterface", look.medium, "")
+            if look.has_pictures and "point2 uv" not in parameters:
+                self.warn(prim, "a shape without texture coordinates has the pictures of its material somewhere")
+            if "point2 uv" in parameters and not np.array_equal(look.frame, np.eye(3)):
+                parameters["point2 uv"] = parameters["point2 uv"] @ look.frame[:2, :2].T + look.frame[:2, 2]
             if look.shine is not None:
                 coordinates = parameters.get("point2 uv", 0)
                 if "string filename" in look.shine and (np.min(coordinates) < -1e-4 or np.max(coordinates) > 1 + 1e-4):
@@ -374,7 +380,9 @@ def _named(prim: Any) -> Iterator[None]:
 
 
 def _is_light(prim: Any) -> bool:
-    return bool(prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase))
+    """Also one that only a plugin knows; shapes that shine are none."""
+    is_known = prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase)
+    return bool(is_known or prim.GetTypeName() == "PluginLight")
 
 
 def _reason(error: Any) -> str:
