@@ -137,16 +137,17 @@ def test_hair(scene, tmp_path, kind, inputs):
     check(scene, tmp_path, 1500, tolerance=HAIR)
 
 
-@pytest.mark.parametrize("children", ["NONE", "SIMPLE"])
-def test_strands_of_particles(scene, tmp_path, children):
-    """Whose radii are diameters, and whose parents are not seen where they have children."""
+@pytest.mark.parametrize(("children", "grows_on"), [("NONE", True), ("SIMPLE", True), ("NONE", False)])
+def test_strands_of_particles(scene, tmp_path, children, grows_on):
+    """Whose radii are diameters, whose parents are not seen where they have children, and that may be there alone."""
     sky(scene, (0.5, 0.6, 0.7))
     floor(scene)
     made = mesh(scene, "uv_sphere", material("BsdfDiffuse", color=(0.4, 0.2, 0.1)), place=(0, 0, 1), segments=16, ring_count=8)
     made.modifiers.new("hair", "PARTICLE_SYSTEM")
     settings = made.particle_systems[0].settings
+    made.show_instancer_for_render = grows_on
     settings.type, settings.count, settings.hair_length = "HAIR", 150, 0.6
     settings.root_radius, settings.tip_radius, settings.radius_scale = 4, 2, 0.01
     settings.child_type, settings.rendered_child_count = children, 2
     scene.cycles_curves.shape = "THICK"
-    check(scene, tmp_path, 256, tolerance=0.03)
+    check(scene, tmp_path, 1024, tolerance=HAIR)

@@ -121,7 +121,8 @@ def test_opaque_pictures_have_an_opacity(stage, tmp_path):
 def test_normals_may_be_in_tiles_and_placed(stage, tmp_path):
     """A normal that leans to the right is lit by a lamp from there; where there is none, it is the card's."""
     lean = tuple(int(round(127.5 * (1 + x))) for x in (0.6, 0, 0.8))
-    shader, node = card(stage, tiles(tmp_path, t1002=lean, t1011=(128, 128, 255)), "normal", "rgb", high=(1, 1), sourceColorSpace=(TYPES.Token, "raw"))
+    file = tiles(tmp_path, t1002=lean, t1011=(128, 128, 255))
+    shader, node = card(stage, file, "normal", "rgb", high=(1, 1), sourceColorSpace=(TYPES.Token, "raw"))
     node.CreateInput("scale", TYPES.Float4).Set(Gf.Vec4f(2))
     node.CreateInput("bias", TYPES.Float4).Set(Gf.Vec4f(-1))
     placed(stage, node, (2, 2))

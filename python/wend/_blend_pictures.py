@@ -111,7 +111,8 @@ def _files_of_tiles(nodes: Nodes, image: Any) -> dict[Tile, str]:
     pattern = str(bpy.path.abspath(image.filepath, library=image.library))
     if not image.packed_file and not image.is_dirty and pattern.lower().endswith(_READ):
         return named(pattern)
-    made = nodes.reader.map_file(f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.<UDIM>.{_suffix(image)}")
+    name = f"{bpy.path.clean_name(image.name)}.{len(nodes.reader.builder)}.<UDIM>.{_suffix(image)}"
+    made = nodes.reader.map_file(name)
     _write(image, made)
     return named(made)
 

@@ -50,6 +50,8 @@ def as_rendered(scene: Any) -> Iterator[None]:
         for system in bpy.data.particles:
             put(system, "display_percentage", 100)
             put(system, "child_percent", system.rendered_child_count)
+            # Of strands there are no more points than this says.
+            put(system, "display_step", system.render_step)
         for ball in bpy.data.metaballs:
             put(ball, "resolution", ball.render_resolution)
         for curve in bpy.data.curves:

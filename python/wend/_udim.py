@@ -72,10 +72,10 @@ def _resized(pixels: Pixels, height: int, width: int) -> Pixels:
     """Means of pixels where they become fewer, the same several times where they become more."""
     while pixels.shape[0] >= 2 * height and pixels.shape[1] >= 2 * width:
         even = pixels[: pixels.shape[0] // 2 * 2, : pixels.shape[1] // 2 * 2]
-        pixels = (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]) / 4
+        pixels = (even[::2, ::2] + even[1::2, ::2] + even[::2, 1::2] + even[1::2, 1::2]) * np.float32(0.25)
     rows = (np.arange(height) * pixels.shape[0]) // height
     columns = (np.arange(width) * pixels.shape[1]) // width
-    return pixels[rows[:, None], columns[None, :]]
+    return np.asarray(pixels[rows[:, None], columns[None, :]], dtype=np.float32)
 
 
 def encoded(image: npt.NDArray[Any]) -> Pixels:

@@ -51,7 +51,8 @@ def tiles_of(attribute: Any, asset: Any) -> dict[Tile, str] | None:
     pattern = str(asset.path)
     if not UsdShade.UdimUtils.IsUdimIdentifier(pattern):
         return None
-    layer = next((spec.layer for spec in attribute.GetPropertyStack() if spec.HasInfo("default") or spec.HasInfo("timeSamples")), None)
+    specs = [spec for spec in attribute.GetPropertyStack() if spec.HasInfo("default") or spec.HasInfo("timeSamples")]
+    layer = specs[0].layer if specs else None
     found = UsdShade.UdimUtils.ResolveUdimTilePaths(pattern, layer)
     tiles = {tile_of(int(number)): str(name) for name, number in found}
     return {tile: name for tile, name in tiles.items() if tile is not None}

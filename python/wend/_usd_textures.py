@@ -75,7 +75,7 @@ class Picture:
         image = np.asarray(read(self.file).image, dtype=np.float64)
         if not self.is_encoded and (has_bytes(self.file) or self.file.lower().endswith(".png")):
             # They were decoded.
-            image = encoded(image)
+            image = np.asarray(encoded(image), dtype=np.float64)
         image = image * self.scale[:3] + self.bias[:3]
         channel = _CHANNELS.get(self.channel)
         return (image if channel is None else np.repeat(image[:, :, [channel]], 3, axis=2)).astype(np.float32)

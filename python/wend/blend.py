@@ -194,6 +194,10 @@ class _Reader(SceneReader):
                 self.view = view_of(self, instance)
                 self.shapes = motion.shapes(object_)
                 self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
+            elif instance.show_particles and not instance.is_instance and not instance.object.hide_render:
+                # Strands are there, and what they grow on is not.
+                self.view = view_of(self, instance)
+                self.add_strands(instance.object, instance.object.name)
         bar.close()
         if not self.has_light:
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
@@ -250,7 +254,8 @@ class _Reader(SceneReader):
         elif kind not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"):
             self.tell(f"object '{name}'", f"a {kind} is left out")
 
-    def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
+    def add_strands(self, object_: Any, name: str) -> None:
+        """Of its particles."""
         for system in getattr(object_, "particle_systems", []):
             if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
                 slots = object_.material_slots
@@ -258,6 +263,9 @@ class _Reader(SceneReader):
                 look = look_of(self, slots[number].material if slots else None)
                 for segment in strands(system, None, object_):
                     self.add_shape(_place(np.eye(4)), look, ("curve", segment), name)
+
+    def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
+        self.add_strands(object_, name)
         materials = [slot.material for slot in object_.material_slots]
         key = self.key_of(object_)
         seen_key = f"{self.view} {key}"
