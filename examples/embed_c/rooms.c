@@ -553,7 +553,7 @@ static int survives(walk* w, int in_volume) {
     at.index_scale = 1;
     at.depth = w->now.depth;
     at.is_judged_elsewhere = 0;
-    at.in_medium = in_volume;
+    at.in_volume = in_volume;
     learned(w->d->guided ? wend_survival_after_direction(&w->d->survival, &at, &survival, &error)
                          : wend_roulette_survival(&w->d->roulette, &at, &survival, &error),
             &error);

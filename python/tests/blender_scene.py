@@ -144,14 +144,15 @@ def agree(ours, theirs, tolerance=0.01):
     assert error.max() <= tolerance, f"\n{np.round(ours / np.maximum(theirs, 1e-6), 3)}"
 
 
-def check(scene, tmp_path, spp=256, tolerance=0.01, sampling="classical", cycles_spp=None, **options):
-    """The picture, after every block was found to agree. `options` are those of `of_scene`."""
+def check(scene, tmp_path, spp=256, tolerance=0.01, sampling="classical", cycles_spp=None, keeps=True, **options):
+    """The picture, after every block was found to agree. `options` are those of `of_scene`. `keeps`: whether the
+    scene is the same each time, so that Cycles' picture may be kept."""
 
     def render(seed):
         return blocks(by_cycles(scene, tmp_path, cycles_spp or spp, seed))
 
     # Where Cycles is quick it renders each time.
-    theirs = reference(render) if (cycles_spp or spp) >= 600 else render(0)
+    theirs = reference(render) if keeps and (cycles_spp or spp) >= 600 else render(0)
     ours = wend.render(blend.of_scene(scene, spp=spp, **options).scene(), sampling=sampling).image
     agree(blocks(ours), theirs, tolerance)
     return ours

@@ -150,4 +150,5 @@ def test_strands_of_particles(scene, tmp_path, children, grows_on):
     settings.root_radius, settings.tip_radius, settings.radius_scale = 4, 2, 0.01
     settings.child_type, settings.rendered_child_count = children, 2
     scene.cycles_curves.shape = "THICK"
-    check(scene, tmp_path, 1024, tolerance=HAIR)
+    # Blender puts the strands elsewhere each time.
+    check(scene, tmp_path, 1024, tolerance=HAIR, keeps=False)

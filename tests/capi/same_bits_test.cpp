@@ -65,11 +65,11 @@ wend_walk_state any_state(Pcg32& random) {
     state.index_scale = coin(random) ? 1.0f : 2.25f;
     state.depth = static_cast<int>(5 * random.uniform());
     state.is_judged_elsewhere = coin(random) ? 1 : 0;
-    state.in_medium = coin(random) ? 1 : 0;
+    state.in_volume = coin(random) ? 1 : 0;
     return state;
 }
 WalkState state_of(const wend_walk_state& s) {
-    return {rgb(s.throughput), s.density_ratio, s.index_scale, s.depth, s.is_judged_elsewhere != 0, s.in_medium != 0};
+    return {rgb(s.throughput), s.density_ratio, s.index_scale, s.depth, s.is_judged_elsewhere != 0, s.in_volume != 0};
 }
 
 TEST(CSameBits, SurvivalBeforeAndAfterDirections) {

@@ -27,7 +27,7 @@ TEST(ClassicalRoulette, MayEndWalksInMediaAsAbsorptionWould) {
     WalkState state{Rgb(0.4f), 1, 1, 3};
     EXPECT_FLOAT_EQ(unguided_walks_end.after_direction(state), 0.8f);
     EXPECT_FLOAT_EQ(guided_walks_end.after_direction(state), 1);
-    state.in_medium = true;
+    state.in_volume = true;
     EXPECT_FLOAT_EQ(unguided_walks_end.after_direction(state), 0.4f);
     EXPECT_FLOAT_EQ(guided_walks_end.after_direction(state), 1);
 }

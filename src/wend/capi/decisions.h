@@ -174,7 +174,7 @@ typedef struct wend_walk_state {
     int depth;           /**< vertices so far */
     int is_judged_elsewhere; /**< whether this vertex, a mirror or a boundary that refracts, is one of which nothing can
                                 be expected, 0 or 1 */
-    int in_medium; /**< whether the last vertex is in one: a collision, or a surface that is met in fog, 0 or 1 */
+    int in_volume;           /**< whether the last vertex is a collision, 0 or 1 */
 } wend_walk_state;
 
 /** The probability of going on after the direction is drawn, in [0,1], for where wend_survival_before_direction() had
@@ -185,7 +185,7 @@ WEND_API wend_status wend_survival_after_direction(const wend_survival_settings*
 /** Classical roulette: survive in proportion to the throughput that unguided directions would have left. */
 typedef struct wend_roulette {
     float ends_below; /**< throughput from which on walks may end, in (0,1] */
-    int media_absorb; /**< whether in media walks end as absorption would nonetheless, 0 or 1 */
+    int media_absorb; /**< whether after collisions walks end as absorption would nonetheless, 0 or 1 */
 } wend_roulette;
 
 /** What pays for walks that are not guided. */

@@ -38,7 +38,7 @@ WalkState to_state(const wend_walk_state* state) {
             state->index_scale,
             state->depth,
             state->is_judged_elsewhere != 0,
-            state->in_medium != 0};
+            state->in_volume != 0};
 }
 
 wend_roulette from_roulette(float ends_below, bool media_absorb) {

@@ -74,7 +74,7 @@ struct WalkState {
     int depth = 0;  ///< vertices so far
     /// Nothing is known of what to expect here, at a mirror or a boundary that refracts, but elsewhere.
     bool is_judged_elsewhere = false;
-    bool in_medium = false;  ///< whether the last vertex is in one: a collision, or a surface that is met in fog
+    bool in_volume = false;  ///< whether the last vertex is a collision
 };
 
 /// What is known of a walk at a vertex before its direction is drawn.
@@ -114,7 +114,7 @@ class ClassicalRoulette {
 public:
     /// Ends walks as absorption would, from their first loss on.
     constexpr ClassicalRoulette() = default;
-    /// `ends_below` in (0,1]. `media_absorb`: whether in media walks end as absorption would nonetheless.
+    /// `ends_below` in (0,1]. `media_absorb`: whether after collisions walks end as absorption would nonetheless.
     constexpr explicit ClassicalRoulette(float ends_below, bool media_absorb = false)
         : ends_below_(ends_below), media_absorb_(media_absorb) {}
 
@@ -131,7 +131,7 @@ public:
         if (state.depth <= 1) {
             return 1;
         }
-        const float ends_below = media_absorb_ && state.in_medium ? 1.0f : ends_below_;
+        const float ends_below = media_absorb_ && state.in_volume ? 1.0f : ends_below_;
         return std::min(1.0f, max_value(state.throughput) * std::min(state.density_ratio, max_density_ratio) *
                                   state.index_scale / ends_below);
     }
@@ -147,8 +147,8 @@ private:
 };
 
 /// Classical roulette of a walk that is not guided yet. To survive in proportion to the throughput is cheap but noisy:
-/// in rooms a half is up to 1.6 times more efficient. In media each collision loses little, and what goes on from a
-/// surface has many of them ahead: walks would get much longer (docs/experiments/survival.md).
+/// in rooms a half is up to 1.6 times more efficient. In media of high albedo each collision loses little, and walks
+/// would get much longer (docs/experiments/survival.md).
 inline constexpr ClassicalRoulette unguided_walks_end{0.5f, true};
 
 /// Classical roulette of a guided walk. It is on its way to light, and to end it at its first losses would be a noise

@@ -30,6 +30,8 @@ inline bool has_fog(const Scene& scene) {
 struct PassPlan {
     int first = 0;  ///< sample of each pixel, as a mean
     int count = 0;  ///< of samples, as a mean
+    /// Whether the render is long enough for walks that follow the fields.
+    bool is_of_guided_render = false;
     /// Of each pixel of the crop: the first of its samples, and how many follow; empty where all have as many.
     std::vector<std::uint32_t> firsts, counts;
     bool learns = false;        ///< whether walks are there to learn from
@@ -48,9 +50,9 @@ struct PassPlan {
     /// See ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& plan) {
-        bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.learns, plan.fills_fields, plan.guides,
-              plan.steers, plan.recorded_share, plan.recorded_share_directed, plan.recorded_walks, plan.estimates,
-              plan.mean_estimate, plan.sample_variance);
+        bytes(plan.first, plan.count, plan.firsts, plan.counts, plan.is_of_guided_render, plan.learns,
+              plan.fills_fields, plan.guides, plan.steers, plan.recorded_share, plan.recorded_share_directed,
+              plan.recorded_walks, plan.estimates, plan.mean_estimate, plan.sample_variance);
     }
 
     /// Samples of each pixel once the pass has ended.

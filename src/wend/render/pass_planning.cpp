@@ -61,7 +61,8 @@ PassPlan plan_pass(const KnownSoFar& known, const RenderedSoFar& rendered, int c
     const int enough = settings.training_samples;
     const bool is_taught = samples >= enough && (rendered.recorded >= enough || !choice.guiding_pays());
     plan.learns = !is_taught && (settings.keeps_fields || !learns_in_vain(known, is_last));
-    plan.fills_fields = plan.learns && (settings.keeps_fields || !ends_before_trial(known));
+    plan.is_of_guided_render = !ends_before_trial(known);
+    plan.fills_fields = plan.learns && (settings.keeps_fields || plan.is_of_guided_render);
     plan.guides = choice.guides(count);
     plan.steers = preset.direction || learners.get<InteriorLearner>().can_guide();
     // In a small picture the fields would learn from too few.

@@ -40,7 +40,10 @@ void Walks::walk(std::size_t kind, const PassPlan& plan, const Rest& rest, std::
             }
         });
     };
-    if (settings_.preset.is_classical()) {
+    // Longer walks teach more, and where nothing is taught only their noise counts: in fog, where each has many
+    // collisions ahead, they cost more than they bring (docs/experiments/survival.md).
+    const bool are_plain = preset.is_classical() && !plan.is_of_guided_render && beams_.empty() && has_fog(scene_);
+    if (settings_.preset.is_classical() || are_plain) {
         run_with(ClassicalDecisions{{}, {}, ClassicalRoulette()});
     } else if (preset.is_classical() && beams_.empty()) {
         run_with(ClassicalDecisions{{}, {}, unguided_walks_end});

@@ -51,14 +51,14 @@ public:
     }
 
     /// Counts the probability of surviving that an unguided path would have, once the direction is drawn.
-    void count_unguided() {
+    void count_unguided(const Vertex& v) {
         if (technique_judges()) {
             return;
         }
         PathWeight& weight = path_.now.weight;
         const float survival =
             unguided_walks_end.after_direction({weight.throughput * weight.unguided_ratio(), 1, weight.index_scale,
-                                                path_.now.counts.vertices, false, is_in_medium()});
+                                                path_.now.counts.vertices, false, v.in_volume()});
         if (survival > 0) {
             weight.survival_ratio /= survival;
         }
@@ -66,8 +66,8 @@ public:
 
     /// Roulette after the direction is drawn.
     template <class F>
-    bool survives(const F& f) {
-        const float survival = probability(expected_ > 0 && !f.is_guidable());
+    bool survives(const F& f, const Vertex& v) {
+        const float survival = probability(v.in_volume(), expected_ > 0 && !f.is_guidable());
         if (survival < 1) {
             if (!(sampler_.uniform() < survival)) {
                 return false;
@@ -79,8 +79,6 @@ public:
     }
 
 private:
-    bool is_in_medium() const { return path_.now.medium.id != vacuum; }
-
     /// Whether walks end by the technique at hand, guided or not.
     bool technique_judges() const {
         return path_.ask_technique([](auto& technique) {
@@ -90,7 +88,7 @@ private:
         });
     }
 
-    float probability(bool is_judged_elsewhere) {
+    float probability(bool in_volume, bool is_judged_elsewhere) {
         const PathWeight& weight = path_.now.weight;
         return path_.ask_technique([&](auto& technique) {
             if constexpr (requires { technique.survival(0.0f); }) {
@@ -99,7 +97,7 @@ private:
                 }
             }
             return d_.survival.after_direction({weight.throughput, weight.density_ratio, weight.index_scale,
-                                                path_.now.counts.vertices, is_judged_elsewhere, is_in_medium()});
+                                                path_.now.counts.vertices, is_judged_elsewhere, in_volume});
         });
     }
 

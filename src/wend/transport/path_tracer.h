@@ -283,8 +283,8 @@ private:
                 technique.turn(directions, s->direction);
             }
         });
-        survival_.count_unguided();
-        if (!judged && !survival_.survives(f)) {
+        survival_.count_unguided(v);
+        if (!judged && !survival_.survives(f, v)) {
             return false;
         }
         const MediumState before = path_.now.medium;
