@@ -40,6 +40,21 @@ RenderStatistics render_once(const Scene& scene, int side, const char* preset, i
     return statistics;
 }
 
+TEST(FirstGuidedWalks, ComeAfterClassicalOnesInFogWhereARenderIsTooShortForThem) {
+    // The smallest picture that is not guided in all ways from the start, and too small for a few guided walks.
+    constexpr int side = 32;
+    const Scene scene = foggy_room(side);
+    const auto segments = [&](const char* preset, int samples, Image& picture) {
+        return render_once(scene, side, preset, samples, 1, picture).counts.segments;
+    };
+    Image classical, plain;
+    EXPECT_EQ(segments("full", 6, plain), segments("classical", 6, classical));
+    EXPECT_TRUE(plain.pixels == classical.pixels);
+    // Else they are longer, and teach more.
+    EXPECT_GT(segments("full", 7, plain), segments("classical", 7, classical));
+    EXPECT_FALSE(plain.pixels == classical.pixels);
+}
+
 TEST(FirstGuidedWalksSlow, LeaveTheMeanAsItIs) {
     const auto expected = test::kept_means("first_guided_walks", [&] {
         const Scene scene = foggy_room(large);
