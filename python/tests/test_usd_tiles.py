@@ -165,7 +165,8 @@ def test_large_tiles_become_smaller(monkeypatch):
     monkeypatch.setattr(_udim, "_MOST", 150)
     told = []
     chess = np.indices((16, 16)).sum(axis=0) % 2
-    sheet, matrix = _udim.laid_out({(0, 0): np.repeat(chess[:, :, None], 3, axis=2).astype(np.float32)}, (0, 0, 0), told.append)
+    pixels = np.repeat(chess[:, :, None], 3, axis=2).astype(np.float32)
+    sheet, matrix = _udim.laid_out({(0, 0): lambda: pixels}, (0, 0, 0), told.append)
     assert sheet.shape == (12, 12, 3) and sheet[1:-1, 1:-1] == pytest.approx(0.5)
     assert sheet[0] == pytest.approx(0)
     assert matrix @ (0.5, 0.5, 1) == pytest.approx((0.5, 0.5, 1))

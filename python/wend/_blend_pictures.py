@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -78,7 +79,7 @@ def _of_tiles(nodes: Nodes, node: Any, kind: str, is_alpha: bool, mapping: dict[
         if not files:
             nodes.warn(node, f"a picture in tiles of which there is none is left out: {image.filepath}")
             return None
-        pixels = {tile: _pixels_of(file, is_linear, is_alpha) for tile, file in files.items()}
+        pixels = {tile: partial(_pixels_of, file, is_linear, is_alpha) for tile, file in files.items()}
         missing = _MISSING[3:] * 3 if is_alpha else _MISSING[:3]
         sheet, matrix = laid_out(pixels, missing, lambda text: nodes.warn(node, text))
         sheets[key] = (nodes.reader.map_file(f"tiles{len(sheets)}.exr"), matrix)

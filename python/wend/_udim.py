@@ -25,12 +25,12 @@ def tile_of(number: int) -> Tile | None:
 
 
 def laid_out(
-    tiles: Mapping[Tile, Pixels], missing: Iterable[float], tell: Callable[[str], None], begins: Tile | None = None
+    tiles: Mapping[Tile, Callable[[], Pixels]], missing: Iterable[float], tell: Callable[[str], None], begins: Tile | None = None
 ) -> tuple[Pixels, npt.NDArray[np.float64]]:
     """One picture of all tiles, each as large as the largest.
 
     Args:
-        tiles: one or more of (height, width, 3), rows from above.
+        tiles: one or more that give (height, width, 3), rows from above; each is asked once, and made smaller at once.
         missing: the colour where there is no tile.
         tell: is told where tiles are made smaller.
         begins: a tile that the picture reaches to, too, though it may be missing.
@@ -41,18 +41,22 @@ def laid_out(
     """
     places = np.array([*tiles] if begins is None else [*tiles, begins])
     first, count = places.min(axis=0), np.ptp(places, axis=0) + 1
-    side = np.max([pixels.shape[:2] for pixels in tiles.values()], axis=0)
-    halvings = 0
-    while np.prod(side * count[::-1] + 2 * _RIM) > _MOST and side.max() > 1:
-        side, halvings = np.maximum(side // 2, 1), halvings + 1
+    read, halvings = {}, 0
+    for tile, pixels_of in tiles.items():
+        pixels = pixels_of()
+        height, width = pixels.shape[:2]
+        halved = 0
+        while np.prod(np.array((height, width)) * count[::-1] + 2 * _RIM) > _MOST and max(height, width) > 1:
+            height, width, halved = max(height // 2, 1), max(width // 2, 1), halved + 1
+        read[tile], halvings = _resized(pixels, height, width), max(halvings, halved)
     if halvings:
         tell(f"pictures in tiles are made {2**halvings} times smaller: all of them fill {count[0]} x {count[1]} tiles")
-    height, width = side
+    height, width = np.max([pixels.shape[:2] for pixels in read.values()], axis=0)
     result = np.empty((height * count[1] + 2 * _RIM, width * count[0] + 2 * _RIM, 3), dtype=np.float32)
     result[:] = np.array(list(missing), dtype=np.float32)
     for rim in (1, 0):
         # The rims of all, over which the tiles beside them lie.
-        for (column, row), pixels in tiles.items():
+        for (column, row), pixels in read.items():
             x = _RIM + (column - first[0]) * width - rim
             y = _RIM + (first[1] + count[1] - 1 - row) * height - rim
             padded = np.pad(_resized(pixels, height, width), ((rim, rim), (rim, rim), (0, 0)), mode="edge")

@@ -256,7 +256,7 @@ class Inputs:
         sheets = self.reader.sheets
         if key not in sheets:
             files = {tile: file_called(self.reader, name) for tile, name in tiles.items()}
-            pixels = {tile: replace(picture, file=file).pixels() for tile, file in files.items() if file is not None}
+            pixels = {tile: replace(picture, file=file).pixels for tile, file in files.items() if file is not None}
             # Normals are repeated, so that those before the first tile are to be there.
             begins = (0, 0) if is_packed else None
             sheet, matrix = laid_out(pixels, missing, lambda text: self.reader.warn(self.shader.GetPrim(), text), begins)

@@ -5,12 +5,12 @@
 #include <wend/render/pass.h>
 #include <wend/render/pass_planning.h>
 #include <wend/render/schedule.h>
+#include <wend/render/spent_time.h>
 #include <wend/render/taught.h>
 #include <wend/render/tile_shares.h>
 #include <wend/render/walks.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -20,12 +20,6 @@
 namespace wend {
 
 namespace {
-
-using Clock = Rest::Clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void check_rejected(const WalkCounts& counts) {
     if (counts.rejected > 10 && counts.rejected * 10000 > counts.paths) {
@@ -69,7 +63,7 @@ public:
             }
             begin_pass(count);
         }
-        const Rest rest(std::min(time_after(Clock::now(), seconds), end_of_time()), settings_.stop);
+        const Rest rest(std::min(SpentTime().when_spent(seconds), end_of_time()), settings_.stop);
         for (bool is_over = false; all_have_walked(rest, is_over);) {
             if (kind_ + 1 == choice_.kinds().size()) {
                 share_film();
@@ -106,7 +100,7 @@ public:
 
     RenderProgress progress() const {
         RenderProgress progress;
-        progress.seconds = seconds();
+        progress.seconds = time_.seconds();
         progress.samples = statistics_.samples;
         progress.relative_noise = ends_by_noise() ? noise_left_.worst : noise_;
         progress.learns = is_within_pass_ && plan_.learns;
@@ -122,7 +116,7 @@ public:
 
     RenderStatistics statistics() const {
         RenderStatistics statistics = statistics_;
-        statistics.seconds = seconds();
+        statistics.seconds = time_.seconds();
         for (const Tile& tile : tiles_) {
             statistics.counts += tile.counts;
         }
@@ -166,18 +160,19 @@ public:
 
     void save(ArchiveWriter& bytes) const {
         archive(bytes, *this);
-        bytes(seconds());
+        bytes(time_.seconds());
     }
     void restore(ArchiveReader& bytes) {
         archive(bytes, *this);
-        bytes(seconds_before_);
-        bytes.require(bytes.empty() && seconds_before_ >= 0);
+        double seconds_before = 0;
+        bytes(seconds_before);
+        bytes.require(bytes.empty() && seconds_before >= 0);
         schedule_.require(statistics_.passes, is_within_pass_ ? plan_.count : 0);
         // It may be the first to be asked for an end by noise, or for this one.
         if (ends_by_noise() && !is_within_pass_) {
             noise_left_ = noise_left(film_, settings_, statistics_.samples);
         }
-        start_ = Clock::now();
+        time_ = SpentTime(seconds_before);
         share_out();
     }
 
@@ -234,7 +229,7 @@ private:
             bool has_walked, is_stopped, is_time_over;
         };
         const std::vector<Said> all =
-            shares_.team().all(Said{walk(rest), rest.drops_walks(), Clock::now() >= end_of_time()});
+            shares_.team().all(Said{walk(rest), rest.drops_walks(), SpentTime::Clock::now() >= end_of_time()});
         const auto any = [&](bool Said::*what) {
             return std::any_of(all.begin(), all.end(), [what](const Said& said) { return said.*what; });
         };
@@ -248,14 +243,12 @@ private:
         return have_all;
     }
 
-    double seconds() const { return seconds_before_ + seconds_since(start_); }
-
     /// Samples of each pixel in the next pass; 0 at the end.
     int next_count() const {
         if (ends_by_noise() && statistics_.samples >= known_noise && noise_left_.worst <= settings_.noise) {
             return 0;
         }
-        return schedule_.next(static_cast<int>(statistics_.passes.size()), statistics_.samples, seconds());
+        return schedule_.next(static_cast<int>(statistics_.passes.size()), statistics_.samples, time_.seconds());
     }
 
     double fraction() const {
@@ -271,18 +264,12 @@ private:
         const double samples =
             is_within_pass_ && pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
         const double by_noise = ends_by_noise() && noise_left_.samples > 0 ? samples / noise_left_.samples : 0.0;
-        return std::min(1.0, std::max(schedule_.fraction(samples, seconds()), by_noise));
+        return std::min(1.0, std::max(schedule_.fraction(samples, time_.seconds()), by_noise));
     }
 
-    static Clock::time_point time_after(Clock::time_point start, double seconds) {
-        // Longer than any render, and less than the clock can count.
-        constexpr double longest = 1e9;
-        return start + std::chrono::duration_cast<Clock::duration>(
-                           std::chrono::duration<double>(std::clamp(seconds, 0.0, longest)));
-    }
     /// Of the time to spend.
-    Clock::time_point end_of_time() const {
-        return time_after(start_, schedule_.is_timed() ? settings_.seconds - seconds_before_ : endless);
+    SpentTime::Clock::time_point end_of_time() const {
+        return time_.when_spent(schedule_.is_timed() ? settings_.seconds : endless);
     }
 
     void begin_pass(int count) {
@@ -319,9 +306,9 @@ private:
         statistics_.samples =
             ends_by_noise() && !plan_.counts.empty() ? mean_samples(tiles_) : statistics_.samples + plan_.count;
         statistics_.passes.push_back(plan_.count);
-        const Clock::time_point start = Clock::now();
+        const SpentTime training;
         learners_.learn(records_, plan_, shares_);
-        statistics_.training_seconds += seconds_since(start);
+        statistics_.training_seconds += training.seconds();
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
         if (plan_.learns) {
@@ -336,7 +323,7 @@ private:
         if (ends_by_noise()) {
             noise_left_ = noise_left(film_, settings_, statistics_.samples);
         }
-        mark_ = std::exchange(last_mark_, {fraction(), seconds()});
+        mark_ = std::exchange(last_mark_, {fraction(), time_.seconds()});
     }
 
     const TaughtPicture* taught() const { return taught_.empty() ? nullptr : &taught_.front(); }
@@ -388,8 +375,7 @@ private:
     NoiseLeft noise_left_;         ///< likewise, where noise ends the render
     Mark mark_, last_mark_;        ///< at the ends of the last two passes
     RenderStatistics statistics_;  ///< samples, passes and time to train
-    double seconds_before_ = 0;    ///< it was restored
-    Clock::time_point start_ = Clock::now();
+    SpentTime time_;
 };
 
 Render::Render(const Scene& scene, Film& film, RenderSettings settings)

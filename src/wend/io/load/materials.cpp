@@ -5,10 +5,10 @@
 #include <wend/io/load/measured.h>
 #include <wend/io/load/media.h>
 #include <wend/io/load/mixtures.h>
+#include <wend/io/load/subsurface_media.h>
 #include <wend/io/spectrum/metal.h>
 #include <wend/io/spectrum/named_spectra.h>
 #include <wend/medium/fresnel.h>
-#include <wend/planar/albedo_inversion.h>
 #include <wend/scene/bsdf/rough_coat.h>
 
 #include <fmt/format.h>
@@ -213,7 +213,8 @@ private:
             material.relative_albedo = albedo;
             inside = Rgb(1.0f);
         }
-        const Rgb extinction = Rgb(1.0f) / load_mean_free_path(p, non_negative_float(p, "scale", 1));
+        const Rgb extinction =
+            Rgb(1.0f) / load_mean_free_path(context_, textures_, p, non_negative_float(p, "scale", 1));
         HomogeneousMedium medium;
         medium.scattering = inside * extinction;
         medium.absorption = (Rgb(1.0f) - inside) * extinction;
@@ -274,74 +275,13 @@ private:
 
     LoadedMaterial load_subsurface(const pbrt::MaterialEntity& entity) {
         DielectricMaterial boundary{load_ior(entity.parameters, "eta", 1.33f), load_roughness(entity.parameters, "")};
-        const HomogeneousMedium inside = load_inside(entity, boundary);
+        const HomogeneousMedium inside = load_inside(context_, textures_, entity, boundary);
         if (context_.is_for_pbrt) {
             context_.warnings.add(entity.place,
                                   "the inside of a \"subsurface\" is walked through: the diffusion that pbrt takes for "
                                   "it is up to 10 % off on a plane, and more where an object is thin");
         }
         return {boundary, inside};
-    }
-
-    /// pbrt's four ways to say what is inside: by name, by coefficients, by colour and mean free path, or not at all. A
-    /// colour that varies goes to the boundary.
-    HomogeneousMedium load_inside(const pbrt::MaterialEntity& entity, DielectricMaterial& boundary) {
-        const pbrt::ParameterSet& p = entity.parameters;
-        HomogeneousMedium medium;
-        float g = load_mean_cosine(context_, p);
-        const float scale = non_negative_float(p, "scale", 1);
-        const auto absorption = textures_.find_colour(p, "sigma_a", SpectrumKind::unbounded);
-        const auto scattering = textures_.find_colour(p, "sigma_s", SpectrumKind::unbounded);
-        if (p.has("name")) {
-            const MediumPreset measured = required_preset(p, "name");
-            medium.absorption = measured.sigma_a * scale;
-            medium.scattering = measured.sigma_prime_s * scale;
-            g = 0;  // the tables hold reduced coefficients
-        } else if (absorption || scattering) {
-            if (!absorption || !scattering) {
-                throw InputError(entity.place, "\"subsurface\" needs both \"sigma_a\" and \"sigma_s\", or neither");
-            }
-            medium.absorption = mean_of(p, "sigma_a", *absorption) * scale;
-            medium.scattering = mean_of(p, "sigma_s", *scattering) * scale;
-        } else if (const auto reflectance = textures_.find_colour(p, "reflectance", SpectrumKind::reflectance)) {
-            const auto albedo_of = std::make_shared<AlbedoInversion>(g, boundary.ior);
-            const Rgb colour = textures_.mean(*reflectance);
-            const Rgb albedo((*albedo_of)(colour.r), (*albedo_of)(colour.g), (*albedo_of)(colour.b));
-            const Rgb extinction = Rgb(1.0f) / load_mean_free_path(p, scale);
-            medium.scattering = albedo * extinction;
-            medium.absorption = (Rgb(1.0f) - albedo) * extinction;
-            if (textures_.varies(*reflectance)) {
-                boundary.relative_albedo = textures_.relative_albedo(*reflectance, albedo_of, albedo);
-            }
-        } else {
-            medium.absorption = Rgb(0.0011f, 0.0024f, 0.014f) * scale;
-            medium.scattering = Rgb(2.55f, 3.21f, 3.77f) * scale;
-        }
-        medium.phase = PhaseFunction(HenyeyGreenstein{g});
-        medium.counts_vertices = false;
-        return medium;
-    }
-
-    Rgb load_mean_free_path(const pbrt::ParameterSet& p, float scale) {
-        const auto given = textures_.find_colour(p, "mfp", SpectrumKind::unbounded);
-        const Rgb mean_free_path = (given ? mean_of(p, "mfp", *given) : Rgb(1.0f)) * scale;
-        for (int c = 0; c < 3; ++c) {
-            if (!(mean_free_path[c] > 0)) {
-                throw InputError(p.place_of("mfp"), "the mean free path must be above 0");
-            }
-        }
-        return mean_free_path;
-    }
-
-    Rgb mean_of(const pbrt::ParameterSet& p, std::string_view name, TextureId texture) {
-        if (textures_.varies(texture)) {
-            context_.warnings.add(
-                p.place_of(name),
-                fmt::format("only the \"reflectance\" of what is inside an object can vary: the mean of the texture "
-                            "\"{}\" is taken",
-                            name));
-        }
-        return textures_.mean(texture);
     }
 
     /// `around`: index of what is before the metal.
