@@ -287,6 +287,18 @@ def phases(results):
     return table(head, rows) + f"\n*Commit `{results['commit']}`, {results['resolution']}, {samples}.*\n"
 
 
+def stopping(results):
+    """When large renders had a picture on disk, and how long they went on after a signal: medians and the longest."""
+    rows = []
+    for scene in dict.fromkeys(row["scene"] for row in results["rows"]):
+        runs = [row for row in results["rows"] if row["scene"] == scene]
+        told = lambda what: (f"{statistics.median(r[what] for r in runs):.2f} s ({max(r[what] for r in runs):.2f} s)")
+        rows.append([f"`{scene}`", told("first_picture"), told("stopped"), str(len(runs))])
+    head = ["scene", "first picture", "from SIGTERM to the end", "renders"]
+    return table(head, rows) + note(results, results["settings"]["resolution"].replace("x", " × ") + " pixels",
+                                    "Medians, and the longest in brackets")
+
+
 # Name: what makes it, of which files of bench/results.
 TABLES = {
     "scenes-equal-time": (scenes_equal_time, "scenes"),
@@ -298,6 +310,7 @@ TABLES = {
     "phases": (phases, "phases"),
     "shields": (shields, "shields"),
     "planar": (planar, "planar"),
+    "stopping": (stopping, "stopping"),
     "example-subsurface": (example, "example"),
 }
 

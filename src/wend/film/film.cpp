@@ -2,8 +2,10 @@
 
 #include <wend/core/contracts.h>
 #include <wend/core/error.h>
+#include <wend/core/parallel.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/film/chess_board.h>
+#include <wend/film/each_pixel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +147,7 @@ std::vector<float> Film::estimates_of_half(const Halves& weights, std::size_t ha
 
 std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) const {
     std::array<Comparison, 2> result;
-    for (std::size_t half = 0; half < 2; ++half) {
+    parallel_for(2, 0, [&](std::size_t half) {
         const std::vector<float> estimates = estimates_of_half(weights, half);
         Comparison& shown = result[half];
         double variances = 0, squares = 0, light = 0, count = 0;
@@ -166,7 +168,7 @@ std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) cons
             }
         }
         if (count == 0) {
-            continue;
+            return;
         }
         shown.more_light = light / (channels * count);
         shown.noise = {variances / count, shown.samples - count, 0};
@@ -174,7 +176,7 @@ std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) cons
             const double of_pixels = std::max(0.0, count * squares / (variances * variances) - 1);
             shown.noise.scatter = shown.noise.freedom * of_pixels / (count - 1);
         }
-    }
+    });
     return result;
 }
 
@@ -240,20 +242,19 @@ Image Film::beauty() const {
 
 Image Film::beauty(const Halves& weights) const {
     Image image(crop_.width(), crop_.height());
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Pixel& p = pixels_[i];
+    for_each_pixel(crop_, [&](std::size_t i) {
         const double weight = weights[half_of(i)];
         for (int c = 0; c < 3; ++c) {
-            image.pixels[i][c] = static_cast<float>(p.mean(c, weight));
+            image.pixels[i][c] = static_cast<float>(pixels_[i].mean(c, weight));
         }
-    }
+    });
     return image;
 }
 
 std::vector<PixelNoise> Film::noise() const {
     const Halves weights = stage_weights();
     std::vector<PixelNoise> result(pixels_.size());
-    for (std::size_t half = 0; half < 2; ++half) {
+    parallel_for(2, 0, [&](std::size_t half) {
         const std::vector<float> estimates = estimates_of_half(weights, half);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             if (half_of(i) != half) {
@@ -268,7 +269,7 @@ std::vector<PixelNoise> Film::noise() const {
             const double spread = p.spread(0, weight) + p.spread(1, weight) + p.spread(2, weight);
             noise.variance = scale > 0 ? spread * noise.samples / (3 * scale * scale) : 0.0;
         }
-    }
+    });
     return result;
 }
 

@@ -1,5 +1,7 @@
 #include <wend/film/film.h>
 
+#include <wend/film/each_pixel.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,53 +12,73 @@
 
 namespace wend {
 
+namespace {
+
+/// A layer with room for the values of all pixels.
+Layer empty_layer(const char* name, std::vector<std::string> channels, std::size_t pixels) {
+    const std::size_t values = channels.size() * pixels;
+    return {name, std::move(channels), std::vector<float>(values)};
+}
+
+/// An initializer list would copy them.
+template <class... Layers>
+std::vector<Layer> list_of(Layers... layers) {
+    std::vector<Layer> list;
+    (list.push_back(std::move(layers)), ...);
+    return list;
+}
+
+}  // namespace
+
 Picture Film::picture() const {
     const Halves weights = stage_weights();
+    const std::size_t size = pixels_.size();
     Picture picture;
     picture.image = beauty(weights);
     picture.offset = crop_.min;
     picture.full_size = full_size_;
-    Layer albedo{"albedo", {"R", "G", "B"}, {}};
-    Layer normal{"normal", {"X", "Y", "Z"}, {}};
-    Layer depth{"depth", {"Z"}, {}};
-    Layer alpha{"alpha", {"A"}, {}};
-    Layer samples{"samples", {"N"}, {}};
-    Layer variance{"variance", {"R", "G", "B"}, {}};
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    Layer albedo = empty_layer("albedo", {"R", "G", "B"}, size);
+    Layer normal = empty_layer("normal", {"X", "Y", "Z"}, size);
+    Layer depth = empty_layer("depth", {"Z"}, size);
+    Layer alpha = empty_layer("alpha", {"A"}, size);
+    Layer samples = empty_layer("samples", {"N"}, size);
+    Layer variance = empty_layer("variance", {"R", "G", "B"}, size);
+    for_each_pixel(crop_, [&](std::size_t i) {
         const Pixel& p = pixels_[i];
         const auto n = static_cast<float>(std::max(p.featured, 1u));
-        for (int c = 0; c < 3; ++c) {
-            albedo.values.push_back(p.albedo[c] / n);
-            normal.values.push_back(p.normal[c] / n);
-            variance.values.push_back(static_cast<float>(p.spread(c, weights[half_of(i)])));
+        for (std::size_t c = 0; c < 3; ++c) {
+            albedo.values[3 * i + c] = p.albedo[c] / n;
+            normal.values[3 * i + c] = p.normal[c] / n;
+            variance.values[3 * i + c] = static_cast<float>(p.spread(static_cast<int>(c), weights[half_of(i)]));
         }
-        depth.values.push_back(p.depth / n);
-        alpha.values.push_back(p.alpha / n);
-        samples.values.push_back(static_cast<float>(p.samples()));
-    }
-    picture.layers = walk_layers();
-    picture.layers.insert(picture.layers.begin(), {std::move(albedo), std::move(normal), std::move(depth),
-                                                   std::move(samples), std::move(variance), std::move(alpha)});
+        depth.values[i] = p.depth / n;
+        alpha.values[i] = p.alpha / n;
+        samples.values[i] = static_cast<float>(p.samples());
+    });
+    picture.layers = list_of(std::move(albedo), std::move(normal), std::move(depth), std::move(samples),
+                             std::move(variance), std::move(alpha));
     for (std::vector<Layer>& more :
-         std::array{part_layers(weights), half_layers(weights), geometry_layers(), object_layers()}) {
+         std::array{walk_layers(), part_layers(weights), half_layers(weights), geometry_layers(), object_layers()}) {
         std::move(more.begin(), more.end(), std::back_inserter(picture.layers));
     }
     return picture;
 }
 
 std::vector<Layer> Film::walk_layers() const {
-    Layer scatter{"scatter", {"P"}, {}};
-    Layer segments{"segments", {"N"}, {}};
-    Layer branches{"branches", {"N"}, {}};
-    Layer guided{"guided", {"P"}, {}};
-    for (const Pixel& p : pixels_) {
+    const std::size_t size = pixels_.size();
+    Layer scatter = empty_layer("scatter", {"P"}, size);
+    Layer segments = empty_layer("segments", {"N"}, size);
+    Layer branches = empty_layer("branches", {"N"}, size);
+    Layer guided = empty_layer("guided", {"P"}, size);
+    for_each_pixel(crop_, [&](std::size_t i) {
+        const Pixel& p = pixels_[i];
         const double scale = p.samples() > 0 ? 1.0 / p.samples() : 0.0;
-        scatter.values.push_back(p.opacity / static_cast<float>(std::max(p.featured, 1u)));
-        guided.values.push_back(static_cast<float>(p.guided * scale));
-        segments.values.push_back(static_cast<float>(static_cast<double>(p.segments) * scale));
-        branches.values.push_back(static_cast<float>(static_cast<double>(p.branches) * scale));
-    }
-    return {std::move(scatter), std::move(segments), std::move(branches), std::move(guided)};
+        scatter.values[i] = p.opacity / static_cast<float>(std::max(p.featured, 1u));
+        guided.values[i] = static_cast<float>(p.guided * scale);
+        segments.values[i] = static_cast<float>(static_cast<double>(p.segments) * scale);
+        branches.values[i] = static_cast<float>(static_cast<double>(p.branches) * scale);
+    });
+    return list_of(std::move(scatter), std::move(segments), std::move(branches), std::move(guided));
 }
 
 std::vector<Layer> Film::part_layers(const Halves& weights) const {
@@ -93,7 +115,7 @@ std::vector<Layer> Film::half_layers(const Halves& weights) const {
             b.values.push_back(static_cast<float>(mean - difference));
         }
     }
-    return {std::move(a), std::move(b)};
+    return list_of(std::move(a), std::move(b));
 }
 
 std::vector<Layer> Film::geometry_layers() const {
@@ -108,10 +130,13 @@ std::vector<Layer> Film::geometry_layers() const {
             face_normal.values.push_back(geometry_[i].face_normal[c] / n);
         }
     }
-    return {std::move(position), std::move(face_normal)};
+    return list_of(std::move(position), std::move(face_normal));
 }
 
 std::vector<Layer> Film::object_layers() const {
+    if (coverage_.empty()) {
+        return {};
+    }
     std::vector<float> rays;
     for (const Pixel& pixel : pixels_) {
         rays.push_back(static_cast<float>(std::max(pixel.featured, 1u)));
