@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
+
+from ._film import Film
+from ._scene_reader import SceneReader
+
+#: Of pictures of how lights are shaped.
+_SHAPED_SIDE = 512
 
 
 def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
@@ -17,3 +26,22 @@ def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float
     z = np.copysign(1 - r**2, signed)
     ring = r * np.sqrt(np.maximum(2 - r**2, 0))
     return np.copysign(np.cos(phi), u) * ring, np.copysign(np.sin(phi), v) * ring, z
+
+
+def add_thrown(reader: SceneReader, intensity: Any, factor_of: Callable[..., npt.NDArray[np.float64]]) -> None:
+    """Adds a light without a size.
+
+    Args:
+        reader: of the scene.
+        intensity: a colour.
+        factor_of: of x, y and z of directions in the light's own space, what multiplies it there.
+    """
+    # pbrt's pole is y.
+    x, z, y = directions(_SHAPED_SIDE)
+    factor = factor_of(x, y, z)
+    if factor.max() <= 0:
+        return
+    file = reader.map_file(f"shape{len(reader.builder)}.exr")
+    picture = np.repeat((factor / factor.max()).astype(np.float32)[:, :, None], 3, axis=2)
+    Film.of(picture).save(file)
+    reader.builder.add("LightSource", "goniometric", {"rgb I": intensity * factor.max(), "string filename": file})
