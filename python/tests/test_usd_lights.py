@@ -215,6 +215,16 @@ def test_rims_of_cones_fall_off_by_the_angle(stage):
         assert image[45, column] == pytest.approx(np.full(3, expected), rel=0.02)
 
 
+@pytest.mark.parametrize("kind", ["SphereLight", "DiskLight", "RectLight", "CylinderLight"])
+def test_mirrored_lights_shine_where_others_do(stage, kind):
+    stage.card()
+    prim = stage.lamp(kind, place=(0.5, 0.3, 0), turn=(0, 20, 0), intensity=10.0)
+    as_it_is = stage.image(spp=256).mean()
+    UsdGeom.XformCommonAPI(prim).SetScale(Gf.Vec3f(-1, 1, 1))
+    assert stage.image(spp=256).mean() == pytest.approx(as_it_is, rel=0.02)
+    assert as_it_is > 0.01
+
+
 def test_lights_by_old_names_are_read(stage):
     prim = stage.lamp("RectLight")
     for name, kind, value in (

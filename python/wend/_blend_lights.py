@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ._blend_nodes import Nodes, output_node
 from ._blend_profiles import profile_of, seen_along
 from ._ies import Profile
-from ._scene_reader import Places, SceneReader
+from ._scene_reader import Places, SceneReader, unmirrored
 from ._sky import add_thrown
 
 Matrix = npt.NDArray[np.float64]
@@ -107,7 +107,7 @@ def _point(reader: SceneReader, place: str, lamp: Any, places: Places, power: An
     radius = float(lamp.shadow_soft_size)
     if radius > 0:
         power = power * _unnormalised(lamp, 4 * math.pi * radius**2)
-        reader.put(_unscaled(places))
+        reader.put(unmirrored(_unscaled(places)))
         _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius}, {})
     else:
         power = power * _unnormalised(lamp, _OF_POINTS)
@@ -128,7 +128,7 @@ def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
         # The cone of what moves does not turn.
         turns = np.abs(places[0, :3, :3] - places[1, :3, :3]).max() > 1e-6
         held = np.array([reader.held(places, place)] * 2) if turns else places
-        reader.put(_TURNED @ _unscaled(held))
+        reader.put(unmirrored(_TURNED @ _unscaled(held)))
         radiance = power * _unnormalised(lamp, 4 * math.pi * radius**2) / (4 * math.pi**2 * radius**2)
         _shine(reader, radiance, is_seen, "sphere", {"float radius": radius}, cone)
         return
@@ -156,7 +156,7 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     area = (math.pi if is_round else 4.0) * x * y * stretched
     radiance = power * _unnormalised(lamp, area) / (math.pi * max(area, 1e-30))
     if is_round:
-        reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ places)
+        reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ unmirrored(places))
         _shine(reader, radiance, is_seen, "disk", {"float radius": 1}, profile)
         return
     # Seen from -z, where it shines, the corners go around against the clock.

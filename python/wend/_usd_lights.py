@@ -14,7 +14,7 @@ from pxr import UsdGeom, UsdLux  # type: ignore[import-not-found,import-untyped,
 from . import _ies
 from . import _usd_blender as blender
 from ._film import Film, read
-from ._scene_reader import Places
+from ._scene_reader import Places, unmirrored
 from ._sky import add_thrown
 from ._usd_files import file_of
 
@@ -271,7 +271,7 @@ def _scales(world: Matrix) -> npt.NDArray[np.float64]:
 def _shine(
     reader: Any, prim: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]
 ) -> None:
-    reader.put(world)
+    reader.put(world if kind == "trianglemesh" else unmirrored(world))
     if blender.is_unseen(reader, prim):
         reader.builder.add("AreaLightSource", "diffuse", light | {"bool solid": False})
         reader.builder.add("Material", "interface")
