@@ -178,6 +178,7 @@ class Nodes:
             kind,
             power,
             is_by_uv=reach.is_by_uv and not (is_normal and reach.has_bumps),
+            is_even=reach.is_even and not is_normal,
             is_unit=is_normal,
         )
         return self._picture_of(wanted, label)
@@ -188,13 +189,16 @@ class Nodes:
             return None
         reach = Reach(self, self.bakery.uv_name)
         reach.follow(output.inputs["Surface"])
-        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_unit=True)
+        if reach.sees:
+            self.warn(reach.sees, "Emission depends on from where it is seen, and is baked as seen from above")
+        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_even=reach.is_even, is_unit=True)
         return self._picture_of(wanted, "Emission")
 
     def _picture_of(self, wanted: Wanted, label: str) -> dict[str, Any]:
         assert self.bakery is not None
-        side = self.bakery.side
-        self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
+        if not wanted.is_even:
+            side = self.bakery.side
+            self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
         return self.bakery.picture(wanted)
 
     def groups_to(self, tree: Any) -> tuple[str, ...]:
