@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_angles import View, texture_by_view, value_seen
 from ._blend_pictures import picture_texture
 from ._blend_reach import Reach
 from ._blend_wanted import Probe, Wanted
@@ -46,6 +47,7 @@ class Nodes:
         #: Of each tree that was entered, by its address: the group's node, whose inputs are those of the tree.
         self._entered: dict[int, Any] = {}
         self._textures = 0
+        self._view: View | None = None  #: from where values are asked for
 
     def warn(self, node: Any, text: str) -> None:
         self.reader.tell(f"{self.place}, node '{node.name}'", text)
@@ -135,12 +137,12 @@ class Nodes:
 
     def texture(self, socket: Any, kind: str, power: float = 1) -> str | None:
         """The name of a texture that the input follows; None where there is no counterpart."""
-        name = None
         with self.aside():
             found = self.source(socket)
             if found is None or not found.is_output:
                 return None
-            if not self.bakes_all and power == 1:
+            name = texture_by_view(self, socket, kind, power)
+            if name is None and not self.bakes_all and power == 1:
                 if found.node.bl_idname == "ShaderNodeTexImage" and found.node.image:
                     name = picture_texture(self, found.node, kind, found.name == "Alpha")
                 elif found.node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
@@ -215,6 +217,14 @@ class Nodes:
             label = found.node.bl_idname.removeprefix("ShaderNode")
             self.warn(socket.node, f"{label} as {socket.name} is left out")
 
+    def seen_at(self, socket: Any, view: View) -> Colour | None:
+        """The same where a surface is seen from there: None where that is not all that it depends on."""
+        self._view = view
+        try:
+            return self.known(socket)
+        finally:
+            self._view = None
+
     def known(self, socket: Any, depth: int = 0) -> Colour | None:
         """None where it is not the same everywhere."""
         with self.aside():
@@ -232,6 +242,8 @@ class Nodes:
         if kind in ("ShaderNodeValue", "ShaderNodeRGB"):
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
         inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
+        if self._view is not None and (seen := value_seen(node, found.name, inputs, self._view)) is not None:
+            return seen
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
             return blackbody(float(inputs[0][0]))
         if kind == "ShaderNodeLightFalloff" and found.name == "Quadratic" and inputs[1] is not None and inputs[1][0] == 0:
