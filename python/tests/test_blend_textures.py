@@ -304,10 +304,10 @@ def test_what_has_no_faces_or_no_finite_uvs(scene):
 
 
 def test_what_depends_on_the_eye_is_named(scene):
-    mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("LayerWeight", 1)))
+    mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("CameraData", 1)))
     lamp(scene, "POINT", 1, (0, 0, 3))
     _, texts = told(scene, bake_resolution=16)
-    assert any("Layer Weight" in text and "from where it is seen" in text for text in texts)
+    assert any("Camera Data" in text and "from where it is seen" in text for text in texts)
 
 
 @pytest.mark.parametrize("output", ["Random", "Color"])

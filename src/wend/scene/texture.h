@@ -53,7 +53,8 @@ struct SidesTexture {
 
 /// By the angle from which a surface is seen, which makes what it scatters another from there and back again.
 struct FacingTexture {
-    /// One at least: at cosines as far from each other, from 0, where the view grazes the surface, to 1; linear between.
+    /// One at least: at cosines as far from each other, from 0, where the view grazes the surface, to 1; linear
+    /// between.
     std::shared_ptr<const std::vector<Rgb>> values;
 };
 
@@ -129,8 +130,8 @@ struct RelativeAlbedoTexture {
 };
 
 using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, SidesTexture,
-                             FacingTexture, BilerpTexture, ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture,
-                             MeshTexture, RelativeAlbedoTexture>;
+                             FacingTexture, BilerpTexture, ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture,
+                             MarbleTexture, MeshTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {
