@@ -158,6 +158,12 @@ def check(scene, tmp_path, spp=256, tolerance=0.01, sampling="classical", cycles
     return ours
 
 
+def told(scene, **options):
+    with pytest.warns(wend.SceneWarning) as found:
+        blend.of_scene(scene, **options)
+    return " ".join(str(w.message) for w in found if w.category is wend.SceneWarning)
+
+
 def straight(moving):
     """Moves it along x from frame 1 to 3, without the ease that Blender gives to keys."""
     start = moving.location.x

@@ -22,17 +22,12 @@ from blender_scene import (  # noqa: E402, F401
     scene,
     sky,
     takes,
+    told,
 )
 
 from wend import blend  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
-
-
-def told(scene, **options):
-    with pytest.warns(wend.SceneWarning) as found:
-        blend.of_scene(scene, **options)
-    return " ".join(str(w.message) for w in found if w.category is wend.SceneWarning)
 
 
 def squares(tmp_path, name="map", opacity=False, side=256):
@@ -336,52 +331,6 @@ def test_what_shines_through_a_mask(scene, tmp_path):
     link(tree, mixed, tree.nodes[0].inputs["Surface"])
     mesh(scene, "plane", made, place=(0, 0, 1), size=1.5)
     check(scene, tmp_path, 256, tolerance=0.015)
-
-
-def shown_otherwise(scene):
-    """A world that the camera sees as another one than what lights."""
-    tree = scene.world.node_tree
-    background, end = tree.nodes["Background"], tree.get_output_node("CYCLES")
-    background.inputs["Color"].default_value = (1, 0.5, 0.2, 1)
-    other, mixed = node(tree, "Background", color=(0, 0, 0.1)), node(tree, "MixShader")
-    link(tree, node(tree, "LightPath"), mixed.inputs[0], "Is Camera Ray")
-    link(tree, background, mixed.inputs[1])
-    link(tree, other, mixed.inputs[2])
-    link(tree, mixed, end.inputs["Surface"])
-
-
-def test_a_world_lights_as_other_rays_see_it(scene, tmp_path):
-    shown_otherwise(scene)
-    floor(scene)
-    mesh(scene, "cube", material("BsdfDiffuse"), place=(0, 0, 0.5))
-    camera(scene, (0, -4, 5), (0, 0, 0.5))
-    check(scene, tmp_path, 256, tolerance=0.015)
-    assert "everywhere as diffuse surfaces see it" in told(scene)
-    assert not [world for world in bpy.data.worlds if world.name != "world"]
-
-
-def test_a_world_that_the_camera_does_not_see_lights(scene, tmp_path):
-    tree = scene.world.node_tree
-    link(tree, node(tree, "TexGradient"), tree.nodes["Background"].inputs["Color"])
-    scene.world.cycles_visibility.camera = False
-    floor(scene)
-    camera(scene, (0, -4, 5), (0, 0, 0.5))
-    check(scene, tmp_path, 256)
-
-
-def test_a_world_is_that_of_the_frame(scene, tmp_path):
-    tree = scene.world.node_tree
-    background = tree.nodes["Background"]
-    link(tree, node(tree, "TexGradient"), background.inputs["Color"])
-    for frame, strength in ((1, 0.2), (10, 2.0)):
-        background.inputs["Strength"].default_value = strength
-        background.inputs["Strength"].keyframe_insert("default_value", frame=frame)
-    floor(scene)
-    camera(scene, (0, -4, 5), (0, 0, 0.5))
-    scene.frame_set(1)
-    ours = blend.of_scene(scene, frame=10, spp=256).scene()
-    scene.frame_set(10)
-    agree(blocks(wend.render(ours, sampling="classical").image), blocks(by_cycles(scene, tmp_path, 256)))
 
 
 @pytest.mark.parametrize(

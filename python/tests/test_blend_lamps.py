@@ -170,3 +170,19 @@ def test_lamps_are_seen_by_mirrors_and_are_in_nobodys_way(scene, tmp_path, seen)
     lamp(scene, "AREA", 100, (-1, -1, 3), (0.3, -0.3, 0), size=1.5).visible_camera = seen
     lamp(scene, "SUN", 1, (0, 0, 9), (0.3, -0.3, 0), angle=0.6)
     check(scene, tmp_path, 4000)
+
+
+@pytest.mark.parametrize("size", [(-1, 1, 1), (1, 1, -1)], ids=["sideways", "backwards"])
+@pytest.mark.parametrize("kind", ["POINT", "SPOT", "DISK", "RECTANGLE"])
+def test_mirrored_lamps_shine_where_cycles_has_them(scene, tmp_path, kind, size):
+    """Those that are mirrored along their axis shine backwards."""
+    floor(scene)
+    sky(scene, (0.2, 0.2, 0.2))
+    camera(scene, (0, -4, 5), (0, 0, 0))
+    settings = {"spot_size": 1.5, "spot_blend": 0.5} if kind == "SPOT" else {}
+    if kind in ("POINT", "SPOT"):
+        made = lamp(scene, kind, 100, (0.3, 0, 6), (0.1, 0.1, 0), size, shadow_soft_size=0.3, **settings)
+        made.data.use_soft_falloff = False
+    else:
+        lamp(scene, "AREA", 100, (0.3, 0, 6), (0.1, 0.1, 0), size, shape=kind, size=0.8)
+    check(scene, tmp_path, 500, tolerance=0.015)

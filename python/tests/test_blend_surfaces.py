@@ -152,3 +152,21 @@ def test_strands_of_particles(scene, tmp_path, children, grows_on):
     scene.cycles_curves.shape = "THICK"
     # Blender puts the strands elsewhere each time.
     check(scene, tmp_path, 1024, tolerance=HAIR, keeps=False)
+
+
+@pytest.mark.parametrize("share", [None, 0.3])
+def test_what_is_transparent_has_its_colour(scene, tmp_path, share):
+    """A ball, or its mixture with a matt one; the shadow of it is not black."""
+    floor(scene)
+    sky(scene, (0.5, 0.6, 0.8))
+    made = material("BsdfTransparent", color=(0.8, 0.3, 0.2))
+    if share is not None:
+        made = material("MixShader")
+        tree = made.node_tree
+        mixed = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeMixShader")
+        mixed.inputs[0].default_value = share
+        link(tree, node(tree, "BsdfTransparent", color=(0.8, 0.3, 0.2)), mixed.inputs[1])
+        link(tree, node(tree, "BsdfDiffuse", color=(0.1, 0.1, 0.8)), mixed.inputs[2])
+    mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
+    lamp(scene, "SUN", 2, (0, 0, 9), (0.5, 0.3, 0), angle=0.5)
+    check(scene, tmp_path, 500, tolerance=0.015)

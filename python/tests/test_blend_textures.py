@@ -1,5 +1,7 @@
 """Textures of Blender that have no counterpart: what is baked of them, against Cycles."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -302,7 +304,28 @@ def test_what_has_no_faces_or_no_finite_uvs(scene):
 
 
 def test_what_depends_on_the_eye_is_named(scene):
-    mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("LayerWeight", 1)))
+    mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("CameraData", 1)))
     lamp(scene, "POINT", 1, (0, 0, 3))
     _, texts = told(scene, bake_resolution=16)
-    assert any("Layer Weight" in text and "from where it is seen" in text for text in texts)
+    assert any("Camera Data" in text and "from where it is seen" in text for text in texts)
+
+
+@pytest.mark.parametrize("output", ["Random", "Color"])
+def test_objects_with_one_mesh_look_as_each_is(scene, tmp_path, output):
+    sky(scene, (1, 1, 1))
+    made = takes("BsdfDiffuse", "Color", texture("ObjectInfo", output))
+    first = mesh(scene, "cube", made, size=0.8, place=(-1.5, 0, 0.4))
+    objects = [first, *(add(scene, f"copy {i}", first.data, (i - 0.5, 0, 0.4), (0, 0, 0.3 * i)) for i in range(3))]
+    for i, copy in enumerate(objects):
+        copy.color = (0.2 * i + 0.1, 0.8 - 0.2 * i, 0.3, 1)
+    check(scene, tmp_path, 128)
+
+
+def test_what_is_even_needs_no_warning(scene):
+    made = takes("BsdfDiffuse", "Color", texture("ObjectInfo", "Color"))
+    first = mesh(scene, "cube", made)
+    add(scene, "copy", first.data, (2, 0, 0)).color = (1, 0, 0, 1)
+    lamp(scene, "SUN", 1, (0, 0, 9))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", wend.SceneWarning)
+        blend.of_scene(scene)

@@ -213,3 +213,39 @@ def test_rims_of_cones_fall_off_by_the_angle(stage):
         t = min(max((angle - 10) / 30, 0), 1)
         expected = straight * math.cos(math.radians(angle)) ** 3 * (1 - t * t * (3 - 2 * t))
         assert image[45, column] == pytest.approx(np.full(3, expected), rel=0.02)
+
+
+@pytest.mark.parametrize("kind", ["SphereLight", "DiskLight", "RectLight", "CylinderLight"])
+def test_mirrored_lights_shine_where_others_do(stage, kind):
+    stage.card()
+    prim = stage.lamp(kind, place=(0.5, 0.3, 0), turn=(0, 20, 0), intensity=10.0)
+    as_it_is = stage.image(spp=256).mean()
+    UsdGeom.XformCommonAPI(prim).SetScale(Gf.Vec3f(-1, 1, 1))
+    assert stage.image(spp=256).mean() == pytest.approx(as_it_is, rel=0.02)
+    assert as_it_is > 0.01
+
+
+def test_lights_by_old_names_are_read(stage):
+    prim = stage.lamp("RectLight")
+    for name, kind, value in (
+        ("intensity", "Float", 4.0), ("exposure", "Float", 1.0), ("color", "Color3f", (1, 0.5, 0.25)),
+        ("width", "Float", 2.0), ("height", "Float", 20.0), ("normalize", "Bool", True),
+    ):  # fmt: skip
+        prim.CreateAttribute(name, getattr(Sdf.ValueTypeNames, kind)).Set(value)
+    # What is said by the new name counts.
+    prim.GetAttribute("inputs:height").Set(2.0)
+    assert middle(stage.image()) == pytest.approx(np.array([2, 1, 0.5]), rel=1e-3)
+    prim.GetAttribute("intensity").Set(8.0, 1)
+    prim.GetAttribute("intensity").Set(16.0, 3)
+    assert middle(stage.image(time=2)) == pytest.approx(np.array([6, 3, 1.5]), rel=1e-3)
+
+
+def test_old_names_in_instances_are_named(stage):
+    stage.stage.DefinePrim("/group")
+    light = stage.stage.DefinePrim("/group/light", "RectLight")
+    light.CreateAttribute("intensity", Sdf.ValueTypeNames.Float).Set(4.0)
+    instance = stage.stage.DefinePrim("/instance")
+    instance.GetReferences().AddInternalReference("/group")
+    instance.SetInstanceable(True)
+    with pytest.warns(wend.SceneWarning, match="/instance/light.*before USD 21.02"):
+        stage.read()

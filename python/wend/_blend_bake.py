@@ -98,7 +98,7 @@ class Bakery:
 
     def suffix(self, modes: set[str]) -> str:
         """Of the name of a material that wants these modes: the same for all objects that can share it."""
-        is_own = "object" in modes or (self.bakes_all and modes) or ("unit" in modes and self.rect() != _UNIT)
+        is_own = not modes.isdisjoint({"object", "own"}) or (self.bakes_all and modes) or ("unit" in modes and self.rect() != _UNIT)
         if is_own:
             return f" of {self.name} {self._number}"
         return f" {self.rect()}" if "uv" in modes and self.rect() != _UNIT else ""
@@ -116,9 +116,15 @@ class Bakery:
 
     def _rect_of(self, wanted: Wanted) -> Rect | None:
         """None: by the object."""
+        if wanted.is_even:
+            return _UNIT
         if self.bakes_all or not wanted.is_by_uv or (wanted.is_unit and self.rect() != _UNIT):
             return None
         return self.rect()
+
+    def side_of(self, wanted: Wanted) -> int:
+        """Of its picture, in pixels."""
+        return 4 if wanted.is_even else self.side
 
     # ---- Baking ----
 
@@ -147,7 +153,7 @@ class Bakery:
         """Black where that fails, as for a mesh without faces."""
         if len(mesh.polygons):
             try:
-                return _baked(scene, mesh, slots, self._place, wanted, self.side, self._like)
+                return _baked(scene, mesh, slots, self._place, wanted, self.side_of(wanted), self._like)
             except RuntimeError as error:
                 self._all.reader.tell(f"object '{self.name}'", f"what cannot be baked is black: {str(error).strip()}")
         return np.zeros((1, 1, 3), dtype=np.float32)

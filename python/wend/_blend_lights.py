@@ -9,7 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._blend_nodes import Nodes, output_node
-from ._scene_reader import Places, SceneReader
+from ._blend_profiles import profile_of, seen_along
+from ._ies import Profile
+from ._scene_reader import Places, SceneReader, unmirrored
+from ._sky import add_thrown
 
 Matrix = npt.NDArray[np.float64]
 
@@ -24,10 +27,9 @@ def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool
     """A lamp where the shutter opens and where it closes. `is_seen`: by the camera, as far as it has a size."""
     place = f"light '{name}'"
     kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
+    strength, profile = np.ones(3), None
     if lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
-        strength = _strength_of_nodes(reader, place, lamp)
-    else:
-        strength = np.ones(3)
+        strength, profile = _strength_of_nodes(reader, place, lamp)
     power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength
     if getattr(lamp, "use_temperature", False):
         power = power * np.array(lamp.temperature_color, dtype=np.float64)
@@ -39,20 +41,55 @@ def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool
     if power.max() <= 0:
         return
     with reader.builder.block():
+        if profile is not None or (lamp.type == "SPOT" and _is_uneven(places)):
+            _thrown(reader, place, lamp, places, power, profile)
+            return
         kinds[lamp.type](reader, place, lamp, places, power, is_seen)
 
 
-def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> npt.NDArray[np.float64]:
-    """Colour and strength of the emission that a lamp's nodes are, where they are no more than that."""
+def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> tuple[npt.NDArray[np.float64], Profile | None]:
+    """Colour and strength of the emission that a lamp's nodes are, where they are no more than that, and its profile."""
     nodes = Nodes(reader, place, "")
     output = output_node(lamp.node_tree)
     node = nodes.shader(output.inputs["Surface"]) if output is not None else None
     if node is None:
-        return np.zeros(3)
-    if node.bl_idname == "ShaderNodeEmission":
-        return nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"])
-    reader.tell(place, "the nodes of a light are left out, but for an emission")
-    return np.ones(3)
+        return np.zeros(3), None
+    if node.bl_idname != "ShaderNodeEmission":
+        reader.tell(place, "the nodes of a light are left out, but for an emission")
+        return np.ones(3), None
+    if lamp.type in ("POINT", "SPOT"):
+        profile, factor = profile_of(nodes, node.inputs["Strength"])
+        if profile is not None:
+            return nodes.colour(node.inputs["Color"]) * factor, profile
+    return nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), None
+
+
+def _is_uneven(places: Places) -> bool:
+    scale = np.linalg.norm(places[0, :3, :3], axis=-1)
+    return bool(np.ptp(scale) > 1e-3 * scale.max())
+
+
+def _thrown(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, profile: Profile | None) -> None:
+    """A point or a spot as a point whose light goes by a profile, or in a cone that is scaled unevenly."""
+    radius = float(lamp.shadow_soft_size)
+    if radius > 0:
+        reader.tell(place, "a lamp with a profile, or a cone that is not round, is taken as a point: its shadows are hard")
+    held = reader.held(places, place)
+    scale = np.maximum(np.linalg.norm(held[:3, :3], axis=-1), 1e-30)
+
+    def factor(x: Matrix, y: Matrix, z: Matrix) -> Matrix:
+        result = np.ones_like(z) if profile is None else seen_along(profile, x, y, z)
+        if lamp.type == "SPOT":
+            along = -z / scale[2]
+            cosine = along / np.sqrt((x / scale[0]) ** 2 + (y / scale[1]) ** 2 + along**2)
+            edge = math.cos(min(float(lamp.spot_size) / 2, math.radians(89.9)))
+            t = np.clip((cosine - edge) / max(float(lamp.spot_blend) * (1 - edge), 1e-6), 0, 1)
+            result = result * t * t * (3 - 2 * t)
+        return result
+
+    area = 4 * math.pi * radius**2 if radius > 0 else _OF_POINTS
+    reader.builder.add("Transform", _unscaled(held))
+    add_thrown(reader, power * _unnormalised(lamp, area) / (4 * math.pi), factor)
 
 
 def _shine(
@@ -70,7 +107,7 @@ def _point(reader: SceneReader, place: str, lamp: Any, places: Places, power: An
     radius = float(lamp.shadow_soft_size)
     if radius > 0:
         power = power * _unnormalised(lamp, 4 * math.pi * radius**2)
-        reader.put(_unscaled(places))
+        reader.put(unmirrored(_unscaled(places)))
         _shine(reader, power / (4 * math.pi**2 * radius**2), is_seen, "sphere", {"float radius": radius}, {})
     else:
         power = power * _unnormalised(lamp, _OF_POINTS)
@@ -91,7 +128,7 @@ def _spot(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
         # The cone of what moves does not turn.
         turns = np.abs(places[0, :3, :3] - places[1, :3, :3]).max() > 1e-6
         held = np.array([reader.held(places, place)] * 2) if turns else places
-        reader.put(_TURNED @ _unscaled(held))
+        reader.put(unmirrored(_TURNED @ _unscaled(held)))
         radiance = power * _unnormalised(lamp, 4 * math.pi * radius**2) / (4 * math.pi**2 * radius**2)
         _shine(reader, radiance, is_seen, "sphere", {"float radius": radius}, cone)
         return
@@ -119,7 +156,7 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     area = (math.pi if is_round else 4.0) * x * y * stretched
     radiance = power * _unnormalised(lamp, area) / (math.pi * max(area, 1e-30))
     if is_round:
-        reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ places)
+        reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ unmirrored(places))
         _shine(reader, radiance, is_seen, "disk", {"float radius": 1}, profile)
         return
     # Seen from -z, where it shines, the corners go around against the clock.

@@ -344,9 +344,14 @@ def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
 
 
 def _transparent(nodes: Nodes, node: Any) -> _Surface:
-    if np.abs(nodes.colour(node.inputs["Color"]) - 1).max() > 1e-3:
-        nodes.warn(node, "the colour of what is transparent is left out")
-    return _Surface(is_clear=True)
+    colour = nodes.known(node.inputs["Color"])
+    if colour is not None and np.abs(colour - 1).max() < 1e-3:
+        return _Surface(is_clear=True)
+    nodes.warn(node, "what is transparent and has a colour lets no light of lamps without a size through")
+    # A pane that reflects nothing.
+    material: dict[str, Any] = {"string type": "thindielectric", "float eta": 1.0}
+    nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
+    return _Surface(material)
 
 
 def _translucent(nodes: Nodes, node: Any) -> _Surface:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_angles import View, texture_by_view, value_seen
 from ._blend_pictures import picture_texture
 from ._blend_reach import Reach
 from ._blend_wanted import Probe, Wanted
@@ -46,6 +47,7 @@ class Nodes:
         #: Of each tree that was entered, by its address: the group's node, whose inputs are those of the tree.
         self._entered: dict[int, Any] = {}
         self._textures = 0
+        self._view: View | None = None  #: from where values are asked for
 
     def warn(self, node: Any, text: str) -> None:
         self.reader.tell(f"{self.place}, node '{node.name}'", text)
@@ -135,12 +137,12 @@ class Nodes:
 
     def texture(self, socket: Any, kind: str, power: float = 1) -> str | None:
         """The name of a texture that the input follows; None where there is no counterpart."""
-        name = None
         with self.aside():
             found = self.source(socket)
             if found is None or not found.is_output:
                 return None
-            if not self.bakes_all and power == 1:
+            name = texture_by_view(self, socket, kind, power)
+            if name is None and not self.bakes_all and power == 1:
                 if found.node.bl_idname == "ShaderNodeTexImage" and found.node.image:
                     name = picture_texture(self, found.node, kind, found.name == "Alpha")
                 elif found.node.bl_idname in ("ShaderNodeMix", "ShaderNodeMixRGB"):
@@ -178,6 +180,7 @@ class Nodes:
             kind,
             power,
             is_by_uv=reach.is_by_uv and not (is_normal and reach.has_bumps),
+            is_even=reach.is_even and not is_normal,
             is_unit=is_normal,
         )
         return self._picture_of(wanted, label)
@@ -188,13 +191,16 @@ class Nodes:
             return None
         reach = Reach(self, self.bakery.uv_name)
         reach.follow(output.inputs["Surface"])
-        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_unit=True)
+        if reach.sees:
+            self.warn(reach.sees, "Emission depends on from where it is seen, and is baked as seen from above")
+        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_even=reach.is_even, is_unit=True)
         return self._picture_of(wanted, "Emission")
 
     def _picture_of(self, wanted: Wanted, label: str) -> dict[str, Any]:
         assert self.bakery is not None
-        side = self.bakery.side
-        self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
+        if not wanted.is_even:
+            side = self.bakery.side
+            self.reader.tell(f"object '{self.bakery.name}'", f"{self.place}, {label} is baked, {side} x {side}", each=True)
         return self.bakery.picture(wanted)
 
     def groups_to(self, tree: Any) -> tuple[str, ...]:
@@ -210,6 +216,14 @@ class Nodes:
         if found is not None:
             label = found.node.bl_idname.removeprefix("ShaderNode")
             self.warn(socket.node, f"{label} as {socket.name} is left out")
+
+    def seen_at(self, socket: Any, view: View) -> Colour | None:
+        """The same where a surface is seen from there: None where that is not all that it depends on."""
+        self._view = view
+        try:
+            return self.known(socket)
+        finally:
+            self._view = None
 
     def known(self, socket: Any, depth: int = 0) -> Colour | None:
         """None where it is not the same everywhere."""
@@ -228,6 +242,8 @@ class Nodes:
         if kind in ("ShaderNodeValue", "ShaderNodeRGB"):
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
         inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
+        if self._view is not None and (seen := value_seen(node, found.name, inputs, self._view)) is not None:
+            return seen
         if kind == "ShaderNodeBlackbody" and inputs[0] is not None:
             return blackbody(float(inputs[0][0]))
         if kind == "ShaderNodeLightFalloff" and found.name == "Quadratic" and inputs[1] is not None and inputs[1][0] == 0:

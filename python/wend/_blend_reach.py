@@ -18,8 +18,9 @@ _PLAIN = {
         "VectorRotate", "Wavelength",
     )
 }  # fmt: skip
-#: That differ between instances of one object.
+#: That differ between copies of one object, but for these outputs.
 _PLACED = {"ShaderNode" + name for name in ("NewGeometry", "ObjectInfo", "ParticleInfo", "HairInfo")}
+_ALIKE = {"Backfacing", "Parametric", "Pointiness", "Random Per Island"}
 #: That depend on what is around an object.
 _AROUND = {"ShaderNodeAmbientOcclusion", "ShaderNodeBevel"}
 #: That depend on from where they are seen.
@@ -44,8 +45,9 @@ class Reach:
 
     def __init__(self, nodes: Nodes, uv_name: str) -> None:
         self.is_by_uv = True  #: whether they depend on that and nothing else
+        self.is_even = True  #: whether they are the same all over an object
         self.has_bumps = False
-        self.is_by_place = False  #: whether instances of one object differ
+        self.is_by_place = False  #: whether copies of one object differ
         self.feels: Any = None  #: a node that depends on what is around the object
         self.sees: Any = None  #: a node that depends on from where it is seen
         self._nodes, self._uv_name = nodes, uv_name
@@ -70,7 +72,8 @@ class Reach:
         self.has_bumps = self.has_bumps or kind == "ShaderNodeBump"
         by_object = kind == "ShaderNodeAttribute" and node.attribute_type in ("OBJECT", "INSTANCER")
         by_other = by_object or (kind == "ShaderNodeTexCoord" and found.name == "Object" and node.object is not None)
-        self.is_by_place = self.is_by_place or kind in _PLACED or by_other
+        self.is_by_place = self.is_by_place or (kind in _PLACED and found.name not in _ALIKE) or by_other
+        self.is_even = self.is_even and (kind in _PLAIN or kind == "ShaderNodeObjectInfo" or by_object)
         if kind in _AROUND and not getattr(node, "only_local", False):
             self.feels = self.feels or node
         if kind in _SEEING or (kind == "ShaderNodeTexCoord" and found.name in ("Camera", "Window", "Reflection")):

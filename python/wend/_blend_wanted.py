@@ -17,12 +17,14 @@ class Wanted:
     kind: str  #: "rgb", "float", "normal" in the frame of the surface, "light", or "albedo" of what is inside
     power: float = 1.0  #: that numbers are raised to; of an albedo, the anisotropy
     is_by_uv: bool = False  #: whether it depends on UV and nothing else
+    is_even: bool = False  #: whether it is the same all over the object
     is_unit: bool = False  #: whether the picture's corners must be 0 and 1
 
 
 class Probe:
     """Stands for a bakery while a material is looked through for what it wants: "picture" is a texture that needs no
-    baking; by UV alone can be baked "uv", and "unit" where that is in the unit square; all else is by "object"."""
+    baking, "own" is the same all over an object; by UV alone can be baked "uv", and "unit" where that is in the unit
+    square; all else is by "object"."""
 
     bakes_all = is_shared = False
     side = 0
@@ -33,5 +35,8 @@ class Probe:
 
     def picture(self, wanted: Wanted) -> dict[str, Any]:
         """Parameters of no texture."""
-        self.modes.add("object" if not wanted.is_by_uv else "unit" if wanted.is_unit else "uv")
+        if wanted.is_even:
+            self.modes.add("own")
+        else:
+            self.modes.add("object" if not wanted.is_by_uv else "unit" if wanted.is_unit else "uv")
         return {"string filename": ""}

@@ -7,15 +7,22 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ._blend_volumes import volume_parameters
 from ._blend_nodes import Nodes, output_node
 from ._film import Film, read
 from ._scene_reader import SceneReader
-from ._sky import equal_area
 
-#: From the sky's picture by latitude and longitude, as OpenEXR has it, to Blender's world: its middle is y, its left -x.
-_WORLD_FROM_SKY = np.array([[-1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
+#: From pbrt's pictures by latitude and longitude, whose middle is towards x and whose left is towards y, to Blender's
+#: world: there the middle is towards y, and the left towards -x.
+_LATLONG = np.array([[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+
+#: Of a panorama, all pixels together, and then once more of those that are bright.
+_SAMPLES = 1 << 23
+
+#: The share of all light that makes a pixel a bright one.
+_BRIGHT = 1e-3
 
 
 def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
@@ -108,7 +115,7 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
     scene = bpy.data.scenes.new("panorama")
     camera = bpy.data.cameras.new("panorama")
     eye = bpy.data.objects.new("panorama", camera)
-    file = reader.map_file("world.latlong.exr")
+    file = reader.map_file("world.exr")
     try:
         scene.collection.objects.link(eye)
         eye.rotation_euler = (np.pi / 2, 0, 0)
@@ -116,23 +123,53 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
         camera.panorama_type = "EQUIRECTANGULAR"
         scene.camera = eye
         scene.render.engine = "CYCLES"
-        scene.cycles.samples = 4
         scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
         scene.cycles.sample_clamp_direct = 0
+        scene.cycles.pixel_filter_type = "BOX"
         scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, width // 2, 100
         scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
         scene.render.filepath, scene.render.use_file_extension = file, False
         scene.frame_set(before.frame_current, subframe=before.frame_subframe)
         with _as_it_lights(nodes, world) as scene.world:
-            bpy.ops.render.render(write_still=True, scene=scene.name)
-        picture = read(file).image
+            picture = _rendered(scene, width * width // 2)
+            _refine(scene, picture)
     finally:
         bpy.data.objects.remove(eye)
         bpy.data.cameras.remove(camera)
         bpy.data.scenes.remove(scene)
-    square = reader.map_file("world.exr")
-    Film.of(equal_area(np.ascontiguousarray(picture))).save(square)
+    Film.of(picture).save(file)
     with reader.builder.block():
-        reader.builder.add("Transform", _WORLD_FROM_SKY)
-        reader.builder.add("LightSource", "infinite", {"string filename": square})
+        reader.builder.add("Transform", _LATLONG)
+        reader.builder.add("LightSource", "infinite", {"string filename": file, "string mapping": "equirectangular"})
     return True
+
+
+def _rendered(scene: Any, pixels: int) -> npt.NDArray[np.float32]:
+    """What the scene's camera sees, of which so many pixels are rendered."""
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
+    scene.cycles.samples = min(max(_SAMPLES // pixels, 4), 16384)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    return np.array(read(scene.render.filepath).image)
+
+
+def _refine(scene: Any, picture: npt.NDArray[np.float32]) -> None:
+    """Renders the rectangle of all bright pixels once more. A sun is a few of them, has most of the light, and that is
+    as exact as it has samples."""
+    height, width = picture.shape[:2]
+    light = picture.sum(axis=2) * np.sin((np.arange(height) + 0.5) * np.pi / height)[:, None]
+    rows, columns = np.nonzero(light > _BRIGHT * light.sum())
+    if not len(rows):
+        return
+    # Its neighbours may have missed their part of it.
+    top, left = max(rows.min() - 2, 0), max(columns.min() - 2, 0)
+    bottom, right = min(rows.max() + 3, height), min(columns.max() + 3, width)
+    if (bottom - top) * (right - left) > picture[..., 0].size // 4:
+        return
+    render = scene.render
+    render.use_border, render.use_crop_to_border = True, False
+    render.border_min_x, render.border_max_x = left / width, right / width
+    render.border_min_y, render.border_max_y = 1 - bottom / height, 1 - top / height
+    finer = _rendered(scene, int((bottom - top) * (right - left)))
+    # Outside of the rectangle it is black.
+    np.copyto(picture, finer, where=finer.any(axis=2, keepdims=True))

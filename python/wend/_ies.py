@@ -69,9 +69,13 @@ def read(path: str | os.PathLike[str]) -> Profile:
     name = os.fspath(path)
     try:
         with open(name, encoding="latin-1") as file:
-            text = file.read()
+            return parsed(file.read(), name)
     except OSError as error:
         raise InputError(f"{name}: error: {error.strerror}") from None
+
+
+def parsed(text: str, name: str) -> Profile:
+    """What is in a file. `name`: of it, for errors; those of `read`."""
     tilt = re.search(r"^TILT\s*=\s*(\S+).*$", text, re.MULTILINE)
     if tilt is None:
         raise InputError(f"{name}: error: no line TILT=, which an IES file has")

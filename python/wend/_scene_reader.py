@@ -94,6 +94,15 @@ class SceneReader:
         add("ActiveTransform", "All")
 
 
+def unmirrored(places: Places) -> Places:
+    """For what looks the same mirrored along x: with that, a place that mirrors is one that does not. pbrt's disks and
+    spheres shine to the other side where they are mirrored."""
+    flips = np.where(np.linalg.det(places[..., :3, :3]) < 0, -1.0, 1.0)
+    result = places.copy()
+    result[..., 0, :3] *= flips[..., None]
+    return result
+
+
 def halfway(places: Places) -> npt.NDArray[np.float64]:
     """Half way between two places: of turns, half the turn."""
     turns, stretches = [], []

@@ -1,9 +1,18 @@
-"""Pictures of the sky."""
+"""Pictures of all directions."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
+
+from ._film import Film
+from ._scene_reader import SceneReader
+
+#: Of pictures of how lights are shaped.
+_SHAPED_SIDE = 512
 
 
 def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
@@ -19,18 +28,20 @@ def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float
     return np.copysign(np.cos(phi), u) * ring, np.copysign(np.sin(phi), v) * ring, z
 
 
-def equal_area(latlong: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
-    """The square picture of a sphere that pbrt wants, of one by latitude and longitude, as OpenEXR has them: the
-    middle is +z, +x is to the left of it, +y on top."""
-    x, y, z = directions(min(max(int(latlong.shape[0]), 16), 2048))
-    longitude, latitude = np.arctan2(x, z), np.arcsin(np.clip(y, -1, 1))
-    height, width = latlong.shape[:2]
-    column = (0.5 - longitude / (2 * np.pi)) * width - 0.5
-    row = np.clip((0.5 - latitude / np.pi) * height - 0.5, 0, height - 1)
-    c0, r0 = np.floor(column).astype(int), np.floor(row).astype(int)
-    fc, fr = (column - c0)[..., None], (row - r0)[..., None]
-    r1 = np.minimum(r0 + 1, height - 1)
-    left, right = c0 % width, (c0 + 1) % width
-    top = latlong[r0, left] * (1 - fc) + latlong[r0, right] * fc
-    bottom = latlong[r1, left] * (1 - fc) + latlong[r1, right] * fc
-    return np.asarray(top * (1 - fr) + bottom * fr, dtype=np.float32)
+def add_thrown(reader: SceneReader, intensity: Any, factor_of: Callable[..., npt.NDArray[np.float64]]) -> None:
+    """Adds a light without a size.
+
+    Args:
+        reader: of the scene.
+        intensity: a colour.
+        factor_of: of x, y and z of directions in the light's own space, what multiplies it there.
+    """
+    # pbrt's pole is y.
+    x, z, y = directions(_SHAPED_SIDE)
+    factor = factor_of(x, y, z)
+    if factor.max() <= 0:
+        return
+    file = reader.map_file(f"shape{len(reader.builder)}.exr")
+    picture = np.repeat((factor / factor.max()).astype(np.float32)[:, :, None], 3, axis=2)
+    Film.of(picture).save(file)
+    reader.builder.add("LightSource", "goniometric", {"rgb I": intensity * factor.max(), "string filename": file})

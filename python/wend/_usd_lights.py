@@ -14,17 +14,14 @@ from pxr import UsdGeom, UsdLux  # type: ignore[import-not-found,import-untyped,
 from . import _ies
 from . import _usd_blender as blender
 from ._film import Film, read
-from ._scene_reader import Places
-from ._sky import directions
+from ._scene_reader import Places, unmirrored
+from ._sky import add_thrown
 from ._usd_files import file_of
 
 Matrix = npt.NDArray[np.float64]
 
 #: From pbrt's pictures by latitude and longitude, whose middle is towards x and whose left is towards y, to a dome's.
 _LATLONG = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
-
-#: Of pictures of how lights are shaped.
-_SHAPED_SIDE = 512
 
 #: Of the rim of a cone, in degrees: what is narrower is finer than such a picture.
 _NARROW = 2.0
@@ -259,16 +256,12 @@ def _throw(
     """A light as a point whose intensity is shaped by direction; on its axis it is what is given. `is_flat`: it shines
     forwards alone, by the cosine."""
     reader.warn(prim, _IS_POINT)
-    # pbrt's pole is y.
-    x, z, y = directions(_SHAPED_SIDE)
-    factor = shaping.factor(reader, prim, x, y, z) * (np.maximum(-z, 0) if is_flat else 1.0)
-    if factor.max() <= 0:
-        return
-    file = reader.map_file(f"shape{len(reader.builder)}.exr")
-    picture = np.repeat((factor / factor.max()).astype(np.float32)[:, :, None], 3, axis=2)
-    Film.of(picture).save(file)
+
+    def factor(x: Matrix, y: Matrix, z: Matrix) -> Matrix:
+        return shaping.factor(reader, prim, x, y, z) * (np.maximum(-z, 0) if is_flat else 1.0)
+
     _stand(reader, prim, world)
-    reader.builder.add("LightSource", "goniometric", {"rgb I": intensity * factor.max(), "string filename": file})
+    add_thrown(reader, intensity, factor)
 
 
 def _scales(world: Matrix) -> npt.NDArray[np.float64]:
@@ -278,7 +271,7 @@ def _scales(world: Matrix) -> npt.NDArray[np.float64]:
 def _shine(
     reader: Any, prim: Any, world: Places, light: dict[str, Any], kind: str, parameters: dict[str, Any]
 ) -> None:
-    reader.put(world)
+    reader.put(world if kind == "trianglemesh" else unmirrored(world))
     if blender.is_unseen(reader, prim):
         reader.builder.add("AreaLightSource", "diffuse", light | {"bool solid": False})
         reader.builder.add("Material", "interface")

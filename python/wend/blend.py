@@ -30,6 +30,7 @@ from . import _blend_lights as lights
 from . import _reader_command as command
 from ._blend_bake import Bakeries
 from ._blend_camera import add_view
+from ._blend_copies import Copies
 from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
@@ -166,6 +167,7 @@ class _Reader(SceneReader):
         self._objects: dict[str, str] = {}
         #: of the object at hand, where it changes its shape
         self.shapes: tuple[Geometry, Geometry] | None = None
+        self.copies = Copies(self, can_render)
         self.view = "shown"  #: of the object at hand: what it is to the camera
 
     def read(
@@ -181,7 +183,8 @@ class _Reader(SceneReader):
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
         seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
-        times = Counter(self.key_of(i.object) for i, shown in zip(depsgraph.object_instances, seen) if shown)
+        self.copies.count(depsgraph, seen)
+        times = Counter(self.copies.key_of(i) for i, shown in zip(depsgraph.object_instances, seen) if shown)
         if self.can_render:
             self.bake(depsgraph, seen, times)
         bar = Bar(os.path.basename(self.builder.name), progress)
@@ -193,7 +196,8 @@ class _Reader(SceneReader):
                 place = motion.places(instance)
                 self.view = view_of(self, instance)
                 self.shapes = motion.shapes(object_)
-                self.add_object(object_, place, object_.name, times[self.key_of(object_)] > 1)
+                key = self.copies.key_of(instance)
+                self.add_object(object_, place, key, times[key] > 1)
             elif instance.show_particles and not instance.is_instance and not instance.object.hide_render:
                 # Strands are there, and what they grow on is not.
                 self.view = view_of(self, instance)
@@ -207,7 +211,7 @@ class _Reader(SceneReader):
         """Makes materials, and pictures of what has no counterpart."""
         self.bakeries = Bakeries(self, depsgraph, self.bake_resolution)
         for instance, shown in zip(depsgraph.object_instances, seen):
-            key = self.key_of(instance.object)
+            key = self.copies.key_of(instance)
             if not shown or instance.object.type not in _SOLID or self.bakeries.get(key):
                 continue
             bakery = self.bakeries.add(instance.object, key, times[key] > 1)
@@ -217,13 +221,6 @@ class _Reader(SceneReader):
             for material in materials:
                 look_of(self, material, bakery)
         self.bakeries.bake(self.scene)
-
-    @staticmethod
-    def key_of(object_: Any) -> str:
-        """Of what it looks like: instances of one thing share it."""
-        data = object_.data
-        materials = " ".join(slot.material.name if slot.material else "" for slot in object_.material_slots)
-        return f"{object_.type} {data.as_pointer() if data is not None else object_.name} {materials}"
 
     @staticmethod
     def is_seen(instance: Any) -> bool:
@@ -238,13 +235,13 @@ class _Reader(SceneReader):
 
     # ---- Objects ----
 
-    def add_object(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
-        kind = object_.type
+    def add_object(self, object_: Any, place: Any, key: str, is_copied: bool) -> None:
+        kind, name = object_.type, object_.name
         if kind == "LIGHT":
             lights.add(self, name, object_.data, place, object_.visible_camera)
             self.has_light = True
         elif kind in _SOLID:
-            self.add_solid(object_, place, name, is_copied)
+            self.add_solid(object_, place, key, is_copied)
         elif kind == "CURVES":
             look = look_of(self, object_.material_slots[0].material if object_.material_slots else None)
             for segment in hair_segments(object_.data):
@@ -264,10 +261,10 @@ class _Reader(SceneReader):
                 for segment in strands(system, None, object_):
                     self.add_shape(_place(np.eye(4)), look, ("curve", segment), name)
 
-    def add_solid(self, object_: Any, place: Any, name: str, is_copied: bool) -> None:
+    def add_solid(self, object_: Any, place: Any, key: str, is_copied: bool) -> None:
+        name = object_.name
         self.add_strands(object_, name)
         materials = [slot.material for slot in object_.material_slots]
-        key = self.key_of(object_)
         seen_key = f"{self.view} {key}"
         if is_copied and seen_key in self._objects:
             with self.builder.block():

@@ -31,6 +31,7 @@ from . import _reader_command as command
 from . import _usd_blender as blender
 from . import _usd_camera as cameras
 from . import _usd_lights as lights
+from . import _usd_old_lights as old_lights
 from . import _usd_materials as materials
 from . import _usd_skeletons as skeletons
 from ._usd_colours import COLOURS, coloured, display_colour
@@ -129,6 +130,7 @@ class _Reader(SceneReader):
         eye = cameras.find(self, path)
         with _named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
+            old_lights.rename(self)
             skeletons.pose(self)
             film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
             exposure = cameras.exposure(self, eye)

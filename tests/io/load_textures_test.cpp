@@ -92,6 +92,17 @@ TEST_F(LoadedTextures, ColoursOfSurfacesEndAtOneBeforeTheyAreMixed) {
     expect_near(listed.scene.textures.evaluate(second.eta, {{0.5f, 0.5f}, {0, 0, 0}}), Rgb(3.0f), 1e-2f);
 }
 
+TEST_F(LoadedTextures, ByTheAngleOfViewTheyHaveOneNumberOrThreeForEachCosine) {
+    // Points are seen straight from above here: the last value.
+    expect_near(reflectance("Texture \"t\" \"spectrum\" \"facing\" \"float values\" [ 1 1 1 .1 .2 .3 ]"),
+                Rgb(0.1f, 0.2f, 0.3f));
+    expect_near(reflectance("Texture \"n\" \"float\" \"facing\" \"float values\" [ 0 .25 ] "
+                            "Texture \"t\" \"spectrum\" \"mix\" \"texture amount\" \"n\""),
+                Rgb(0.25f));
+    EXPECT_THROW(reflectance("Texture \"t\" \"spectrum\" \"facing\" \"float values\" [ 1 1 ]"), InputError);
+    EXPECT_THROW(reflectance("Texture \"t\" \"spectrum\" \"facing\""), InputError);
+}
+
 TEST_F(LoadedTextures, ByFineFiltersPresencesAreTheOpacityAndOtherNumbersAreNot) {
     const LoadedScene loaded = load(
         "Texture \"p\" \"float\" \"imagemap\" \"string filename\" \"leaf.exr\" \"string filter\" \"EWA\" "

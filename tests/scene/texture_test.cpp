@@ -39,6 +39,24 @@ TEST(Texture, SidesAreTold) {
     EXPECT_FALSE(textures.constant(sides));
 }
 
+TEST(Texture, TheAngleOfViewIsTold) {
+    Textures textures;
+    const auto values = [](std::vector<Rgb> of) { return std::make_shared<const std::vector<Rgb>>(std::move(of)); };
+    const TextureId id = textures.add(FacingTexture{values({Rgb(1.0f), Rgb(0.5f), Rgb(0.0f, 0.1f, 0.2f)})});
+    const TextureId one = textures.add(FacingTexture{values({Rgb(0.3f)})});
+    TexturePoint point{{0, 0}, {0, 0, 0}};
+    const auto seen = [&](float cosine) {
+        point.facing = cosine;
+        return textures.evaluate(id, point).b;
+    };
+    EXPECT_EQ(seen(0), 1.0f);
+    EXPECT_NEAR(seen(0.25f), 0.75f, 1e-6f);
+    EXPECT_NEAR(seen(0.75f), 0.35f, 1e-6f);
+    EXPECT_NEAR(seen(1), 0.2f, 1e-6f);
+    EXPECT_NEAR(seen(1.0001f), 0.2f, 1e-6f);
+    EXPECT_EQ(textures.evaluate_grey(one, point), 0.3f);
+}
+
 TEST(Texture, CoordinatesAreMappedByAnyMatrix) {
     const UvMapping mapping{2, 3, 10, 20, 0.5f, 0.25f};
     EXPECT_EQ(mapping({{4, 8}, {0, 0, 0}}), Vec2(2 * 4 + 0.5f * 8 + 10, 0.25f * 4 + 3 * 8 + 20));

@@ -101,6 +101,7 @@ struct Hit {
     Vec2 of_corners{0, 0};  ///< TexturePoint::of_corners
     const Surface* surface = nullptr;
     SurfaceElement element;
+    float facing = 1;              ///< TexturePoint::facing
     bool is_behind = false;        ///< the ray came from where the normal does not point to
     bool against_winding = false;  ///< the normal is not that of the surface's winding, or of its equation
     float clearance = 0;           ///< by how much rounding may have moved the position
@@ -110,7 +111,7 @@ struct Hit {
 
 /// Where textures are evaluated for a hit.
 inline TexturePoint texture_point(const Hit& hit) {
-    return {hit.uv, hit.position, hit.normal, hit.is_behind, hit.element.primitive, hit.of_corners};
+    return {hit.uv, hit.position, hit.normal, hit.is_behind, hit.element.primitive, hit.of_corners, hit.facing};
 }
 
 /// Embree's structures over the scene's surfaces.

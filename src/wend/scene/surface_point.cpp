@@ -181,6 +181,7 @@ Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const P
     const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
     hit.clearance = rounding * (dot(facing, point.largest) + max_of(largest_of(hit.position, hit.position)));
     hit.shading = shading_frame(point.shading, point.tangents);
+    hit.facing = std::abs(dot(ray.direction, hit.shading.n));
     return hit;
 }
 

@@ -112,6 +112,14 @@ Rgb Textures::value_of(const DirectionMixTexture& t, const TexturePoint& p) cons
     return evaluate(t.first, p) * amount + evaluate(t.second, p) * (1 - amount);
 }
 
+Rgb Textures::value_of(const FacingTexture& t, const TexturePoint& p) const {
+    const std::size_t last = t.values->size() - 1;
+    const float place = std::clamp(p.facing, 0.0f, 1.0f) * static_cast<float>(last);
+    const std::size_t below = std::min(static_cast<std::size_t>(place), last);
+    const Rgb &a = (*t.values)[below], &b = (*t.values)[std::min(below + 1, last)];
+    return a + (b - a) * (place - static_cast<float>(below));
+}
+
 Rgb Textures::value_of(const MeshTexture& t, const TexturePoint& p) const {
     const std::size_t first = 3 * (p.triangle % (t.indices->size() / 3));
     const auto corner = [&](std::size_t i) { return (*t.values)[(*t.indices)[first + i]]; };

@@ -51,6 +51,13 @@ struct SidesTexture {
     TextureId back = 0;
 };
 
+/// By the angle from which a surface is seen, which makes what it scatters another from there and back again.
+struct FacingTexture {
+    /// One at least: at cosines as far from each other, from 0, where the view grazes the surface, to 1; linear
+    /// between.
+    std::shared_ptr<const std::vector<Rgb>> values;
+};
+
 /// Bilinear in texture coordinates, from the values at the corners of the unit square: at (0,0), (0,1), (1,0), (1,1).
 struct BilerpTexture {
     Rgb v00, v01, v10, v11;
@@ -123,8 +130,8 @@ struct RelativeAlbedoTexture {
 };
 
 using Texture = std::variant<ConstantTexture, ScaleTexture, MixTexture, DirectionMixTexture, SidesTexture,
-                             BilerpTexture, ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture, MarbleTexture,
-                             MeshTexture, RelativeAlbedoTexture>;
+                             FacingTexture, BilerpTexture, ImageTexture, CheckerboardTexture, DotsTexture, NoiseTexture,
+                             MarbleTexture, MeshTexture, RelativeAlbedoTexture>;
 
 /// A scene's textures. References must point to earlier entries, so that evaluation ends.
 class Textures {
@@ -149,6 +156,7 @@ private:
     Rgb value_of(const SidesTexture& t, const TexturePoint& p) const {
         return evaluate(p.is_behind ? t.back : t.front, p);
     }
+    Rgb value_of(const FacingTexture& t, const TexturePoint& p) const;
     Rgb value_of(const BilerpTexture& t, const TexturePoint& p) const;
     Rgb value_of(const ImageTexture& t, const TexturePoint& p) const;
     Rgb value_of(const CheckerboardTexture& t, const TexturePoint& p) const;

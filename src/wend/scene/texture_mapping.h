@@ -17,6 +17,7 @@ struct TexturePoint {
     bool is_behind = false;      ///< whether it is seen from where the normal does not point to
     std::uint32_t triangle = 0;  ///< of a mesh, and how much of the value is that of its second and third corner
     Vec2 of_corners{0, 0};
+    float facing = 1;  ///< magnitude of the cosine between the interpolated normal and where it is seen from
 };
 
 /// By the surface's own parameters, an affine map of them.

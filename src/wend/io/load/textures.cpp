@@ -83,12 +83,12 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
     static constexpr Loader loaders[] = {
         {"bilerp", &TextureLoader::load_bilerp},     {"checkerboard", &TextureLoader::load_checkerboard},
         {"constant", &TextureLoader::load_constant}, {"directionmix", &TextureLoader::load_direction_mix},
-        {"dots", &TextureLoader::load_dots},         {"fbm", &TextureLoader::load_fractal},
-        {"imagemap", &TextureLoader::load_imagemap}, {"marble", &TextureLoader::load_marble},
-        {"mesh", &TextureLoader::load_mesh},         {"mix", &TextureLoader::load_mix},
-        {"ptex", &TextureLoader::load_ptex},         {"scale", &TextureLoader::load_scale},
-        {"sides", &TextureLoader::load_sides},       {"windy", &TextureLoader::load_windy},
-        {"wrinkled", &TextureLoader::load_wrinkled},
+        {"dots", &TextureLoader::load_dots},         {"facing", &TextureLoader::load_facing},
+        {"fbm", &TextureLoader::load_fractal},       {"imagemap", &TextureLoader::load_imagemap},
+        {"marble", &TextureLoader::load_marble},     {"mesh", &TextureLoader::load_mesh},
+        {"mix", &TextureLoader::load_mix},           {"ptex", &TextureLoader::load_ptex},
+        {"scale", &TextureLoader::load_scale},       {"sides", &TextureLoader::load_sides},
+        {"windy", &TextureLoader::load_windy},       {"wrinkled", &TextureLoader::load_wrinkled},
     };
     for (const Loader& loader : loaders) {
         if (loader.type == texture.type) {
@@ -96,8 +96,8 @@ TextureId TextureLoader::load(const pbrt::TextureEntity& texture) {
         }
     }
     refuse_type("Texture", texture,
-                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "fbm", "imagemap", "marble", "mesh",
-                 "mix", "ptex", "scale", "sides", "windy", "wrinkled"});
+                {"bilerp", "checkerboard", "constant", "directionmix", "dots", "facing", "fbm", "imagemap", "marble",
+                 "mesh", "mix", "ptex", "scale", "sides", "windy", "wrinkled"});
 }
 
 TextureId TextureLoader::load_constant(const pbrt::TextureEntity& texture) {
@@ -267,7 +267,7 @@ TextureId TextureLoader::load_marble(const pbrt::TextureEntity& texture) {
 }
 
 /// What a mesh has at its vertices or on its faces.
-TextureId TextureLoader::load_mesh(const pbrt::TextureEntity& texture) {
+std::shared_ptr<const std::vector<Rgb>> TextureLoader::load_values(const pbrt::TextureEntity& texture) const {
     const pbrt::ParameterSet& p = texture.parameters;
     const std::vector<float> numbers = p.get_floats("values");
     const std::size_t channels = texture.kind == pbrt::TextureKind::real ? 1 : 3;
@@ -279,6 +279,16 @@ TextureId TextureLoader::load_mesh(const pbrt::TextureEntity& texture) {
     for (std::size_t i = 0; i < numbers.size(); i += channels) {
         values->emplace_back(numbers[i], numbers[i + (channels - 1) / 2], numbers[i + channels - 1]);
     }
+    return values;
+}
+
+TextureId TextureLoader::load_facing(const pbrt::TextureEntity& texture) {
+    return textures_.add(FacingTexture{load_values(texture)});
+}
+
+TextureId TextureLoader::load_mesh(const pbrt::TextureEntity& texture) {
+    const pbrt::ParameterSet& p = texture.parameters;
+    std::shared_ptr<const std::vector<Rgb>> values = load_values(texture);
     auto indices = std::make_shared<std::vector<std::uint32_t>>();
     for (const int index : p.get_ints("indices")) {
         if (index < 0 || static_cast<std::size_t>(index) >= values->size()) {

@@ -78,6 +78,7 @@ private:
     TextureId load_wrinkled(const pbrt::TextureEntity& texture);
     TextureId load_windy(const pbrt::TextureEntity& texture);
     TextureId load_marble(const pbrt::TextureEntity& texture);
+    TextureId load_facing(const pbrt::TextureEntity& texture);
     TextureId load_mesh(const pbrt::TextureEntity& texture);
     TextureId load_ptex(const pbrt::TextureEntity& texture);
 
@@ -91,6 +92,8 @@ private:
     TextureId number(const pbrt::ParameterSet& parameters, std::string_view name, float fallback, Use use);
     Channels load_channels(const pbrt::TextureEntity& texture, const std::string& filter) const;
     TextureMapping load_mapping(const pbrt::TextureEntity& texture);
+    /// The numbers "values", three each of colours.
+    std::shared_ptr<const std::vector<Rgb>> load_values(const pbrt::TextureEntity& texture) const;
     /// A value that cannot be a texture itself.
     Rgb plain_value(const pbrt::TextureEntity& texture, std::string_view name, float fallback);
 
