@@ -31,6 +31,8 @@ SCENES = ["fog-door", "cloud"]
 TILE = 16
 # Of the picture that is measured.
 WIDTH, HEIGHT, SAMPLES = 160, 90, 31
+# Learns in every pass, so that as much is exchanged as can be.
+SAMPLING = "direction+roulette+splitting"
 # Of a pixel of the film, and of a record of a vertex, as ranks tell them to each other.
 BYTES_OF_PIXEL, BYTES_OF_RECORD, MOST_RECORDS = 168, 100, 2e6
 CLUSTERS = {"100 Gb/s, 2 µs": (2e-6, 12.5e9), "10 Gb/s, 20 µs": (20e-6, 1.25e9)}
@@ -51,9 +53,9 @@ def render(wend, scene, ranks, threads, options, folder):
     return dict(json.loads(told.read_text()), cpu=cpu)
 
 
-def run(wend, scene, way, samples, folder):
-    return render(wend, scene, *way, ["--resolution", f"{WIDTH}x{HEIGHT}", "--spp", samples, "--sampling",
-                                      "direction+roulette+splitting"], folder)
+def run(wend, scene, way, samples, folder, sampling=SAMPLING):
+    return render(wend, scene, *way, ["--resolution", f"{WIDTH}x{HEIGHT}", "--spp", samples, "--sampling", sampling],
+                  folder)
 
 
 def start(wend, scene, way, folder):
@@ -79,7 +81,7 @@ def measure(wend, scene, repetitions, folder):
              "bytes_per_pass": told[ranks, threads][0].get("bytes_per_pass", 0)} for ranks, threads in ways]
 
 
-def print_pairs(wend, scene, pairs, folder):
+def print_pairs(wend, scene, pairs, sampling, samples, folder):
     """Two ranks against two threads, turn by turn: processors' seconds without those of starting, and by the clock."""
     alone, threads, ranks = (1, 1), (1, 2), (2, 1)
     starts = {way: statistics.median(start(wend, scene, way, folder) for _ in range(3))
@@ -87,18 +89,18 @@ def print_pairs(wend, scene, pairs, folder):
     cpu, clock = {threads: [], ranks: []}, {threads: [], ranks: []}
     for turn in range(pairs):
         for way in (threads, ranks) if turn % 2 == 0 else (ranks, threads):
-            told = run(wend, scene, way, SAMPLES, folder)
+            told = run(wend, scene, way, samples, folder, sampling)
             cpu[way].append(told["cpu"] - starts[way])
             clock[way].append(told["seconds"])
     ratios = [r / t for r, t in zip(cpu[ranks], cpu[threads])]
     clocks = [r / t for r, t in zip(clock[ranks], clock[threads])]
     error = 1.25 * statistics.stdev(ratios) / math.sqrt(pairs) if pairs > 1 else float("nan")
-    print(f"{scene}: two ranks over two threads, processors' time {statistics.median(ratios):.3f} ± {error:.3f}, "
+    print(f"{scene}, {sampling}, {samples} samples: two ranks over two threads, processors' time {statistics.median(ratios):.3f} ± {error:.3f}, "
           f"clock {statistics.median(clocks):.3f}; turns " + " ".join(f"{r:.3f}" for r in sorted(ratios)))
-    whole = run(wend, scene, alone, SAMPLES, folder)["seconds"] / SAMPLES
-    half = run(wend, scene, alone, SAMPLES // 2, folder)["seconds"] / (SAMPLES // 2)
+    whole = run(wend, scene, alone, samples, folder, sampling)["seconds"] / samples
+    half = run(wend, scene, alone, samples // 2, folder, sampling)["seconds"] / (samples // 2)
     for name, way in (("threads", threads), ("ranks", ranks)):
-        of_sample = statistics.median(clock[way]) / SAMPLES
+        of_sample = statistics.median(clock[way]) / samples
         print(f"{scene}: two {name}: {whole / of_sample:.2f} times one thread (strong), "
               f"{half / of_sample:.2f} times with twice the samples (weak)", flush=True)
 
@@ -198,11 +200,13 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--pairs", type=int, help="turns of two ranks and two threads, and nothing else")
     parser.add_argument("--scenes", default=",".join(SCENES), help="for --pairs: which, separated by commas")
+    parser.add_argument("--sampling", default=SAMPLING, help="for --pairs")
+    parser.add_argument("--spp", type=int, default=SAMPLES, help="for --pairs")
     arguments = parser.parse_args()
     if arguments.pairs:
         with tempfile.TemporaryDirectory() as folder:
             for scene in arguments.scenes.split(","):
-                print_pairs(arguments.wend, scene, arguments.pairs, folder)
+                print_pairs(arguments.wend, scene, arguments.pairs, arguments.sampling, arguments.spp, folder)
         return
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], check=True, capture_output=True,
                             text=True).stdout.strip()
