@@ -42,15 +42,15 @@ void Walks::walk(std::size_t kind, const PassPlan& plan, const Rest& rest, std::
     };
     // Longer walks teach more, and where nothing is taught only their noise counts: in fog, where each has many
     // collisions ahead, they cost more than they bring (docs/experiments/survival.md).
-    const bool are_plain = !plan.is_of_guided_render && has_fog(scene_);
-    const ClassicalRoulette end = are_plain ? ClassicalRoulette() : unguided_walks_end;
-    if (settings_.preset.is_classical()) {
+    const bool are_plain = preset.is_classical() && !plan.is_of_guided_render && beams_.empty() && has_fog(scene_);
+    if (settings_.preset.is_classical() || are_plain) {
         run_with(ClassicalDecisions{{}, {}, ClassicalRoulette()});
     } else if (preset.is_classical() && beams_.empty()) {
-        run_with(ClassicalDecisions{{}, {}, end});
+        run_with(ClassicalDecisions{{}, {}, unguided_walks_end});
     } else if (preset.is_classical()) {
         run_with(GuidedDecisions{towards_beams_,
-                                 GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f), end});
+                                 GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
+                                 unguided_walks_end});
     } else {
         walk_guided(preset, plan, run_with);
     }
