@@ -15,8 +15,7 @@ public:
         : settings_(context.settings),
           selection_(context.scene),
           has_a_turn_for_each_(context.settings.sampler == SamplerKind::sobol &&
-                               static_cast<int>(context.scene.lights().size()) <= Schedule(context.settings).total()) {
-    }
+                               static_cast<int>(context.scene.lights().size()) <= Schedule(context.settings).total()) {}
 
     static constexpr bool steers = true;
     using Recorder = LightRecorder;
