@@ -132,6 +132,47 @@ TEST(LightSelection, AreLeftToTheSceneWhereThereAreTooManyOrOne) {
     }
 }
 
+/// An open floor under so many suns, of which the first is strongest, by that many samples.
+Image sunny_floor(int lights, int samples, const char* sampling, SamplerKind sampler = SamplerKind::sobol) {
+    constexpr int side = 32;  // smaller pictures are guided from the start
+    SceneDescription s = test::scene_with_camera({0, 2, 0}, {0, 0, 0.5f}, 40, side);
+    test::add_parallelogram(s, {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, test::add_diffuse(s, Rgb(0.5f)));
+    for (int i = 0; i < lights; ++i) {
+        const Vec3 towards = normalize(Vec3(0.1f * static_cast<float>(i), 1, 0));
+        s.lights.push_back(DistantLight{towards, Rgb(i == 0 ? 4.0f : 1.0f)});
+    }
+    RenderSettings settings;
+    settings.preset = parse_preset(sampling);
+    settings.samples = samples;
+    settings.sampler = sampler;
+    Film film({side, side}, {{0, 0}, {side, side}});
+    render(Scene(std::move(s)), film, settings);
+    return film.beauty();
+}
+
+double mean_square_error(const Image& picture, const Image& expected) {
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        sum += std::pow(luminance(picture.pixels[i] - expected.pixels[i]), 2);
+    }
+    return sum / static_cast<double>(picture.pixels.size());
+}
+
+TEST(LightSelection, ShortRendersTakeFewLightsInTurn) {
+    const auto is_as_classical = [](int lights, int samples, SamplerKind sampler) {
+        return sunny_floor(lights, samples, "full", sampler).pixels ==
+               sunny_floor(lights, samples, "classical", sampler).pixels;
+    };
+    EXPECT_TRUE(is_as_classical(2, 4, SamplerKind::sobol));
+    // What is learned pays where there are too many, where they come by chance, and in longer renders.
+    EXPECT_FALSE(is_as_classical(6, 4, SamplerKind::sobol));
+    EXPECT_FALSE(is_as_classical(2, 4, SamplerKind::independent));
+    EXPECT_FALSE(is_as_classical(2, 16, SamplerKind::sobol));
+    const Image expected = sunny_floor(2, 1024, "classical");
+    EXPECT_LT(mean_square_error(sunny_floor(2, 4, "full"), expected),
+              0.1 * mean_square_error(sunny_floor(2, 4, "direction"), expected));
+}
+
 // Two ways, sixteen renders or more of 16 x 16 pixels by 512 samples each.
 TEST(SlowLightSelection, GiveTheSamePictureWithLessNoise) {
     const Scene scene(lamps());

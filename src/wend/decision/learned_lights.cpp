@@ -16,7 +16,11 @@ constexpr double confidence_in_first = 2;
 }  // namespace
 
 void LearnedLights::add(std::span<const LightRecord> records) {
+    if (records.empty()) {
+        return;
+    }
     cells_.resize(VertexCells::count);
+    cumulative_.resize(VertexCells::count * lights_);
     for (const LightRecord& record : records) {
         if (!std::isfinite(record.brought)) {
             continue;
@@ -61,9 +65,9 @@ void LearnedLights::learn(std::size_t index, const std::function<float(const Lig
             (sum + confidence_in_first * static_cast<double>(cell.prior[i]) * mean) / (count + confidence_in_first);
         sums.push_back(total);
     }
-    cell.cumulative.clear();
-    for (const double sum : sums) {
-        cell.cumulative.push_back(static_cast<float>(sum / total));
+    float* const cumulative = cumulative_.data() + index * lights_;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        cumulative[i] = static_cast<float>(sums[i] / total);
     }
 }
 

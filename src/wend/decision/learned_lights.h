@@ -172,10 +172,7 @@ public:
     /// With which sample() chooses that light.
     template <LightChoice First>
     float probability(const First& first, const LightReceiver& receiver, int light) const {
-        const float* learned = cumulative(receiver);
-        return learned
-                   ? share_of_first * first.probability(receiver, light) + (1 - share_of_first) * share(learned, light)
-                   : first.probability(receiver, light);
+        return probability(first, cumulative(receiver), receiver, light);
     }
 
     /// For what its connection to a light brought.
@@ -197,11 +194,11 @@ public:
     /// What is known, for lights of the same number; see ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& lights) {
-        bytes(lights.cells_);
+        bytes(lights.cells_, lights.cumulative_);
         bytes.require(lights.cells_.empty() || lights.cells_.size() == VertexCells::count);
+        bytes.require(lights.cumulative_.size() == lights.cells_.size() * lights.lights_);
         for (const Cell& cell : lights.cells_) {
             bytes.require((cell.tallies.empty() || cell.tallies.size() == lights.lights_) &&
-                          (cell.cumulative.empty() || cell.cumulative.size() == lights.lights_) &&
                           (cell.prior.empty() || cell.prior.size() == lights.lights_));
         }
     }
@@ -221,24 +218,29 @@ private:
         double sum = 0;
     };
     struct Cell {
-        std::vector<Tally> tallies;     ///< by light; empty without records
-        std::vector<float> prior;       ///< probabilities of the first choice in the middle of the cell
-        std::vector<float> cumulative;  ///< of what was learned; empty where that is too little
+        std::vector<Tally> tallies;  ///< by light; empty without records
+        std::vector<float> prior;    ///< probabilities of the first choice in the middle of the cell
 
         template <class Archive, class Self>
         static void archive(Archive& bytes, Self& cell) {
-            bytes(cell.tallies, cell.prior, cell.cumulative);
+            bytes(cell.tallies, cell.prior);
         }
     };
 
     void learn(std::size_t index, const std::function<float(const LightReceiver&, int)>& probability);
     /// Of the lights up to each; null where too little is known.
     const float* cumulative(const LightReceiver& receiver) const {
-        if (cells_.empty()) {
+        if (cumulative_.empty()) {
             return nullptr;
         }
-        const std::vector<float>& learned = cells_[places_.at(receiver)].cumulative;
-        return learned.empty() ? nullptr : learned.data();
+        const float* learned = cumulative_.data() + places_.at(receiver) * lights_;
+        return learned[lights_ - 1] > 0 ? learned : nullptr;
+    }
+    template <LightChoice First>
+    static float probability(const First& first, const float* learned, const LightReceiver& receiver, int light) {
+        return learned
+                   ? share_of_first * first.probability(receiver, light) + (1 - share_of_first) * share(learned, light)
+                   : first.probability(receiver, light);
     }
     static float share(const float* cumulative, int light) {
         return light == 0 ? cumulative[0] : cumulative[light] - cumulative[light - 1];
@@ -247,6 +249,9 @@ private:
     VertexCells places_;
     std::size_t lights_;
     std::vector<Cell> cells_;  ///< none as long as nothing was added
+    /// What is learned, cell by cell: of the lights up to each, 0 where too little is known. Apart from the rest, since
+    /// it is asked at every vertex and is then in the caches.
+    std::vector<float> cumulative_;
 };
 
 template <LightChoice First>
@@ -270,7 +275,7 @@ ChosenLight LearnedLights::sample(const First& first, const LightReceiver& recei
     while (light == lights || (light > 0 && !(share(learned, light) > 0))) {
         --light;
     }
-    return {light, probability(first, receiver, light)};
+    return {light, probability(first, learned, receiver, light)};
 }
 
 }  // namespace wend
