@@ -210,13 +210,13 @@ def peer_scenes(results):
 
 
 def peers(results):
-    """One row for each scene: the error, the least in bold."""
+    """One row for each scene: the error, the least in bold. Why something was not run, peers_all() says."""
     rows = []
     for scene in peer_scenes(results):
         runs = [Runs(results, scene=scene, renderer=name) for name in PEERS]
         least = min((r.median("relmse") for r in runs if r.rows), default=None)
         bold = lambda r: "**{}**" if r.median("relmse") == least else "{}"
-        cells = [bold(r).format(r.relmse()) if r.rows else r.not_run for r in runs]
+        cells = [bold(r).format(r.relmse()) if r.rows else "not run" for r in runs]
         rows.append([": ".join([f"`{scene}`", *([PEER_SCENES[scene]] if scene in PEER_SCENES else [])]), *cells])
     return table(["relMSE", *PEERS.values()], rows) + note(results, budget(results))
 
