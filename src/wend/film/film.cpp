@@ -147,7 +147,7 @@ std::vector<float> Film::estimates_of_half(const Halves& weights, std::size_t ha
 
 std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) const {
     std::array<Comparison, 2> result;
-    parallel_for(2, 0, [&](std::size_t half) {
+    parallel_for(2, threads_for(crop_), [&](std::size_t half) {
         const std::vector<float> estimates = estimates_of_half(weights, half);
         Comparison& shown = result[half];
         double variances = 0, squares = 0, light = 0, count = 0;
@@ -254,7 +254,7 @@ Image Film::beauty(const Halves& weights) const {
 std::vector<PixelNoise> Film::noise() const {
     const Halves weights = stage_weights();
     std::vector<PixelNoise> result(pixels_.size());
-    parallel_for(2, 0, [&](std::size_t half) {
+    parallel_for(2, threads_for(crop_), [&](std::size_t half) {
         const std::vector<float> estimates = estimates_of_half(weights, half);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             if (half_of(i) != half) {
