@@ -62,6 +62,12 @@ def unscaled(prim: Any, world: Matrix) -> Matrix:
     return result
 
 
+def stretch(prim: Any, world: Matrix) -> Matrix | None:
+    """By what a light's cone is squeezed along its axes; None where it is round, or not Blender's."""
+    scale = np.asarray(np.linalg.norm(world[0, :3, :3], axis=-1), dtype=np.float64)
+    return np.maximum(scale, 1e-30) if defined(prim) and np.ptp(scale) > 1e-3 * scale.max() else None
+
+
 def density_factor(prim: Any, world: Matrix) -> float:
     """A volume of Blender's is as dense for each unit of its own; `world` is where it is."""
     volume = abs(float(np.linalg.det(world[:3, :3]))) if defined(prim) else 1.0

@@ -4,7 +4,7 @@ radiance times the light's area; of a distant light, the irradiance across its d
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -85,6 +85,8 @@ class Shaping:
     profile: str | None  #: a file of IES LM-63
     angle_scale: float
     is_normalised: bool
+    #: Of Blender's cones, which objects that are scaled unevenly squeeze; None: round.
+    stretch: npt.NDArray[np.float64] | None = None
 
     @staticmethod
     def of(reader: Any, prim: Any) -> Shaping:
@@ -109,7 +111,8 @@ class Shaping:
     def needs_picture(self) -> bool:
         """Whether a cone is not all, or one whose rim is wide and falls off as USD has it, by the angle."""
         is_soft = self.cone is not None and self.inner is None and self.cone * self.softness > _NARROW
-        return self.focus > 0 or self.profile is not None or is_soft
+        is_squeezed = self.inner is not None and self.cone is not None and self.stretch is not None
+        return self.focus > 0 or self.profile is not None or is_soft or is_squeezed
 
     def factor(self, reader: Any, prim: Any, x: Matrix, y: Matrix, z: Matrix) -> Matrix:
         """What the light is multiplied with in directions of its own space, whose axis is -z."""
@@ -125,9 +128,21 @@ class Shaping:
             return factor * profile.at(vertical, np.degrees(np.arctan2(y, x))) / (profile.mean() if self.is_normalised else 1.0)
         if self.cone is None:
             return factor
+        if self.inner is not None:
+            return factor * self._factor_of_blender(x, y, z)
         start = self.cone * (1 - self.softness)
         t = np.clip((off_axis - start) / max(self.cone - start, 1e-6), 0, 1)
         return factor * (1 - t * t * (3 - 2 * t))
+
+    def _factor_of_blender(self, x: Matrix, y: Matrix, z: Matrix) -> Matrix:
+        """A smooth step of the cosine."""
+        assert self.cone is not None and self.inner is not None
+        across, beside, along = np.ones(3) if self.stretch is None else self.stretch
+        ahead = -z / along
+        cosine = ahead / np.sqrt((x / across) ** 2 + (y / beside) ** 2 + ahead**2)
+        edge, full = math.cos(math.radians(self.cone)), math.cos(math.radians(self.inner))
+        t = np.clip((cosine - edge) / max(full - edge, 1e-6), 0, 1)
+        return np.asarray(t * t * (3 - 2 * t))
 
 
 def emission(reader: Any, prim: Any) -> npt.NDArray[np.float64]:
@@ -224,12 +239,13 @@ def _pole(reader: Any, prim: Any) -> Matrix:
 
 def _sphere(reader: Any, prim: Any, world: Places) -> None:
     radius = _value(reader, prim, "radius")
+    stretch = blender.stretch(prim, world)
     world = blender.unscaled(prim, world)
     scale = _scales(world[0])
     area = 4 * math.pi * radius**2 * float(np.cbrt(np.prod(scale))) ** 2
     # From afar a sphere has this intensity, however small it is where it is normalised.
     intensity = emission(reader, prim) / 4 * (1.0 if _is_normalised(reader, prim) else area)
-    shaping = Shaping.of(reader, prim)
+    shaping = replace(Shaping.of(reader, prim), stretch=stretch)
     is_point = UsdLux.SphereLight(prim).GetTreatAsPointAttr().Get(reader.time)
     if shaping.needs_picture():
         _throw(reader, prim, world, shaping, intensity, is_flat=False)
