@@ -108,8 +108,7 @@ wend_status wend_flight_looks_ahead(const wend_medium* medium, const wend_flight
                                     wend_error* error) noexcept {
     return guarded(error, [&] {
         require(looks, "the place for the answer is null");
-        const Distance decision(nullptr, nullptr, 1, DistanceGuiding::scatter_alone);
-        *looks = decision.looks_ahead(to_medium(medium), to_start(start)) ? 1 : 0;
+        *looks = Distance::can_be_guided(to_medium(medium), to_start(start)) ? 1 : 0;
         return WEND_OK;
     });
 }

@@ -19,6 +19,8 @@ struct Beam {
     Vec3 axis;            ///< unit length, the way that it shines
     float cosine = 1;     ///< of half the cone's angle, above 0
     float intensity = 0;  ///< power per steradian, mean of the channels, along the axis
+    /// In-scattered radiance, per unit of scattering, that may be expected of other lamps where nothing is learned yet.
+    float others = 0;
 };
 
 /// A part of a ray.
@@ -149,8 +151,6 @@ public:
     void add_beam(const Equiangular& along, float strength);
     /// For another beam.
     bool has_room_for_beam() const { return beam_count_ < most_beams; }
-    /// Whether there is one.
-    bool has_beam() const { return beam_count_ > 0; }
 
     /// No more pieces: the last one ends with the segment, at `length`, where `ahead` is the radiance to be expected.
     /// There must be a piece. `level`: only whether to scatter follows the light, and where does not.

@@ -56,8 +56,12 @@ public:
         : GuidedDistance(&fields.surface, &fields.volume, defensive_fraction, guiding) {}
 
     /// Whether a flight is guided as soon as something is known: not that of a walk which is as heavy as may be.
-    bool looks_ahead(const HomogeneousMedium& medium, const FlightStart& start) const {
+    static bool can_be_guided(const HomogeneousMedium& medium, const FlightStart& start) {
         return !is_black(medium.scattering) && start.weight < weight_bound && start.length > 0;
+    }
+    /// Whether the flight's end counts for it: nothing is known of that before something is learned.
+    bool looks_ahead(const HomogeneousMedium& medium, const FlightStart& start) const {
+        return volume_->is_trained() && can_be_guided(medium, start);
     }
     /// Of either kind (medium.h).
     template <std::same_as<Medium> AnyMedium>
@@ -68,10 +72,10 @@ public:
 
     /// A flight, from `u` in [0,1); classical ones may want more random numbers.
     Flight sample(const HomogeneousMedium& medium, const FlightStart& start, float u, Pcg32& random) const {
-        if (!looks_ahead(medium, start) || (!volume_->is_trained() && beams_.empty())) {
-            return classical_.sample(medium, start, u, random);
+        if (can_be_guided(medium, start) && (volume_->is_trained() || crosses_beam(start))) {
+            return fly(medium, start, u);
         }
-        return fly(medium, start, u);
+        return classical_.sample(medium, start, u, random);
     }
     /// Of either kind (medium.h).
     template <std::same_as<Medium> AnyMedium>
@@ -109,17 +113,15 @@ private:
 
     Flight fly(const HomogeneousMedium& medium, const FlightStart& start, float u) const {
         FlightPieces pieces(medium.extinction(), medium.scattering, channel_probabilities(start.throughput));
-        float confidence = 0;
+        float confidence = 0, share = 0;
         const bool is_trained = volume_->is_trained();
         const float reach = 8 / mean_value(medium.extinction());
         // The kind of phase function is asked for once, not in every cell.
         medium.phase.visit([&](const auto& phase) {
-            look_for_beams(start, phase, reach, pieces);
+            share = look_for_beams(start, phase, 1 / mean_value(medium.extinction()), pieces);
             confidence = is_trained ? look_along(start, phase, reach, pieces) : look_nowhere(start, pieces);
         });
-        if (pieces.has_beam()) {
-            confidence = std::max(confidence, trust_in_beams);
-        }
+        confidence = std::max(confidence, share * trust_in_beams);
         pieces.finish(start.length, is_trained ? ahead(start) : 0.0f, is_trained && levels());
         const FlightPieces::Outcome outcome =
             pieces.sample(pieces.is_lit() ? defensive_fraction(confidence, start.weight) : 1.0f, u);
@@ -134,19 +136,32 @@ private:
         return flight;
     }
 
+    bool crosses_beam(const FlightStart& start) const {
+        return std::any_of(beams_.begin(), beams_.end(),
+                           [&](const Beam& beam) { return crossing(beam, start.ray, start.length).has_value(); });
+    }
+
+    /// Of the light that a flight may meet, how much is that of a beam it crosses: the largest such share, 0 where
+    /// there is none.
     template <class Phase>
-    void look_for_beams(const FlightStart& start, const Phase& phase, float reach, FlightPieces& pieces) const {
+    float look_for_beams(const FlightStart& start, const Phase& phase, float mean_free_path,
+                         FlightPieces& pieces) const {
         // A segment may be longer than any scene.
-        const float at_lamp = closest * std::min(start.length, reach);
+        const float way = std::min(start.length, mean_free_path), at_lamp = closest * way;
+        float share = 0;
         for (const Beam& beam : beams_) {
             const auto part = pieces.has_room_for_beam() ? crossing(beam, start.ray, start.length) : std::nullopt;
             // Away from the lamp itself its light grows without end.
             const bool starts_at_lamp = length_squared(start.ray.origin - beam.position) < sqr(at_lamp);
             if (part && !starts_at_lamp) {
                 const Equiangular along(ClosestApproach(start.ray, beam.position, 0), part->t_in, part->t_out);
-                pieces.add_beam(along, beam.intensity * phase.evaluate(along.cosine()));
+                const float strength = beam.intensity * phase.evaluate(along.cosine());
+                pieces.add_beam(along, strength);
+                const float lit = strength * along.integral();
+                share = std::max(share, lit > 0 ? lit / (lit + beam.others * way) : 0.0f);
             }
         }
+        return share;
     }
 
     /// How far the cell at the beginning is to be trusted. `reach`: few flights go further.

@@ -23,7 +23,7 @@ Walks::Walks(const Scene& scene, Film& film, const RenderSettings& settings, con
       settings_(settings),
       choice_(choice),
       learners_(learners),
-      beams_(beams_of(scene.lights())),
+      beams_(beams_of(scene.lights(), scene.radius())),
       unknown_{guide::Field::empty(scene.bounds()), guide::Field::empty(scene.bounds())},
       towards_beams_(&unknown_.surface, &unknown_.volume, classical_flights, DistanceGuiding::scatter_and_distance,
                      beams_) {
@@ -40,19 +40,19 @@ void Walks::walk(std::size_t kind, const PassPlan& plan, const Rest& rest, std::
             }
         });
     };
+    if (!preset.is_classical()) {
+        walk_guided(preset, plan, run_with);
+        return;
+    }
     // Longer walks teach more, and where nothing is taught only their noise counts: in fog, where each has many
     // collisions ahead, they cost more than they bring (docs/experiments/survival.md).
-    const bool are_plain = preset.is_classical() && !plan.is_of_guided_render && beams_.empty() && has_fog(scene_);
-    if (settings_.preset.is_classical() || are_plain) {
-        run_with(ClassicalDecisions{{}, {}, ClassicalRoulette()});
-    } else if (preset.is_classical() && beams_.empty()) {
-        run_with(ClassicalDecisions{{}, {}, unguided_walks_end});
-    } else if (preset.is_classical()) {
-        run_with(GuidedDecisions{towards_beams_,
-                                 GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f),
-                                 unguided_walks_end});
+    const bool teach = !settings_.preset.is_classical() && (plan.is_of_guided_render || !has_fog(scene_));
+    const ClassicalRoulette survival = teach ? unguided_walks_end : ClassicalRoulette();
+    if (settings_.preset.is_classical() || beams_.empty()) {
+        run_with(ClassicalDecisions{{}, {}, survival});
     } else {
-        walk_guided(preset, plan, run_with);
+        run_with(GuidedDecisions{towards_beams_,
+                                 GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f), survival});
     }
 }
 

@@ -173,7 +173,7 @@ bool is_point_like(const Light& light);
 /// Solid, but for an area light whose surface is not.
 Presence presence_of(const Light& light);
 
-/// Emitted power, summed over channels, as a scale for choosing among lights; `scene_radius` bounds what lights at
+/// Emitted power, mean of the channels, as a scale for choosing among lights; `scene_radius` bounds what lights at
 /// infinity reach. Of what moves, at time 0.
 float light_power(const Light& light, float scene_radius);
 

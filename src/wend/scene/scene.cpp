@@ -75,9 +75,8 @@ Scene::Scene(SceneDescription description, const Scene* other) : d_(std::move(de
     if (!(bounds_.min.x <= bounds_.max.x)) {
         bounds_ = Box3(Vec3(-1), Vec3(1));  // nothing but lights and media
     }
-    const float radius = 0.5f * length(bounds_.size());
-    light_sampler_ = std::make_unique<LightSampler>(d_.light_tree ? LightSampler(TreeLightSampler(lights_, radius))
-                                                                  : LightSampler(PowerLightSampler(lights_, radius)));
+    light_sampler_ = std::make_unique<LightSampler>(d_.light_tree ? LightSampler(TreeLightSampler(lights_, radius()))
+                                                                  : LightSampler(PowerLightSampler(lights_, radius())));
 }
 
 Scene::~Scene() = default;

@@ -204,6 +204,8 @@ public:
     const LightSampler& light_sampler() const { return *light_sampler_; }
     /// Bounds of all surfaces.
     const Box3& bounds() const { return bounds_; }
+    /// Half of their diagonal.
+    float radius() const { return 0.5f * length(bounds_.size()); }
 
 private:
     void add_emitting_media();

@@ -100,7 +100,7 @@ FlightStart start_of(const FlightPart& part) {
 /// How likely guided flights end in each piece, as drawn with evenly spread random numbers.
 void draw_guided(const Scene& scene, const guide::Fields& fields, PixelFlight& flight) {
     constexpr int fewest = 64;
-    const std::vector<Beam> beams = beams_of(scene.lights());
+    const std::vector<Beam> beams = beams_of(scene.lights(), scene.radius());
     const GuidedDistance distance(&fields.surface, &fields.volume, classical_flights,
                                   DistanceGuiding::scatter_and_distance, std::span<const Beam>(beams));
     Pcg32 random(0);
