@@ -8,6 +8,7 @@ import numpy as np
 
 from ._blend_chalk import add_roughness
 from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
+from ._blend_fog import Fog, fog_of
 from ._blend_hair import hair_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
@@ -16,7 +17,7 @@ from ._blend_sums import added
 from ._blend_surface import Surface, is_nothing, reflecting
 from ._blend_volumes import volume_parameters
 from ._blend_wanted import Probe
-from ._scene_reader import Brush, Look, SceneReader
+from ._scene_reader import Brush, Look, SceneReader, Silent
 
 if TYPE_CHECKING:
     from ._blend_bake import Bakery
@@ -43,21 +44,10 @@ def wants_of(reader: SceneReader, material: Any, bakery: Bakery) -> set[str]:
     known = bakery.known_wants(material.name)
     if known is None:
         probe = Probe(bakery.name, bakery.uv_name)
-        _made(_Silent(reader), material, material.name, probe)
+        _made(Silent(reader), material, material.name, probe)
         known = probe.modes
         bakery.keep_wants(material.name, known)
     return known
-
-
-class _Silent(SceneReader):
-    """Makes what nobody sees."""
-
-    def __init__(self, reader: SceneReader) -> None:
-        super().__init__("", None)
-        self.opaque_pictures = reader.opaque_pictures
-
-    def tell(self, place: str, text: str, *, each: bool = False) -> None:
-        pass
 
 
 def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
@@ -74,7 +64,10 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
         nodes.warn(output, "displacement is left out" if bakery is None else "displacement is taken as a bump")
     with nodes.aside():
         volume = nodes.shader(output.inputs["Volume"])
-        medium = volume_parameters(nodes, volume) if volume else None
+        fog = fog_of(reader, material.original) if volume and bakery is not None else None
+        if fog is not None and bakery is not None:
+            bakery.fill_inside(fog)
+        medium = volume_parameters(nodes, volume) if volume and fog is None else None
     with nodes.aside():
         node = nodes.shader(output.inputs["Surface"])
         # What is nothing but a volume has no surface; what is nothing at all is black.
@@ -82,13 +75,13 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
     if surface.alpha and not getattr(material, "use_transparent_shadow", True):
         nodes.warn(output, "transparent shadows that are switched off are there")
     picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
-    return _look(reader, key, surface, medium, picture)
+    return _look(reader, key, surface, fog or medium, picture)
 
 
 def _look(
-    reader: SceneReader, key: str, surface: Surface, medium: dict[str, Any] | None, picture: dict[str, Any] | None = None
+    reader: SceneReader, key: str, surface: Surface, medium: Fog | dict[str, Any] | None, picture: dict[str, Any] | None = None
 ) -> Look:
-    if medium is not None:
+    if isinstance(medium, dict):
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
@@ -105,7 +98,8 @@ def _look(
     shown = picture["string filename"] if picture is not None else None
     shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
     inside = key if medium is not None else None
-    return Look(named, emission, inside, shape, _brush_of(surface), shown, _refracts(surface))
+    fog = medium if isinstance(medium, Fog) else None
+    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface))
 
 
 def _refracts(surface: Surface) -> bool:
