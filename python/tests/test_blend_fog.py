@@ -132,7 +132,8 @@ def test_voxels_are_where_their_values_are(scene):
     size = [int(text.split(f"integer n{axis}", 1)[1].split("[", 1)[1].split("]", 1)[0]) for axis in "xyz"]
     found = np.array(values.split(), dtype=float).reshape(*reversed(size), 3)
     z, y, x = np.meshgrid(*((np.arange(n) + 0.5) / n for n in reversed(size)), indexing="ij")
-    np.testing.assert_allclose(found, np.stack([x, y, z], axis=-1), atol=1e-4)
+    # Blender bakes two thousandths of a pixel beside its middle.
+    np.testing.assert_allclose(found, np.stack([x, y, z], axis=-1), atol=5e-4)
     assert wend.render(blend.of_scene(scene, spp=1, bake_resolution=16).scene()).image.max() > 0
 
 
