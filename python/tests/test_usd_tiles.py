@@ -63,6 +63,14 @@ PINK = (0.5, 0.25, 0.75)
 FALLBACK = {"fallback": (TYPES.Float4, Gf.Vec4f(*PINK, 0.5))}
 
 
+def test_tiles_lie_by_their_columns_and_rows(stage, tmp_path):
+    """As MaterialX names them."""
+    for place, colour in (("u1_v1", RED), ("u2_v1", GREEN), ("u1_v2", BLUE)):
+        png(tmp_path / f"map_{place}.png", np.broadcast_to(colour, (32, 40, 3)))
+    card(stage, tmp_path / "map_<UVTILE>.png", **FALLBACK)
+    assert quarters(stage.image()) == pytest.approx(np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), PINK]), abs=2e-3)
+
+
 @pytest.mark.parametrize("scheme", ["none", "bilinear"])
 def test_tiles_lie_by_their_numbers(stage, tmp_path, scheme):
     card(stage, tiles(tmp_path, t1001=RED, t1002=GREEN, t1011=BLUE), scheme=scheme, **FALLBACK)

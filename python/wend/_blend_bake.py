@@ -9,8 +9,11 @@ from typing import Any
 import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 import numpy as np
 import numpy.typing as npt
+from mathutils import Matrix  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._blend_bake_nodes import TANGENT, blank, shining
+from ._blend_fog import Fog
+from ._blend_slices import sliced, slices
 from ._blend_subsurface import albedo_inside
 from ._blend_wanted import Wanted
 from ._film import Film
@@ -49,6 +52,8 @@ class Bakery:
         self._like = object_.original
         self._slots = [slot.material.name if slot.material else "" for slot in object_.material_slots]
         self._made: dict[Wanted, str] = {}
+        self._fogs: list[Fog] = []
+        self._corners = np.array(object_.bound_box, dtype=np.float64)
         self._rect: Rect | None = None
 
     # ---- What is wanted ----
@@ -98,7 +103,7 @@ class Bakery:
 
     def suffix(self, modes: set[str]) -> str:
         """Of the name of a material that wants these modes: the same for all objects that can share it."""
-        is_own = not modes.isdisjoint({"object", "own"}) or (self.bakes_all and modes) or ("unit" in modes and self.rect() != _UNIT)
+        is_own = not modes.isdisjoint({"object", "own", "fog"}) or (self.bakes_all and modes) or ("unit" in modes and self.rect() != _UNIT)
         if is_own:
             return f" of {self.name} {self._number}"
         return f" {self.rect()}" if "uv" in modes and self.rect() != _UNIT else ""
@@ -126,11 +131,20 @@ class Bakery:
         """Of its picture, in pixels."""
         return 4 if wanted.is_even else self.side
 
+    def fill_inside(self, fog: Fog) -> None:
+        """The medium inside will be there after `bake`."""
+        where = f"object '{self.name}'"
+        fog.spread(self._corners, np.array(self._place.to_scale(), dtype=np.float64), self.side)
+        fog.tell(where)
+        if fog.is_by_place and self.is_shared:
+            self._all.reader.tell(where, "a volume that differs between instances is baked at the first of them")
+        self._fogs.append(fog)
+
     # ---- Baking ----
 
     @property
     def is_wanted(self) -> bool:
-        return bool(self._made)
+        return bool(self._made or self._fogs)
 
     def bake(self, scene: Any) -> None:
         """Makes the pictures, in a scene that is shown."""
@@ -148,12 +162,15 @@ class Bakery:
             Film.of(np.ascontiguousarray(pixels)).save(file)
             if rect is not None:
                 bpy.data.meshes.remove(made)
+        for fog in self._fogs:
+            fog.fill(lambda wanted, places: inside(scene, wanted, places, self.mesh(), self._place, self._like))
 
     def _baked(self, scene: Any, mesh: Any, slots: Sequence[str], wanted: Wanted) -> Floats:
         """Black where that fails, as for a mesh without faces."""
         if len(mesh.polygons):
             try:
-                return _baked(scene, mesh, slots, self._place, wanted, self.side_of(wanted), self._like)
+                size = self.side_of(wanted), self.side_of(wanted)
+                return _baked(scene, mesh, slots, self._place, wanted, size, self._like)
             except RuntimeError as error:
                 self._all.reader.tell(f"object '{self.name}'", f"what cannot be baked is black: {str(error).strip()}")
         return np.zeros((1, 1, 3), dtype=np.float32)
@@ -215,7 +232,7 @@ class Bakeries:
         try:
             chosen = [bakery for bakery in self._by_key.values() if bakery.is_wanted]
             if chosen:
-                with _studio(before) as scene:
+                with studio(before) as scene:
                     for bakery in chosen:
                         bakery.bake(scene)
         finally:
@@ -223,8 +240,30 @@ class Bakeries:
                 bakery.clear()
 
 
+def inside(
+    scene: Any, wanted: Wanted, places: npt.NDArray[np.float64], mesh: Any, place: Any = None, like: Any = None
+) -> Floats:
+    """What is wanted at places of an object.
+
+    Args:
+        scene: that is shown.
+        wanted: of the object's material.
+        places: (layers, height, width, 3), in the object's own coordinates.
+        mesh: the object's.
+        place: where it is; None: where the world begins.
+        like: the object, if there is one.
+    """
+    sheets, size = slices(places, mesh)
+    try:
+        pixels = _baked(scene, sheets, [wanted.material.name], place or Matrix(), wanted, size, like)
+    finally:
+        bpy.data.meshes.remove(sheets)
+    return sliced(pixels, places.shape[:3])
+
+
 @contextmanager
-def _studio(before: Any) -> Iterator[Any]:
+def studio(before: Any) -> Iterator[Any]:
+    """A scene to bake in. `before`: the scene that is shown, and will be again."""
     scene = bpy.data.scenes.new("wend.bake")
     window = bpy.context.window
     try:
@@ -269,9 +308,9 @@ def _shown(scene: Any, mesh: Any, place: Any, like: Any = None) -> Iterator[Any]
             like.name = name
 
 
-def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Wanted, side: int, like: Any) -> Floats:
-    """(side, side, 3), rows from above."""
-    image = bpy.data.images.new("wend.bake", side, side, alpha=False, float_buffer=True)
+def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Wanted, size: tuple[int, int], like: Any) -> Floats:
+    """(height, width, 3), rows from above."""
+    image = bpy.data.images.new("wend.bake", *size, alpha=False, float_buffer=True)
     image.colorspace_settings.name = "Non-Color"
     aside = bpy.data.images.new("wend.aside", 4, 4, float_buffer=True)
     source, other = shining(wanted, image), blank(aside)
@@ -290,9 +329,9 @@ def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Want
                 type="EMIT", margin=_MARGIN, margin_type="EXTEND", use_clear=True, target="IMAGE_TEXTURES",
                 save_mode="INTERNAL", use_selected_to_active=False,
             )  # fmt: skip
-        pixels = np.empty(side * side * 4, dtype=np.float32)
+        pixels = np.empty(size[0] * size[1] * 4, dtype=np.float32)
         image.pixels.foreach_get(pixels)
-        return np.ascontiguousarray(pixels.reshape(side, side, 4)[::-1, :, :3])
+        return np.ascontiguousarray(pixels.reshape(size[1], size[0], 4)[::-1, :, :3])
     finally:
         for i, material in enumerate(before):
             mesh.materials[i] = material

@@ -50,6 +50,7 @@ class Copies:
         if material.name not in self._differ:
             reach = Reach(Nodes(self._reader, material.name, material.name, material), "")
             reach.follow(output.inputs["Surface"])
+            reach.follow(output.inputs["Volume"])
             self._differ[material.name] = reach.is_by_place
         return self._differ[material.name]
 

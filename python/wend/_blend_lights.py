@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._blend_lamp_pictures import LampPicture
 from ._blend_nodes import Nodes, output_node
 from ._blend_profiles import profile_of, seen_along
+from ._film import Film
 from ._ies import Profile
 from ._scene_reader import Places, SceneReader, unmirrored
 from ._sky import add_thrown
@@ -23,12 +25,17 @@ _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 _OF_POINTS = 4.0
 
 
-def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool) -> None:
-    """A lamp where the shutter opens and where it closes. `is_seen`: by the camera, as far as it has a size."""
+def add(
+    reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool, picture: LampPicture | None = None
+) -> None:
+    """A lamp where the shutter opens and where it closes. `is_seen`: by the camera, as far as it has a size. `picture`:
+    what its nodes are, where they are no constants."""
     place = f"light '{name}'"
     kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
     strength, profile = np.ones(3), None
-    if lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
+    if picture is not None:
+        reader.tell(place, "the nodes of a light that are no constants become a picture, by Cycles")
+    elif lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
         strength, profile = _strength_of_nodes(reader, place, lamp)
     power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength
     if getattr(lamp, "use_temperature", False):
@@ -41,10 +48,14 @@ def add(reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool
     if power.max() <= 0:
         return
     with reader.builder.block():
-        if profile is not None or (lamp.type == "SPOT" and _is_uneven(places)):
+        if picture is not None and lamp.type == "AREA":
+            _area(reader, place, lamp, places, power, is_seen, picture)
+        elif picture is not None:
+            _pictured(reader, place, lamp, places, power, picture)
+        elif profile is not None or (lamp.type == "SPOT" and _is_uneven(places)):
             _thrown(reader, place, lamp, places, power, profile)
-            return
-        kinds[lamp.type](reader, place, lamp, places, power, is_seen)
+        else:
+            kinds[lamp.type](reader, place, lamp, places, power, is_seen)
 
 
 def _strength_of_nodes(reader: SceneReader, place: str, lamp: Any) -> tuple[npt.NDArray[np.float64], Profile | None]:
@@ -92,13 +103,33 @@ def _thrown(reader: SceneReader, place: str, lamp: Any, places: Places, power: A
     add_thrown(reader, power * _unnormalised(lamp, area) / (4 * math.pi), factor)
 
 
+def _pictured(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, picture: LampPicture) -> None:
+    """A point or a spot that throws a picture."""
+    radius = float(lamp.shadow_soft_size)
+    if radius > 0:
+        reader.tell(place, "a point or spot with a picture is taken as one without a size: its shadows are hard")
+    area = 4 * math.pi * radius**2 if radius > 0 else _OF_POINTS
+    reader.builder.add("Transform", _unscaled(reader.held(places, place)))
+    add_thrown(reader, power * _unnormalised(lamp, area) / (4 * math.pi), picture.towards, 1024)
+
+
 def _shine(
-    reader: SceneReader, radiance: Any, is_seen: bool, kind: str, parameters: dict[str, Any], profile: dict[str, Any]
+    reader: SceneReader,
+    radiance: Any,
+    is_seen: bool,
+    kind: str,
+    parameters: dict[str, Any],
+    profile: dict[str, Any],
+    picture: LampPicture | None = None,
 ) -> None:
     # Lamps are in nobody's way.
     around = reader.around or ""
     reader.builder.add("MediumInterface", around, around)
-    reader.builder.add("AreaLightSource", "diffuse", {"rgb L": radiance, "bool solid": False} | profile)
+    light: dict[str, Any] = {"rgb L": radiance}
+    if picture is not None:
+        light = {"string filename": reader.map_file(f"lamp{len(reader.builder)}.exr")}
+        Film.of((picture.pixels * radiance).astype(np.float32)).save(light["string filename"])
+    reader.builder.add("AreaLightSource", "diffuse", light | {"bool solid": False} | profile)
     reader.builder.add("Material", "interface")
     reader.builder.add("Shape", kind, parameters if is_seen else parameters | {"string cameraview": "hidden"})
 
@@ -145,7 +176,15 @@ def _sun(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any,
     reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(lamp.angle), 180.0)})
 
 
-def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any, is_seen: bool) -> None:
+def _area(
+    reader: SceneReader,
+    place: str,
+    lamp: Any,
+    places: Places,
+    power: Any,
+    is_seen: bool,
+    picture: LampPicture | None = None,
+) -> None:
     spread = math.degrees(getattr(lamp, "spread", math.pi))
     profile = {"float spread": max(spread, 0.5)} if spread < 179.9 else {}
     x = float(lamp.size) / 2
@@ -155,6 +194,10 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     is_round = lamp.shape in ("DISK", "ELLIPSE")
     area = (math.pi if is_round else 4.0) * x * y * stretched
     radiance = power * _unnormalised(lamp, area) / (math.pi * max(area, 1e-30))
+    if is_round and picture is not None:
+        reader.put(places)
+        _shine(reader, radiance, is_seen, "trianglemesh", _polygon(x, y), profile, picture)
+        return
     if is_round:
         reader.put(np.diag([x, y, 1, 1]) @ _TURNED @ unmirrored(places))
         _shine(reader, radiance, is_seen, "disk", {"float radius": 1}, profile)
@@ -163,7 +206,27 @@ def _area(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any
     corners = [[-x, -y, 0], [-x, y, 0], [x, y, 0], [x, -y, 0]]
     reader.put(places)
     flat = {"point3 P": corners, "integer indices": [0, 1, 2, 0, 2, 3]}
-    _shine(reader, radiance, is_seen, "trianglemesh", flat, profile)
+    if picture is not None:
+        # Upright and unmirrored for who looks at it: its left is at +x.
+        flat["point2 uv"] = [[1, 0], [1, 1], [0, 1], [0, 0]]
+    _shine(reader, radiance, is_seen, "trianglemesh", flat, profile, picture)
+
+
+#: Corners of what stands for a round lamp with a picture.
+_CORNERS = 48
+
+
+def _polygon(x: float, y: float) -> dict[str, Any]:
+    """As large as an ellipse of these radii, its picture over the square around that."""
+    turns = 2 * math.pi * np.arange(_CORNERS) / _CORNERS
+    wider = math.sqrt(2 * math.pi / _CORNERS / math.sin(2 * math.pi / _CORNERS))
+    # Seen from -z they go around against the clock.
+    corners = wider * np.stack([np.cos(turns), -np.sin(turns)], axis=1)
+    points = np.concatenate([[[0.0, 0.0]], corners])
+    triangles = [(0, 1 + i, 1 + (i + 1) % _CORNERS) for i in range(_CORNERS)]
+    uvs = 0.5 + 0.5 * points * (-1, 1)
+    placed = np.concatenate([points * (x, y), np.zeros((len(points), 1))], axis=1)
+    return {"point3 P": placed, "integer indices": triangles, "point2 uv": np.clip(uvs, 0, 1)}
 
 
 def _unnormalised(lamp: Any, area: float) -> float:

@@ -2,37 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._blend_chalk import add_roughness
 from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
+from ._blend_fog import Fog, fog_of
 from ._blend_hair import hair_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
 from ._blend_subsurface import add_inside
+from ._blend_sums import added
+from ._blend_surface import Surface, is_nothing, reflecting
 from ._blend_volumes import volume_parameters
 from ._blend_wanted import Probe
-from ._scene_reader import Brush, Look, SceneReader
+from ._scene_reader import Brush, Look, SceneReader, Silent
 
 if TYPE_CHECKING:
     from ._blend_bake import Bakery
-
-
-@dataclass
-class _Surface:
-    """What a shader node stands for."""
-
-    material: dict[str, Any] | None = None  #: parameters of a MakeNamedMaterial; None: nothing is reflected
-    mixed: tuple[_Surface, _Surface, dict[str, Any]] | None = None  #: two of them, and how much of the second
-    emission: Colour = field(default_factory=lambda: np.zeros(3))
-    alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
-    shines_by_a_picture: bool = False  #: because what it shines with varies
-    is_clear: bool = False  #: light goes straight through
-    brushed: Brush | None = None  #: along which way
-    is_held_out: bool = False  #: there is a hole in the picture
 
 
 def look_of(reader: SceneReader, material: Any, bakery: Bakery | None = None) -> Look:
@@ -56,30 +44,19 @@ def wants_of(reader: SceneReader, material: Any, bakery: Bakery) -> set[str]:
     known = bakery.known_wants(material.name)
     if known is None:
         probe = Probe(bakery.name, bakery.uv_name)
-        _made(_Silent(reader), material, material.name, probe)
+        _made(Silent(reader), material, material.name, probe)
         known = probe.modes
         bakery.keep_wants(material.name, known)
     return known
 
 
-class _Silent(SceneReader):
-    """Makes what nobody sees."""
-
-    def __init__(self, reader: SceneReader) -> None:
-        super().__init__("", None)
-        self.opaque_pictures = reader.opaque_pictures
-
-    def tell(self, place: str, text: str, *, each: bool = False) -> None:
-        pass
-
-
 def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
     tree = material.node_tree if material else None
     if tree is None:
-        return _look(reader, key, _Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)}), None)
+        return _look(reader, key, Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)}), None)
     output = output_node(tree)
     if output is None:
-        return _look(reader, key, _reflecting(_Surface()), None)
+        return _look(reader, key, reflecting(Surface()), None)
     nodes = Nodes(reader, f"material '{material.name}'", key, material, bakery)
     with nodes.aside():
         nodes.displacement = output.inputs["Displacement"] if nodes.source(output.inputs["Displacement"]) else None
@@ -87,27 +64,30 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
         nodes.warn(output, "displacement is left out" if bakery is None else "displacement is taken as a bump")
     with nodes.aside():
         volume = nodes.shader(output.inputs["Volume"])
-        medium = volume_parameters(nodes, volume) if volume else None
+        fog = fog_of(reader, material.original) if volume and bakery is not None else None
+        if fog is not None and bakery is not None:
+            bakery.fill_inside(fog)
+        medium = volume_parameters(nodes, volume) if volume and fog is None else None
     with nodes.aside():
         node = nodes.shader(output.inputs["Surface"])
         # What is nothing but a volume has no surface; what is nothing at all is black.
-        surface = _surface(nodes, node) if node else _Surface(is_clear=True) if volume else _reflecting(_Surface())
+        surface = _surface(nodes, node) if node else Surface(is_clear=True) if volume else reflecting(Surface())
     if surface.alpha and not getattr(material, "use_transparent_shadow", True):
         nodes.warn(output, "transparent shadows that are switched off are there")
     picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
-    return _look(reader, key, surface, medium, picture)
+    return _look(reader, key, surface, fog or medium, picture)
 
 
 def _look(
-    reader: SceneReader, key: str, surface: _Surface, medium: dict[str, Any] | None, picture: dict[str, Any] | None = None
+    reader: SceneReader, key: str, surface: Surface, medium: Fog | dict[str, Any] | None, picture: dict[str, Any] | None = None
 ) -> Look:
-    if medium is not None:
+    if isinstance(medium, dict):
         reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
     # Nothing around an inside is not there, and else it is black.
-    if not surface.is_clear and not (medium is not None and _is_nothing(surface)):
-        surface = _reflecting(surface)
+    if not surface.is_clear and not (medium is not None and is_nothing(surface)):
+        surface = reflecting(surface)
     named = _name(reader, key, surface)
     if named is None and emission is None and medium is None:
         # Nothing is seen of it.
@@ -118,21 +98,22 @@ def _look(
     shown = picture["string filename"] if picture is not None else None
     shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
     inside = key if medium is not None else None
-    return Look(named, emission, inside, shape, _brush_of(surface), shown, _refracts(surface))
+    fog = medium if isinstance(medium, Fog) else None
+    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface))
 
 
-def _refracts(surface: _Surface) -> bool:
+def _refracts(surface: Surface) -> bool:
     if surface.mixed is not None:
         return any(_refracts(part) for part in surface.mixed[:2])
     return surface.material is not None and surface.material["string type"] == "dielectric"
 
 
-def _brush_of(surface: _Surface) -> Brush | None:
+def _brush_of(surface: Surface) -> Brush | None:
     parts = surface.mixed[:2] if surface.mixed is not None else ()
     return surface.brushed or next((brush for brush in map(_brush_of, parts) if brush), None)
 
 
-def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
+def _name(reader: SceneReader, key: str, surface: Surface) -> str | None:
     """Of the material that is made for it; None for an interface."""
     if surface.mixed is not None:
         first, second, amount = surface.mixed
@@ -147,12 +128,12 @@ def _name(reader: SceneReader, key: str, surface: _Surface) -> str | None:
     return key
 
 
-def _surface_at(nodes: Nodes, socket: Any, depth: int) -> _Surface:
+def _surface_at(nodes: Nodes, socket: Any, depth: int) -> Surface:
     with nodes.aside():
         return _surface(nodes, nodes.shader(socket), depth)
 
 
-def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
+def _surface(nodes: Nodes, node: Any, depth: int = 0) -> Surface:
     kinds = {
         "ShaderNodeBsdfPrincipled": _principled,
         "ShaderNodeBsdfDiffuse": _diffuse,
@@ -173,33 +154,33 @@ def _surface(nodes: Nodes, node: Any, depth: int = 0) -> _Surface:
         "ShaderNodeBsdfToon": _as_matt,
     }
     if node is None:
-        return _Surface()
+        return Surface()
     if depth > 32:
         nodes.warn(node, "shaders that are mixed more than 32 times are black")
-        return _Surface()
+        return Surface()
     if node.bl_idname == "ShaderNodeMixShader":
         return _mixed(nodes, node, depth)
     if node.bl_idname == "ShaderNodeAddShader":
-        return _added(nodes, node, depth)
+        return added(nodes, node, *(_surface_at(nodes, socket, depth + 1) for socket in node.inputs[:2]))
     if node.bl_idname in kinds:
         return kinds[node.bl_idname](nodes, node)
     nodes.warn(node, f"{node.bl_idname.removeprefix('ShaderNode')} is taken as grey")
-    return _Surface({"string type": "diffuse", "rgb reflectance": (0.5, 0.5, 0.5)})
+    return Surface({"string type": "diffuse", "rgb reflectance": (0.5, 0.5, 0.5)})
 
 
-def _hair(nodes: Nodes, node: Any) -> _Surface:
-    return _Surface(hair_of(nodes, node))
+def _hair(nodes: Nodes, node: Any) -> Surface:
+    return Surface(hair_of(nodes, node))
 
 
-def _as_matt(nodes: Nodes, node: Any) -> _Surface:
+def _as_matt(nodes: Nodes, node: Any) -> Surface:
     nodes.warn(node, f"{node.bl_idname.removeprefix('ShaderNodeBsdf')} is taken as a diffuse surface of its colour")
     material: dict[str, Any] = {"string type": "diffuse"}
     nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
-def _principled(nodes: Nodes, node: Any) -> _Surface:
+def _principled(nodes: Nodes, node: Any) -> Surface:
     inputs = node.inputs
     tell_of_films(nodes, node)
     ior = max(nodes.number(inputs["IOR"]), 1e-3)
@@ -227,7 +208,7 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
     brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
     tell_of_facets(nodes, node, inputs["Roughness"], "MULTI_GGX")
     add_detail(nodes, node, material)
-    result = _Surface(material, emission=emission, brushed=brushed)
+    result = Surface(material, emission=emission, brushed=brushed)
     # Metal comes first, glass gets of the rest.
     transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
     metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
@@ -251,21 +232,21 @@ def _principled(nodes: Nodes, node: Any) -> _Surface:
             tell_of_facets(nodes, node, inputs["Roughness"], "GGX")
         if has_sheen:
             nodes.warn(node, "the sheen of glass is left out")
-        result = _blended(result, _Surface(glass), clear, emission)
+        result = _blended(result, Surface(glass), clear, emission)
     result.shines_by_a_picture = varies
     if inputs["Alpha"].is_linked or inputs["Alpha"].default_value < 1:
         nodes.add_to(result.alpha, inputs["Alpha"], "alpha", "float")
     return result
 
 
-def _blended(first: _Surface, second: _Surface, amount: float, emission: Colour) -> _Surface:
+def _blended(first: Surface, second: Surface, amount: float, emission: Colour) -> Surface:
     if amount >= 1 - 1e-6:
         second.emission = emission
         return second
-    return _Surface(mixed=(first, second, {"float amount": amount}), emission=emission)
+    return Surface(mixed=(first, second, {"float amount": amount}), emission=emission)
 
 
-def _diffuse(nodes: Nodes, node: Any) -> _Surface:
+def _diffuse(nodes: Nodes, node: Any) -> Surface:
     material: dict[str, Any] = {"string type": "diffuse"}
     if node.inputs["Roughness"].is_linked or node.inputs["Roughness"].default_value > 0:
         material = {"string type": "principled", "float specular": 0}
@@ -274,16 +255,16 @@ def _diffuse(nodes: Nodes, node: Any) -> _Surface:
     else:
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
-def _sheen(nodes: Nodes, node: Any) -> _Surface:
+def _sheen(nodes: Nodes, node: Any) -> Surface:
     material = fibres(nodes, node)
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
-def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
+def _metal(nodes: Nodes, node: Any, colour: str) -> Surface:
     material: dict[str, Any] = {"string type": "principled", "float metallic": 1.0}
     if colour:
         nodes.add_to(material, node.inputs[colour], "reflectance", "rgb")
@@ -292,10 +273,10 @@ def _metal(nodes: Nodes, node: Any, colour: str) -> _Surface:
     nodes.add_to(material, node.inputs["Roughness"], "roughness", "float")
     brushed = brush_of(nodes, node, node.inputs["Anisotropy"], node.inputs["Rotation"], material)
     add_detail(nodes, node, material)
-    return _Surface(material, brushed=brushed)
+    return Surface(material, brushed=brushed)
 
 
-def _glossy(nodes: Nodes, node: Any) -> _Surface:
+def _glossy(nodes: Nodes, node: Any) -> Surface:
     # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten, on average.
     surface = _metal(nodes, node, "Color")
     colour = nodes.known(node.inputs["Color"])
@@ -308,7 +289,7 @@ def _glossy(nodes: Nodes, node: Any) -> _Surface:
     return surface
 
 
-def _metallic(nodes: Nodes, node: Any) -> _Surface:
+def _metallic(nodes: Nodes, node: Any) -> Surface:
     if node.fresnel_type != "F82":
         surface = _metal(nodes, node, "")
         if surface.material is not None:
@@ -320,11 +301,11 @@ def _metallic(nodes: Nodes, node: Any) -> _Surface:
     return surface
 
 
-def _held_out(nodes: Nodes, node: Any) -> _Surface:
-    return _Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)}, is_held_out=True)
+def _held_out(nodes: Nodes, node: Any) -> Surface:
+    return Surface({"string type": "diffuse", "rgb reflectance": (0, 0, 0)}, is_held_out=True)
 
 
-def _glass(nodes: Nodes, node: Any) -> _Surface:
+def _glass(nodes: Nodes, node: Any) -> Surface:
     material = _dielectric(nodes, node.inputs["Roughness"], max(nodes.number(node.inputs["IOR"]), 1e-3))
     nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
     if node.bl_idname == "ShaderNodeBsdfGlass":
@@ -334,7 +315,7 @@ def _glass(nodes: Nodes, node: Any) -> _Surface:
     tell_of_films(nodes, node)
     tell_of_facets(nodes, node, node.inputs["Roughness"], "GGX")
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
 def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
@@ -343,25 +324,25 @@ def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
     return material
 
 
-def _transparent(nodes: Nodes, node: Any) -> _Surface:
+def _transparent(nodes: Nodes, node: Any) -> Surface:
     colour = nodes.known(node.inputs["Color"])
     if colour is not None and np.abs(colour - 1).max() < 1e-3:
-        return _Surface(is_clear=True)
+        return Surface(is_clear=True)
     nodes.warn(node, "what is transparent and has a colour lets no light of lamps without a size through")
     # A pane that reflects nothing.
     material: dict[str, Any] = {"string type": "thindielectric", "float eta": 1.0}
     nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
-    return _Surface(material)
+    return Surface(material)
 
 
-def _translucent(nodes: Nodes, node: Any) -> _Surface:
+def _translucent(nodes: Nodes, node: Any) -> Surface:
     material: dict[str, Any] = {"string type": "diffusetransmission", "rgb reflectance": (0, 0, 0)}
     nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
-def _subsurface(nodes: Nodes, node: Any) -> _Surface:
+def _subsurface(nodes: Nodes, node: Any) -> Surface:
     # It has no surface of its own.
     material: dict[str, Any] = {"string type": "principled", "float specular": 0, "float roughness": 1, "float subsurface": 1}
     nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
@@ -369,12 +350,12 @@ def _subsurface(nodes: Nodes, node: Any) -> _Surface:
     names["ior"] = nodes.number(nodes.input(node, "IOR"))
     add_inside(nodes, node, material, node.inputs["Color"], node.falloff, names)
     add_detail(nodes, node, material)
-    return _Surface(material)
+    return Surface(material)
 
 
-def _emission(nodes: Nodes, node: Any) -> _Surface:
+def _emission(nodes: Nodes, node: Any) -> Surface:
     emission, varies = _emitted(nodes, node.inputs["Color"], node.inputs["Strength"])
-    return _Surface(emission=emission, shines_by_a_picture=varies)
+    return Surface(emission=emission, shines_by_a_picture=varies)
 
 
 def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
@@ -387,13 +368,13 @@ def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
     return nodes.colour(colour) * nodes.number(strength), False
 
 
-def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
+def _mixed(nodes: Nodes, node: Any, depth: int) -> Surface:
     first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[1:3])
     factor = nodes.known(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
-    if _is_nothing(first) and _is_nothing(second):
+    if is_nothing(first) and is_nothing(second):
         return first
     emission = (1 - share) * first.emission + share * second.emission
     varies = first.shines_by_a_picture or second.shines_by_a_picture
@@ -415,43 +396,6 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> _Surface:
             nodes.warn(node, "of transparencies within each other the outermost counts")
         if varies:
             nodes.warn(node, "what shines by a picture and is transparent is darker where it is that")
-        return _Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies, brushed=seen.brushed)
+        return Surface(seen.material, seen.mixed, seen.emission, alpha, shines_by_a_picture=varies, brushed=seen.brushed)
     varies = varies or (factor is None and nodes.bakery is not None and bool(emission.max() > 0))
-    return _Surface(mixed=(_reflecting(first), _reflecting(second), amount), emission=emission, shines_by_a_picture=varies)
-
-
-def _is_nothing(surface: _Surface) -> bool:
-    is_made = surface.material is not None or surface.mixed is not None or bool(surface.alpha)
-    return not (is_made or surface.is_clear or surface.shines_by_a_picture or surface.emission.max() > 0)
-
-
-def _reflecting(surface: _Surface) -> _Surface:
-    """What only shines reflects nothing, and hides what is behind it."""
-    if surface.material is None and surface.mixed is None:
-        surface.material = {"string type": "diffuse", "rgb reflectance": (0, 0, 0)}
-    return surface
-
-
-def _added(nodes: Nodes, node: Any, depth: int) -> _Surface:
-    first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[:2])
-    emission = first.emission + second.emission
-    varies = first.shines_by_a_picture or second.shines_by_a_picture
-    if (first.is_clear or second.is_clear) and emission.max() > 0:
-        nodes.warn(node, "what shines and is transparent as well hides what is behind it")
-    for one, other in ((first, second), (second, first)):
-        if one.material is None and one.mixed is None:
-            is_clear = other.is_clear and not emission.max() > 0
-            return _Surface(other.material, other.mixed, emission, other.alpha, varies, is_clear)
-    through = _diffuse_both_ways(first.material, second.material) or _diffuse_both_ways(second.material, first.material)
-    if through is not None:
-        return _Surface(through, emission=emission, shines_by_a_picture=varies)
-    nodes.warn(node, "a sum of two surfaces is taken as their mean")
-    return _Surface(mixed=(first, second, {"float amount": 0.5}), emission=emission, shines_by_a_picture=varies)
-
-
-def _diffuse_both_ways(matt: dict[str, Any] | None, through: dict[str, Any] | None) -> dict[str, Any] | None:
-    """One material of a diffuse surface and of one that lets light through."""
-    if not matt or not through or matt["string type"] != "diffuse" or through["string type"] != "diffusetransmission":
-        return None
-    kept = {name: value for name, value in through.items() if not name.endswith(" reflectance")}
-    return kept | {name: value for name, value in matt.items() if name.endswith(" reflectance")}
+    return Surface(mixed=(reflecting(first), reflecting(second), amount), emission=emission, shines_by_a_picture=varies)

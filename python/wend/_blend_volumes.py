@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from ._blend_nodes import Colour, Nodes, blackbody
 
 
+class Values(Protocol):
+    """What inputs are: constants, or arrays, a row for each of several places."""
+
+    def number(self, socket: Any) -> Any: ...
+
+    def colour(self, socket: Any) -> Any: ...
+
+
 def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
     """Of a shader node of a volume, the parameters of a medium of density 1 everywhere; None for one that is none."""
-    found = _volume(nodes, node)
+    found = coefficients(nodes, node, nodes)
     if found is None:
         return None
     scattering, absorption, emission, phase = found
@@ -54,7 +62,7 @@ def glow_parameters(
                 "string temperaturename": heat,
                 "float temperaturescale": nodes.number(node.inputs["Temperature"]),
             }
-    found = _volume(nodes, node)
+    found = coefficients(nodes, node, nodes)
     if found is None or found[2].max() <= 0:
         # pbrt would take a grid of temperatures for what shines.
         return {"string temperaturename": ""}
@@ -67,9 +75,9 @@ def glow_parameters(
     }
 
 
-def _shine(nodes: Nodes, node: Any) -> Colour:
-    strength = nodes.number(node.inputs["Emission Strength"])
-    return nodes.colour(node.inputs["Emission Color"]) * strength if strength > 0 else np.zeros(3)
+def _shine(values: Values, node: Any) -> Colour:
+    strength = values.number(node.inputs["Emission Strength"])
+    return np.asarray(values.colour(node.inputs["Emission Color"]) * strength if np.max(strength) > 0 else np.zeros(3))
 
 
 def _black_body(nodes: Nodes, node: Any, kelvin: float) -> Colour:
@@ -79,51 +87,47 @@ def _black_body(nodes: Nodes, node: Any, kelvin: float) -> Colour:
     return np.asarray(scale * nodes.colour(node.inputs["Blackbody Tint"]) * blackbody(kelvin))
 
 
-_Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
+#: Scattering, absorption, emission, and the phase function.
+Coefficients = tuple[Colour, Colour, Colour, dict[str, Any]]
 
 
-def _sums(parts: list[tuple[float, _Coefficients]]) -> tuple[Colour, Colour, Colour]:
+def _sums(parts: list[tuple[Any, Coefficients]]) -> tuple[Colour, Colour, Colour]:
     first, second, third = np.zeros(3), np.zeros(3), np.zeros(3)
     for weight, part in parts:
         first, second, third = first + weight * part[0], second + weight * part[1], third + weight * part[2]
     return first, second, third
 
 
-def _volume_at(nodes: Nodes, socket: Any, depth: int) -> _Coefficients | None:
-    with nodes.aside():
-        return _volume(nodes, nodes.shader(socket), depth)
-
-
-def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
-    """Scattering, absorption, emission, and the phase function."""
+def coefficients(nodes: Nodes, node: Any, values: Values, depth: int = 0) -> Coefficients | None:
+    """Of a shader node of a volume, by what its inputs are: those of phase functions are `nodes`' constants."""
     zero = np.zeros(3)
     kind = node.bl_idname if node is not None else ""
     if depth > 32 or node is None:
         return None
     if kind == "ShaderNodeVolumePrincipled":
-        density = nodes.number(node.inputs["Density"])
-        colour = np.maximum(nodes.colour(node.inputs["Color"]), 0)
-        dark = np.sqrt(np.maximum(nodes.colour(node.inputs["Absorption Color"]), 0))
+        density = np.maximum(values.number(node.inputs["Density"]), 0)
+        colour = np.maximum(values.colour(node.inputs["Color"]), 0)
+        dark = np.sqrt(np.maximum(values.colour(node.inputs["Absorption Color"]), 0))
         absorption = np.maximum(1 - colour, 0) * np.maximum(1 - dark, 0)
-        shine = _shine(nodes, node)
+        shine = _shine(values, node)
         if nodes.number(node.inputs["Blackbody Intensity"]) > 0:
             shine = shine + _black_body(nodes, node, nodes.number(node.inputs["Temperature"]))
         return density * colour, density * absorption, shine, {"float g": nodes.number(node.inputs["Anisotropy"])}
     if kind == "ShaderNodeVolumeScatter":
-        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        density, colour = np.maximum(values.number(node.inputs["Density"]), 0), values.colour(node.inputs["Color"])
         return density * np.maximum(colour, 0), zero, zero, _phase(nodes, node)
     if kind == "ShaderNodeVolumeAbsorption":
-        density, colour = nodes.number(node.inputs["Density"]), nodes.colour(node.inputs["Color"])
+        density, colour = np.maximum(values.number(node.inputs["Density"]), 0), values.colour(node.inputs["Color"])
         return zero, density * np.clip(1 - colour, 0, None), zero, {}
     if kind == "ShaderNodeVolumeCoefficients":
-        values = [nodes.colour(node.inputs[f"{name} Coefficients"]) for name in ("Scatter", "Absorption", "Emission")]
-        return values[0], values[1], values[2], _phase(nodes, node)
+        found = [values.colour(node.inputs[f"{name} Coefficients"]) for name in ("Scatter", "Absorption", "Emission")]
+        return found[0], found[1], found[2], _phase(nodes, node)
     if kind == "ShaderNodeEmission":
-        return zero, zero, nodes.colour(node.inputs["Color"]) * nodes.number(node.inputs["Strength"]), {}
+        return zero, zero, values.colour(node.inputs["Color"]) * values.number(node.inputs["Strength"]), {}
     if kind in ("ShaderNodeAddShader", "ShaderNodeMixShader"):
         sockets = node.inputs[:2] if kind == "ShaderNodeAddShader" else node.inputs[1:3]
-        parts = [_volume_at(nodes, socket, depth + 1) for socket in sockets]
-        share = nodes.number(node.inputs[0]) if kind == "ShaderNodeMixShader" else 0.0
+        parts = [_coefficients_at(nodes, socket, values, depth + 1) for socket in sockets]
+        share = np.clip(values.number(node.inputs[0]), 0, 1) if kind == "ShaderNodeMixShader" else 0.0
         weights = (1 - share, share) if kind == "ShaderNodeMixShader" else (1.0, 1.0)
         there = [(weight, part) for weight, part in zip(weights, parts) if part is not None]
         if not there:
@@ -136,8 +140,16 @@ def _volume(nodes: Nodes, node: Any, depth: int = 0) -> _Coefficients | None:
     return None
 
 
-def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[float, _Coefficients]]) -> _Coefficients:
-    weights = [w * float(part[0].mean()) for w, part in parts]
+def _coefficients_at(nodes: Nodes, socket: Any, values: Values, depth: int) -> Coefficients | None:
+    with nodes.aside():
+        return coefficients(nodes, nodes.shader(socket), values, depth)
+
+
+def _two_phases(nodes: Nodes, node: Any, parts: list[tuple[Any, Coefficients]]) -> Coefficients:
+    scattering = [w * part[0] for w, part in parts]
+    if any(np.ndim(s) > 1 for s in scattering):
+        nodes.warn(node, "of two phase functions the shares are everywhere those of their means")
+    weights = [float(np.mean(s)) for s in scattering]
     if all(set(part[3]) <= {"float g"} for _, part in parts):
         cosines = [part[3].get("float g", 0.0) for _, part in parts]
         phase: dict[str, Any] = {"string phase": "henyeygreensteinmixture", "float g": cosines, "float weights": weights}

@@ -24,7 +24,7 @@ class Wanted:
 class Probe:
     """Stands for a bakery while a material is looked through for what it wants: "picture" is a texture that needs no
     baking, "own" is the same all over an object; by UV alone can be baked "uv", and "unit" where that is in the unit
-    square; all else is by "object"."""
+    square; all else is by "object", or inside it as "fog"."""
 
     bakes_all = is_shared = False
     side = 0
@@ -40,3 +40,7 @@ class Probe:
         else:
             self.modes.add("object" if not wanted.is_by_uv else "unit" if wanted.is_unit else "uv")
         return {"string filename": ""}
+
+    def fill_inside(self, fog: Any) -> None:
+        """Bakes what is inside an object."""
+        self.modes.add("fog")

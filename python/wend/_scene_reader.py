@@ -36,6 +36,7 @@ class Look:
     name: str | None  #: of the material; None: an interface, which is not seen
     emission: tuple[float, ...] | None = None
     medium: str | None = None  #: inside
+    fog: Any = None  #: what that is, where it varies: has `parameters` of a medium, in the shape's own coordinates
     shape_parameters: dict[str, Any] = field(default_factory=dict)
     brushed: Brush | None = None  #: None: along its texture coordinates, if at all
     shown: str | None = None  #: file of a picture that it shines with, in place of the emission
@@ -92,6 +93,17 @@ class SceneReader:
             add("ActiveTransform", when)
             add("Transform", place)
         add("ActiveTransform", "All")
+
+
+class Silent(SceneReader):
+    """Makes what nobody sees."""
+
+    def __init__(self, reader: SceneReader) -> None:
+        super().__init__("", None)
+        self.opaque_pictures = reader.opaque_pictures
+
+    def tell(self, place: str, text: str, *, each: bool = False) -> None:
+        pass
 
 
 def unmirrored(places: Places) -> Places:

@@ -28,20 +28,25 @@ def directions(side: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float
     return np.copysign(np.cos(phi), u) * ring, np.copysign(np.sin(phi), v) * ring, z
 
 
-def add_thrown(reader: SceneReader, intensity: Any, factor_of: Callable[..., npt.NDArray[np.float64]]) -> None:
+def add_thrown(
+    reader: SceneReader, intensity: Any, factor_of: Callable[..., npt.NDArray[np.float64]], side: int = _SHAPED_SIDE
+) -> None:
     """Adds a light without a size.
 
     Args:
         reader: of the scene.
         intensity: a colour.
-        factor_of: of x, y and z of directions in the light's own space, what multiplies it there.
+        factor_of: of x, y and z of directions in the light's own space, what multiplies it there: numbers, or colours.
+        side: of the picture that is made.
     """
     # pbrt's pole is y.
-    x, z, y = directions(_SHAPED_SIDE)
+    x, z, y = directions(side)
     factor = factor_of(x, y, z)
     if factor.max() <= 0:
         return
     file = reader.map_file(f"shape{len(reader.builder)}.exr")
-    picture = np.repeat((factor / factor.max()).astype(np.float32)[:, :, None], 3, axis=2)
-    Film.of(picture).save(file)
-    reader.builder.add("LightSource", "goniometric", {"rgb I": intensity * factor.max(), "string filename": file})
+    is_coloured = factor.ndim == 3
+    picture = (factor / factor.max()).astype(np.float32)
+    Film.of(picture if is_coloured else np.repeat(picture[:, :, None], 3, axis=2)).save(file)
+    parameters = {"rgb I": intensity * factor.max(), "string filename": file}
+    reader.builder.add("LightSource", "goniometric", parameters | ({"bool coloured": True} if is_coloured else {}))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Any
 
-from pxr import Ar, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Ar, Sdf, UsdShade  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._errors import InputError
 from ._udim import Tile, tile_of
@@ -49,10 +50,22 @@ def file_called(reader: Any, name: str) -> str | None:
 def tiles_of(attribute: Any, asset: Any) -> dict[Tile, str] | None:
     """Names of the tiles that an asset of many has, by the layer that the attribute has it of; None for one file."""
     pattern = str(asset.path)
-    if not UsdShade.UdimUtils.IsUdimIdentifier(pattern):
+    by_place = "<UVTILE>" in pattern
+    if not by_place and not UsdShade.UdimUtils.IsUdimIdentifier(pattern):
         return None
     specs = [spec for spec in attribute.GetPropertyStack() if spec.HasInfo("default") or spec.HasInfo("timeSamples")]
     layer = specs[0].layer if specs else None
+    if by_place:
+        return _tiles_by_place(Sdf.ComputeAssetPathRelativeToLayer(layer, pattern) if layer else pattern)
     found = UsdShade.UdimUtils.ResolveUdimTilePaths(pattern, layer)
     tiles = {tile_of(int(number)): str(name) for name, number in found}
     return {tile: name for tile, name in tiles.items() if tile is not None}
+
+
+def _tiles_by_place(pattern: str) -> dict[Tile, str]:
+    """Of names with the tile's column and row in them (u1_v1), as MaterialX has them."""
+    folder, name = os.path.split(pattern)
+    before, _, after = name.partition("<UVTILE>")
+    of_tile = re.compile(re.escape(before) + r"u([1-9]\d{0,2})_v([1-9]\d{0,2})" + re.escape(after))
+    found = [(of_tile.fullmatch(file), file) for file in (sorted(os.listdir(folder)) if os.path.isdir(folder) else [])]
+    return {(int(m[1]) - 1, int(m[2]) - 1): os.path.join(folder, file) for m, file in found if m}

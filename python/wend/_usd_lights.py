@@ -13,6 +13,7 @@ from pxr import UsdGeom, UsdLux  # type: ignore[import-not-found,import-untyped,
 
 from . import _ies
 from . import _usd_blender as blender
+from ._dome_formats import as_latlong, is_known
 from ._film import Film, read
 from ._scene_reader import Places, unmirrored
 from ._sky import add_thrown
@@ -217,10 +218,14 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
         return
     local = np.array(UsdGeom.Xformable(prim).GetLocalTransformation(reader.time))
     _stand(reader, prim, _LATLONG @ _pole(reader, prim) @ blender.turned_sky(reader, prim, local) @ world)
-    if format_ not in ("automatic", "latlong"):
+    is_made = is_known(str(format_))
+    if is_made:
+        reader.warn(prim, f"the middle of a {format_} picture of a dome is where that of a latlong one is")
+        picture = as_latlong(picture, str(format_))
+    elif format_ not in ("automatic", "latlong"):
         reader.warn(prim, f"a {format_} picture of a dome is taken as a latlong one")
     sky: dict[str, Any] = {"string filename": file, "string mapping": "equirectangular"}
-    if np.ptp(radiance) == 0:
+    if np.ptp(radiance) == 0 and not is_made:
         sky["float scale"] = float(radiance[0])
     else:
         sky["string filename"] = reader.map_file(f"dome{len(reader.builder)}.exr")

@@ -31,6 +31,7 @@ from . import _reader_command as command
 from ._blend_bake import Bakeries
 from ._blend_camera import add_view
 from ._blend_copies import Copies
+from ._blend_lamp_pictures import LampPicture, picture_of, wants_picture
 from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
@@ -40,6 +41,7 @@ from ._blend_settings import tell_of_object, tell_of_scene
 from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, shrunk, strands
 from ._blend_volumes import glow_parameters, volume_parameters
 from ._blend_world import add_world, add_world_volume
+from ._blend_world_fog import WorldFog, world_fog
 
 #: Kinds of objects that have a surface once they are evaluated.
 _SOLID = ("MESH", "CURVE", "SURFACE", "META", "FONT")
@@ -164,6 +166,8 @@ class _Reader(SceneReader):
         self.bakeries: Bakeries | None = None  #: where Cycles may be called
         self.can_render = can_render
         self.has_light = False
+        self._fogs = 0
+        self._lamp_pictures: dict[str, LampPicture] = {}
         self._objects: dict[str, str] = {}
         #: of the object at hand, where it changes its shape
         self.shapes: tuple[Geometry, Geometry] | None = None
@@ -175,11 +179,16 @@ class _Reader(SceneReader):
     ) -> SceneBuilder:
         add = self.builder.add
         tell_of_scene(self, self.scene, depsgraph.view_layer)
-        self.around = add_world_volume(self, self.scene.world)
+        fog = self.world_fog(depsgraph) if self.can_render else None
+        if fog is not None:
+            fog.add(self)
+        self.around = fog.name if fog is not None else add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
         add_view(self, self.scene, eye, resolution, spp, motion)
         add("WorldBegin")
+        if fog is not None:
+            fog.add_end(self)
         self.has_light = add_world(self, self.scene.world, self.can_render)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
         seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
@@ -207,11 +216,25 @@ class _Reader(SceneReader):
             self.tell(f"scene '{self.scene.name}'", "no light: the picture is black")
         return self.builder
 
+    def world_fog(self, depsgraph: Any) -> WorldFog | None:
+        world = self.scene.world
+        if not (world and world.use_nodes and world.node_tree):
+            return None
+        corners = [np.zeros((0, 3))]
+        for instance in depsgraph.object_instances:
+            if self.is_seen(instance) or instance.object.type == "CAMERA":
+                place = np.array(instance.matrix_world)
+                corners.append(np.array(instance.object.bound_box) @ place[:3, :3].T + place[:3, 3])
+        return world_fog(self, world, np.concatenate(corners), self.bake_resolution)
+
     def bake(self, depsgraph: Any, seen: list[bool], times: Counter[str]) -> None:
         """Makes materials, and pictures of what has no counterpart."""
         self.bakeries = Bakeries(self, depsgraph, self.bake_resolution)
+        lamps: dict[str, tuple[Any, Any]] = {}
         for instance, shown in zip(depsgraph.object_instances, seen):
             key = self.copies.key_of(instance)
+            if shown and instance.object.type == "LIGHT" and key not in lamps and wants_picture(self, instance.object.data):
+                lamps[key] = instance.object.data.original, instance.matrix_world.copy()
             if not shown or instance.object.type not in _SOLID or self.bakeries.get(key):
                 continue
             bakery = self.bakeries.add(instance.object, key, times[key] > 1)
@@ -221,6 +244,7 @@ class _Reader(SceneReader):
             for material in materials:
                 look_of(self, material, bakery)
         self.bakeries.bake(self.scene)
+        self._lamp_pictures = {key: picture_of(lamp, world) for key, (lamp, world) in lamps.items()}
 
     @staticmethod
     def is_seen(instance: Any) -> bool:
@@ -238,7 +262,7 @@ class _Reader(SceneReader):
     def add_object(self, object_: Any, place: Any, key: str, is_copied: bool) -> None:
         kind, name = object_.type, object_.name
         if kind == "LIGHT":
-            lights.add(self, name, object_.data, place, object_.visible_camera)
+            lights.add(self, name, object_.data, place, object_.visible_camera, self._lamp_pictures.get(key))
             self.has_light = True
         elif kind in _SOLID:
             self.add_solid(object_, place, key, is_copied)
@@ -310,9 +334,11 @@ class _Reader(SceneReader):
         add = self.builder.add
         if look.medium is not None and look.shape_parameters and kind == "trianglemesh":
             # What a surface lets through by its share goes into the volume, which begins right below it.
-            inside = Look(None, medium=look.medium)
+            inside = Look(None, medium=look.medium, fog=look.fog)
             self.add_shape(place, inside, (kind, shrunk(parameters)), name)
-            look = replace(look, medium=None)
+            look = replace(look, medium=None, fog=None)
+        if look.fog is not None:
+            look = self.filled(look, place, name)
         with self.builder.block():
             self.put(place)
             if look.name is None:
@@ -330,6 +356,17 @@ class _Reader(SceneReader):
                     self.has_light = True
             seen = {"string cameraview": self.view} if self.view != "shown" else {}
             add("Shape", kind, parameters | look.shape_parameters | seen)
+
+    def filled(self, look: Look, place: Any, name: str) -> Look:
+        """With a medium that varies, where the shape is."""
+        if look.fog.parameters is None:
+            return replace(look, medium=None, fog=None)
+        self._fogs += 1
+        medium = f"{look.medium} {self._fogs}"
+        with self.builder.block():
+            self.builder.add("Transform", self.held(place, f"object '{name}'"))
+            self.builder.add("MakeNamedMedium", medium, look.fog.parameters)
+        return replace(look, medium=medium, fog=None)
 
     def add_volume(self, object_: Any, place: Any, name: str) -> None:
         volume = object_.data

@@ -206,8 +206,11 @@ TEST(LoadMaterials, Mixtures) {
     Pcg32 random(1);
     for (int i = 0; i < points; ++i) {
         const TexturePoint p{{0, 0}, to_sphere(random.uniform2())};
-        const int at = material_at(scene.materials, static_cast<int>(scene.materials.size()) - 1, scene.textures, p);
-        glass += std::holds_alternative<DielectricMaterial>(scene.materials[static_cast<std::size_t>(at)]) ? 1 : 0;
+        const MaterialPart at =
+            material_at(scene.materials, static_cast<int>(scene.materials.size()) - 1, scene.textures, p);
+        EXPECT_EQ(at.count, 1.0f);
+        glass +=
+            std::holds_alternative<DielectricMaterial>(scene.materials[static_cast<std::size_t>(at.index)]) ? 1 : 0;
     }
     EXPECT_NEAR(glass / static_cast<double>(points), 0.3, 0.015);
     // Two of them are one, also deep inside.
@@ -219,6 +222,38 @@ TEST(LoadMaterials, Mixtures) {
     EXPECT_EQ(nested.as<MixMaterial>().first, nested.as<MixMaterial>().second);
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" ]"); }), "two \"materials\"");
     EXPECT_PRED2(contains, message_of([&] { mixed("[ \"red\" \"blue\" ]"); }), "\"blue\" is not defined");
+}
+
+TEST(LoadMaterials, PartsOfSumsCountByTheInverseOfTheirProbability) {
+    const std::string parts =
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] "
+        "MakeNamedMaterial \"glass\" \"string type\" \"dielectric\" "
+        "MakeNamedMaterial \"none\" \"string type\" \"interface\" ";
+    const auto added = [&](const std::string& parameters) {
+        return Loaded(parts + "Material \"sum\" \"string materials\" " + parameters);
+    };
+    // Of each the mean count is 1; also where the amount would leave one out.
+    for (const auto& [amount, tolerance] : {std::pair(0.3, 0.04), {0.0, 0.5}}) {
+        const Loaded loaded = added(fmt::format("[ \"red\" \"glass\" ] \"float amount\" {}", amount));
+        EXPECT_TRUE(loaded.scene.warnings.empty());
+        const SceneDescription& scene = loaded.scene.scene;
+        double red = 0, glass = 0;
+        constexpr int points = 20000;
+        Pcg32 random(1);
+        for (int i = 0; i < points; ++i) {
+            const TexturePoint p{{0, 0}, to_sphere(random.uniform2())};
+            const MaterialPart at =
+                material_at(scene.materials, static_cast<int>(scene.materials.size()) - 1, scene.textures, p);
+            const auto& material = scene.materials[static_cast<std::size_t>(at.index)];
+            (std::holds_alternative<DielectricMaterial>(material) ? glass : red) += double{at.count} / points;
+        }
+        EXPECT_NEAR(red, 1, tolerance);
+        EXPECT_NEAR(glass, 1, tolerance);
+    }
+    const Loaded left = added("[ \"none\" \"red\" ]");
+    EXPECT_EQ(warnings_with(left.scene, "an \"interface\" in a sum is left out"), 1);
+    EXPECT_NO_THROW(left.as<DiffuseMaterial>());
+    EXPECT_PRED2(contains, message_of([&] { added("[ \"red\" ]"); }), "\"sum\" needs the names of two");
 }
 
 TEST(LoadMaterials, MixturesWithAnInterfaceAreThereByChance) {

@@ -122,12 +122,13 @@ void track(const GridMedium& medium, const FlightStart& start, Flight& flight, P
 void track_voxels(const GridMedium& medium, const FlightStart& start, Flight& flight, Pcg32& random) {
     const VoxelCoefficients& voxels = *medium.voxels();
     const GridEmission* emission = medium.emission();
+    const bool shines_apart = emission && emission->is_apart;
     const auto index_ray = medium.to_index(start.ray);
     const float looks = medium.looks(index_ray, start.length);
     Rgb probability = channel_probabilities(start.throughput);
     TentativeCollisions collisions(random);
     const auto cross = [&](const MajorantGrid::Cell& cell, float t_in, float t_out) {
-        if (!(cell.maximum > 0)) {
+        if (!(cell.maximum > 0) && !shines_apart) {
             return true;
         }
         const float rate = std::max(cell.maximum, looks);
@@ -139,7 +140,8 @@ void track_voxels(const GridMedium& medium, const FlightStart& start, Flight& fl
             const Rgb scattering = voxels.scattering.sample_nearest(p, corner);
             if (emission) {
                 const Vec3 here = start.ray.at(t);
-                pick_up(flight, flight.weight * absorption * emission->at(here) * (start.keeps(here) / rate), t);
+                const Rgb absorbed = shines_apart ? Rgb(1.0f) : absorption;
+                pick_up(flight, flight.weight * absorbed * emission->at(here) * (start.keeps(here) / rate), t);
             }
             const Rgb extinction = absorption + scattering;
             const float real = dot(probability, extinction);

@@ -72,7 +72,7 @@ public:
                 medium_ = scene_.medium_beyond(*hit_, ray_.direction, medium_);
                 ray_.pass(*hit_);
             } else {
-                SurfaceScattering f(scene_.bsdf(*hit_), hit_->shading, ray_.direction);
+                SurfaceScattering f(scene_, *hit_, ray_.direction);
                 if (f.reflects_or_refracts()) {
                     f.prefer_reflection(odds_of_reflection);
                 }

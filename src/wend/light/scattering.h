@@ -5,6 +5,7 @@
 #include <wend/decision/direction.h>
 #include <wend/decision/roulette_splitting.h>
 #include <wend/scene/bsdf/bsdf.h>
+#include <wend/scene/scene.h>
 
 #include <algorithm>
 
@@ -17,9 +18,11 @@ public:
 
     SurfaceScattering(Bsdf bsdf, const Frame& shading, const Vec3& before)
         : bsdf_(std::move(bsdf)), shading_(shading), wo_(shading.to_local(-before)) {}
+    SurfaceScattering(const Scene& scene, const Hit& hit, const Vec3& before)
+        : bsdf_(scene.bsdf(hit, &count_)), shading_(hit.shading), wo_(shading_.to_local(-before)) {}
 
     Rgb evaluate(const Vec3& w) const {
-        return std::visit([&](const auto& b) { return b.evaluate(wo_, shading_.to_local(w)); }, bsdf_);
+        return count_ * std::visit([&](const auto& b) { return b.evaluate(wo_, shading_.to_local(w)); }, bsdf_);
     }
     float density(const Vec3& w) const {
         return std::visit([&](const auto& b) { return b.density(wo_, shading_.to_local(w)); }, bsdf_);
@@ -29,7 +32,8 @@ public:
         if (!s) {
             return std::nullopt;
         }
-        return DirectionSample{shading_.to_world(s->direction), s->value, s->density, s->specular, s->density_ratio};
+        return DirectionSample{shading_.to_world(s->direction), count_ * s->value, s->density, s->specular,
+                               s->density_ratio};
     }
     AxialLobes lobes() const {
         const AxialLobes local = lobes_of(bsdf_, wo_);
@@ -48,9 +52,10 @@ public:
     }
     bool is_guidable() const { return is_pictured_by_lobes(bsdf_); }
     float index_ratio(const Vec3& w) const { return wend::index_ratio(bsdf_, wo_, shading_.to_local(w)); }
-    Rgb albedo() const { return directional_albedo(bsdf_, wo_); }
+    Rgb albedo() const { return count_ * directional_albedo(bsdf_, wo_); }
 
 private:
+    float count_ = 1;  ///< of the BSDF
     Bsdf bsdf_;
     Frame shading_;
     Vec3 wo_;

@@ -13,6 +13,11 @@ Vec3 to_light(const AffineMap& light_from_world, const Vec3& w) {
     return normalize(light_from_world.vector(w));
 }
 
+float in_cone(const ProjectionLight& light, float cosine) {
+    return light.cone ? cone_falloff(cosine, light.cone->cos_inner, light.cone->cos_outer, light.cone->is_linear)
+                      : 1.0f;
+}
+
 }  // namespace
 
 float cone_falloff(float cosine, float cos_inner, float cos_outer, bool is_linear) {
@@ -51,9 +56,9 @@ Rgb intensity_towards(const ProjectionLight& light, const Vec3& w) {
     }
     const Vec2 on_picture(0.5f * (on_window.x + 1), 0.5f * (on_window.y + 1));
     if (light.lights_plane_evenly) {
-        return light.intensity * light.picture->bilinear(on_picture) / (d.z * d.z * d.z);
+        return light.intensity * light.picture->bilinear(on_picture) * (in_cone(light, d.z) / (d.z * d.z * d.z));
     }
-    return light.intensity * light.picture->nearest(on_picture);
+    return light.intensity * light.picture->nearest(on_picture) * in_cone(light, d.z);
 }
 
 float spread(const SpotLight& light) {
@@ -78,9 +83,10 @@ Rgb spread(const ProjectionLight& light) {
         for (int x = 0; x < image.width; ++x) {
             const float px = (static_cast<float>(x) + 0.5f) * pixel.x - light.half_size.x;
             const float py = (static_cast<float>(y) + 0.5f) * pixel.y - light.half_size.y;
-            const double d2 = light.lights_plane_evenly ? 1 : 1 + double{px} * px + double{py} * py;
+            const double away2 = 1 + double{px} * px + double{py} * py, d2 = light.lights_plane_evenly ? 1 : away2;
+            const double left = double{in_cone(light, static_cast<float>(1 / std::sqrt(away2)))};
             for (int c = 0; c < 3; ++c) {
-                sum[c] += static_cast<double>(image.at(x, y)[c]) / (d2 * std::sqrt(d2));
+                sum[c] += left * static_cast<double>(image.at(x, y)[c]) / (d2 * std::sqrt(d2));
             }
         }
     }

@@ -6,6 +6,7 @@
 #include <wend/scene/light_picture.h>
 
 #include <memory>
+#include <optional>
 
 namespace wend {
 
@@ -39,6 +40,12 @@ struct ProjectionLight {
     Vec2 half_size{1, 1};  ///< of the window
     /// Whether it is the irradiance of the window that the picture gives, interpolated between its pixels.
     bool lights_plane_evenly = false;
+    /// That of a spot, around the z axis, of which the picture is a factor; none: all of the window.
+    struct Cone {
+        float cos_inner, cos_outer;
+        bool is_linear;
+    };
+    std::optional<Cone> cone{};
 };
 
 /// What is left of full intensity at an angle of this cosine from the axis of a cone: SpotLight.

@@ -260,12 +260,21 @@ bool is_directed(const Material& material) {
     return std::visit(Directed{}, material);
 }
 
-int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p) {
-    while (const auto* mix = std::get_if<MixMaterial>(&materials[static_cast<std::size_t>(index)])) {
-        const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(key_of(p.position), index) >> 32));
-        index = u < textures.evaluate_grey(mix->amount, p) ? mix->second : mix->first;
+MaterialPart material_at(const std::vector<Material>& materials, int index, const Textures& textures,
+                         const TexturePoint& p) {
+    MaterialPart part{index};
+    while (const auto* mix = std::get_if<MixMaterial>(&materials[static_cast<std::size_t>(part.index)])) {
+        const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(key_of(p.position), part.index) >> 32));
+        float amount = textures.evaluate_grey(mix->amount, p);
+        if (mix->is_sum) {
+            // Neither is ever left out.
+            constexpr float least = 1e-3f;
+            amount = std::clamp(amount, least, 1 - least);
+            part.count /= u < amount ? amount : 1 - amount;
+        }
+        part.index = u < amount ? mix->second : mix->first;
     }
-    return index;
+    return part;
 }
 
 }  // namespace wend

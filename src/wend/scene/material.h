@@ -151,6 +151,9 @@ struct MixMaterial {
     int first = 0;
     int second = 0;        ///< index in the scene's materials
     TextureId amount = 0;  ///< probability of the second
+    /// Whether both are there at once, with all that each scatters: what is drawn counts by the inverse of its
+    /// probability.
+    bool is_sum = false;
 };
 
 /// No scattering at all: a boundary between media of the same refractive index.
@@ -166,7 +169,14 @@ Bsdf make_bsdf(const Material& material, const Textures& textures, const Texture
 /// Whether a material looks different when it is turned about its normal, or may do so.
 bool is_directed(const Material& material);
 
+/// What a point has of a material.
+struct MaterialPart {
+    int index = 0;    ///< of the scene's materials: no mixture
+    float count = 1;  ///< what its BSDF is multiplied with, as a part of sums
+};
+
 /// Which of the materials is there: `index`, or where that is a mixture, what the point has of it.
-int material_at(const std::vector<Material>& materials, int index, const Textures& textures, const TexturePoint& p);
+MaterialPart material_at(const std::vector<Material>& materials, int index, const Textures& textures,
+                         const TexturePoint& p);
 
 }  // namespace wend

@@ -188,7 +188,7 @@ std::optional<RayHit> Scene::find(const TracedRay& ray, float distance) const {
 Hit Scene::complete(const RayHit& found, const Ray& ray) const {
     Hit hit = caster_->complete(found, ray);
     if (has_details_) {
-        const auto material = static_cast<std::size_t>(material_id(hit));
+        const auto material = static_cast<std::size_t>(material_part(hit).index);
         if (material < d_.details.size() && !d_.details[material].is_none()) {
             hit.shading = detailed_frame(d_.details[material], hit.shading, hit.normal, texture_point(hit),
                                          caster_->derivatives(hit), d_.textures);

@@ -153,9 +153,18 @@ public:
     /// Whether the surface is the same for every ray that comes near: neither a mixture, partly there, nor bumpy.
     bool is_plain(const Hit& hit) const;
     /// What the surface is made of there: no mixture.
-    const Material& material(const Hit& hit) const { return d_.materials[static_cast<std::size_t>(material_id(hit))]; }
+    const Material& material(const Hit& hit) const {
+        return d_.materials[static_cast<std::size_t>(material_part(hit).index)];
+    }
     bool is_interface(const Hit& hit) const { return std::holds_alternative<InterfaceMaterial>(material(hit)); }
-    Bsdf bsdf(const Hit& hit) const { return make_bsdf(material(hit), d_.textures, texture_point(hit)); }
+    /// `count`, if given, becomes what it is multiplied with: where materials are sums.
+    Bsdf bsdf(const Hit& hit, float* count = nullptr) const {
+        const MaterialPart part = material_part(hit);
+        if (count) {
+            *count = part.count;
+        }
+        return make_bsdf(d_.materials[static_cast<std::size_t>(part.index)], d_.textures, texture_point(hit));
+    }
     /// What the albedo is multiplied with in the medium inside, for a walk that enters it here; none where the boundary
     /// does not say.
     std::optional<Rgb> relative_albedo(const Hit& hit) const;
@@ -213,9 +222,9 @@ private:
     std::vector<int> instances_of_surfaces() const;
     /// For each region of a medium that a ray starts in, where it leaves that.
     std::vector<Hit> ways_out(const Ray& ray) const;
-    int material_id(const Hit& hit) const {
+    MaterialPart material_part(const Hit& hit) const {
         return has_mixtures_ ? material_at(d_.materials, hit.surface->material, d_.textures, texture_point(hit))
-                             : hit.surface->material;
+                             : MaterialPart{hit.surface->material};
     }
 
     SceneDescription d_;

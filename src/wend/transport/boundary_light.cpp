@@ -95,7 +95,7 @@ public:
         }
         std::optional<SurfaceScattering> f;
         if (is_clear && !scene_.is_interface(*hit)) {
-            f.emplace(scene_.bsdf(*hit), hit->shading, w);
+            f.emplace(scene_, *hit, w);
         }
         if (!f || f->is_specular() || f->reflects_or_refracts()) {
             ++unknown_;

@@ -62,7 +62,7 @@ FilmFeatures first_surface(const Scene& scene, const Ray& camera_ray, Pcg32& ran
                 add(*objects, objects->ids.of_surfaces[scene.surface_index(*hit)], mean_value(passed));
             }
         }
-        const SurfaceScattering f(scene.bsdf(*hit), hit->shading, ray.direction);
+        const SurfaceScattering f(scene, *hit, ray.direction);
         std::optional<DirectionSample> s;
         if (f.is_specular() && specular++ < most_specular) {
             const float u = random.uniform();

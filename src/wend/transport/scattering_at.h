@@ -12,7 +12,7 @@ namespace wend {
 /// The BSDF at a vertex that the path has just come to; boundaries reflect as often as it pays there.
 inline SurfaceScattering scattering_at(const Scene& scene, const ReflectionProbability& reflections,
                                        const PathState& path, const Vertex& v) {
-    SurfaceScattering f(scene.bsdf(*v.hit), v.hit->shading, path.ray.direction);
+    SurfaceScattering f(scene, *v.hit, path.ray.direction);
     if (f.reflects_or_refracts()) {
         f.prefer_reflection(reflections.odds(v.side()), path.weight_to_bound());
     }

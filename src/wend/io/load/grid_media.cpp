@@ -232,18 +232,22 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
     const VoxelColours scattering{load_colours(context, p, "sigma_s"), scale, clamped};
     // Not divided by the luminance of a spectrum of 1 here, other than in all other media of pbrt.
     constexpr float luminance_of_equal_energy = 106.856895f;
-    const VoxelColours emitted{load_colours(context, p, "Le"),
-                               luminance_of_equal_energy * non_negative_float(p, emission_scale_name(p), 1), clamped};
+    const bool shines_apart = p.has("glow");
+    const VoxelColours emitted =
+        shines_apart
+            ? VoxelColours{load_colours(context, p, "glow"), 1, clamped}
+            : VoxelColours{load_colours(context, p, "Le"),
+                           luminance_of_equal_energy * non_negative_float(p, emission_scale_name(p), 1), clamped};
     const std::size_t count = std::max(absorption.values.size(), scattering.values.size());
     if (count == 0) {
         throw InputError(entity.place, "\"rgbgrid\" needs the parameter \"rgb sigma_a\" or \"rgb sigma_s\"");
     }
-    if (!emitted.values.empty() && absorption.values.empty()) {
+    if (!emitted.values.empty() && absorption.values.empty() && !shines_apart) {
         throw InputError(p.place_of("Le"), "\"rgbgrid\" needs the parameter \"rgb sigma_a\" beside \"rgb Le\"");
     }
     const Vec3i size = load_size(p, count, absorption.values.empty() ? "sigma_s" : "sigma_a");
     for (const auto& [colours, name] :
-         {std::pair(&absorption, "sigma_a"), {&scattering, "sigma_s"}, {&emitted, "Le"}}) {
+         {std::pair(&absorption, "sigma_a"), {&scattering, "sigma_s"}, {&emitted, shines_apart ? "glow" : "Le"}}) {
         if (!colours->values.empty()) {
             load_size(p, colours->values.size(), name);
         }
@@ -256,6 +260,7 @@ Medium load_rgb_grid(LoadContext& context, const pbrt::MediumEntity& entity) {
     std::shared_ptr<GridEmission> emission;
     if (!emitted.values.empty()) {
         emission = std::make_shared<GridEmission>();
+        emission->is_apart = shines_apart;
         emission->radiance = Rgb(1.0f);
         emission->colours = std::make_shared<const ColourGrid>(emitted.grid(entity.place, size));
         emission->field_from_world = AffineMap(index_from_world);

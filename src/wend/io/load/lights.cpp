@@ -158,8 +158,10 @@ SpotLight load_spot(LoadContext& context, const pbrt::LightEntity& light) {
 GoniometricLight load_goniometric(LoadContext& context, TextureLoader& textures, const pbrt::LightEntity& light) {
     Image image = load_picture(context, textures, light);
     require_square(image, light);
-    for (Rgb& pixel : image.pixels) {
-        pixel = Rgb(mean(pixel));
+    if (!light.parameters.get_bool("coloured", false)) {
+        for (Rgb& pixel : image.pixels) {
+            pixel = Rgb(mean(pixel));
+        }
     }
     GoniometricLight source;
     source.position = load_position(light, {0, 0, 0});
@@ -209,7 +211,17 @@ ProjectionLight load_projection(LoadContext& context, TextureLoader& textures, c
         (is_of_width ? Vec2(1, 1 / aspect) : Vec2(std::max(aspect, 1.0f), std::max(1 / aspect, 1.0f))) *
         std::tan(0.5f * fov * pi / 180);
     projector.lights_plane_evenly = load_even_profile(p);
-    projector.intensity = Rgb(non_negative_float(p, "scale", 1) * power_factor(p, luminance(spread(projector))));
+    if (p.has("coneangle")) {
+        const EmissionProfile cone = load_cone(p);
+        if (!(cone.cos_outer > 1e-3f)) {
+            throw InputError(p.place_of("coneangle"), "the cone of a projected picture is narrower than 90 degrees");
+        }
+        projector.cone = ProjectionLight::Cone{cone.cos_inner, cone.cos_outer, cone.is_linear};
+        const float half = std::sqrt(1 - sqr(cone.cos_outer)) / cone.cos_outer;
+        projector.half_size = Vec2(half, half);
+    }
+    const Rgb full = p.has("I") ? load_scaled(context, p, "I") : Rgb(non_negative_float(p, "scale", 1));
+    projector.intensity = full * power_factor(p, luminance(spread(projector)));
     return projector;
 }
 

@@ -43,6 +43,7 @@ public:
             {"subsurface", &MaterialLoader::load_subsurface},
             {"hair", &MaterialLoader::load_hair},
             {"mix", &MaterialLoader::load_mix},
+            {"sum", &MaterialLoader::load_mix},
             {"burley", &MaterialLoader::load_disney},
             {"burleysheet", &MaterialLoader::load_disney_sheet},
             {"principled", &MaterialLoader::load_principled},
@@ -59,7 +60,7 @@ public:
         }
         refuse_type("Material", entity,
                     {"burley", "burleysheet", "coatedconductor", "coateddiffuse", "conductor", "dielectric", "diffuse",
-                     "diffusetransmission", "hair", "interface", "measured", "mix", "principled", "subsurface",
+                     "diffusetransmission", "hair", "interface", "measured", "mix", "principled", "subsurface", "sum",
                      "thindielectric"});
     }
 
@@ -232,9 +233,11 @@ private:
         const pbrt::ParameterSet& p = entity.parameters;
         const std::vector<std::string> names = p.get_strings("materials");
         if (names.size() != 2) {
-            throw InputError(p.place_of("materials"), "\"mix\" needs the names of two \"materials\"");
+            throw InputError(p.place_of("materials"),
+                             fmt::format("\"{}\" needs the names of two \"materials\"", entity.type));
         }
-        return {MixMaterial{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f)}};
+        return {MixMaterial{index_of(names[0], p), index_of(names[1], p), textures_.real(p, "amount", 0.5f),
+                            entity.type == "sum"}};
     }
 
     int index_of(const std::string& name, const pbrt::ParameterSet& p) const {

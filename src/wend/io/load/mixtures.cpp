@@ -1,5 +1,7 @@
 #include <wend/io/load/mixtures.h>
 
+#include <fmt/format.h>
+
 #include <functional>
 
 namespace wend {
@@ -14,6 +16,11 @@ void leave_out_interfaces(LoadContext& context, TextureLoader& textures, std::ve
     const bool first = is_interface(mix.first), second = is_interface(mix.second);
     if (first && second) {
         loaded[index].material = InterfaceMaterial{};
+    } else if (mix.is_sum && (first || second)) {
+        context.warnings.add(entity.parameters.place_of("materials"),
+                             "an \"interface\" in a sum is left out: a \"thindielectric\" of an \"eta\" of 1 lets all "
+                             "light pass");
+        loaded[index] = LoadedMaterial(part(first ? mix.second : mix.first));
     } else if (first || second) {
         context.warnings.add(entity.parameters.place_of("materials"),
                              "a mixture lets its share of an \"interface\" pass by chance, also of connections to "
@@ -39,7 +46,8 @@ void check_mixtures(LoadContext& context, TextureLoader& textures, std::vector<L
             return;
         }
         if (states[index] == State::open) {
-            throw InputError(materials[index].parameters.place_of("materials"), "\"mix\" is made of itself");
+            throw InputError(materials[index].parameters.place_of("materials"),
+                             fmt::format("\"{}\" is made of itself", materials[index].type));
         }
         states[index] = State::open;
         for (const int part : {mix->first, mix->second}) {

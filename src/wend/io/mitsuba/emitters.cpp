@@ -34,6 +34,36 @@ void add_point(const Object& emitter) {
     add(emitter, emitter.transform("to_world"), "point", p);
 }
 
+/// The picture that an emitter shines by.
+void set_picture(const Object& bitmap, Parameters& p) {
+    p.text("filename", bitmap.file("filename").string());
+    if (bitmap.flag("raw", false)) {
+        p.text("encoding", "raw");
+    }
+    // Where it is mirrored, its edges are as where it is clamped.
+    const BitmapWays ways = ways_of_bitmap(bitmap);
+    p.text("filter", ways.filter).text("wrap", ways.wrap == "repeat" ? "repeat" : "clamp");
+    bitmap.ignore("format");
+    bitmap.ignore("accel");
+    bitmap.warn_of_unused();
+}
+
+/// The picture that a spot throws into the square around its cone: whether it has one.
+bool set_thrown(const Object& emitter, double cutoff, Parameters& p) {
+    const Element* texture = emitter.find("texture");
+    if (!texture) {
+        return false;
+    }
+    if (!is_texture(*texture) || texture->attribute("type") != "bitmap" || cutoff >= 89.9) {
+        emitter.context().warn(emitter.place_of("texture"),
+                               "the \"texture\" of a spot is ignored where it is no bitmap, "
+                               "or the cone no narrower than 90 degrees");
+        return false;
+    }
+    set_picture(Object(emitter.context(), *texture), p);
+    return true;
+}
+
 void add_spot(const Object& emitter) {
     const double cutoff = emitter.number("cutoff_angle", 20);
     const double beam = emitter.number("beam_width", cutoff * 3 / 4);
@@ -41,15 +71,18 @@ void add_spot(const Object& emitter) {
         throw InputError(emitter.place_of("cutoff_angle"),
                          "the \"cutoff_angle\" must lie between 0 and 180 degrees, the \"beam_width\" within it");
     }
-    if (emitter.has("texture")) {
-        emitter.context().warn(emitter.place_of("texture"), "the \"texture\" of a spot is ignored");
-    }
     Parameters p(emitter.place());
     p.colour("I", light_of(emitter, "intensity"))
         .real("coneangle", cutoff)
         .real("conedeltaangle", cutoff - beam)
         .text("falloff", "linear");
-    add(emitter, emitter.transform("to_world"), "spot", p);
+    const Transform to_world = emitter.transform("to_world");
+    if (set_thrown(emitter, cutoff, p)) {
+        // Its first row is where y is least.
+        add(emitter, to_world * Transform::scale(1, -1, 1), "projection", p);
+    } else {
+        add(emitter, to_world, "spot", p);
+    }
 }
 
 void add_directional(const Object& emitter) {
@@ -86,20 +119,6 @@ void add_environment(const Object& emitter) {
     // Its middle is towards z, its left towards x, and its top towards y; of ours towards x, y and z.
     const Transform::Matrix m = {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
     add(emitter, emitter.transform("to_world") * Transform(m), "infinite", p);
-}
-
-/// The picture that an emitter shines by.
-void set_picture(const Object& bitmap, Parameters& p) {
-    p.text("filename", bitmap.file("filename").string());
-    if (bitmap.flag("raw", false)) {
-        p.text("encoding", "raw");
-    }
-    // Where it is mirrored, its edges are as where it is clamped.
-    const BitmapWays ways = ways_of_bitmap(bitmap);
-    p.text("filter", ways.filter).text("wrap", ways.wrap == "repeat" ? "repeat" : "clamp");
-    bitmap.ignore("format");
-    bitmap.ignore("accel");
-    bitmap.warn_of_unused();
 }
 
 /// `fov` is that of the picture's width.

@@ -1,0 +1,82 @@
+"""Sums of Blender's shaders, against Cycles."""
+
+import pytest
+
+bpy = pytest.importorskip("bpy", reason="bpy is not installed")
+from blender_scene import (  # noqa: E402, F401
+    check,
+    floor,
+    lamp,
+    link,
+    material,
+    mesh,
+    node,
+    scene,
+    sky,
+    told,
+)
+
+pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
+
+SHADERS = {
+    "diffuse": ("BsdfDiffuse", {"color": (0.8, 0.5, 0.3)}),
+    "blue": ("BsdfDiffuse", {"color": (0.1, 0.3, 0.7)}),
+    "glossy": ("BsdfGlossy", {"color": (0.6, 0.7, 0.8), "roughness": 0.3}),
+    "translucent": ("BsdfTranslucent", {"color": (0.5, 0.8, 0.4)}),
+    "principled": ("BsdfPrincipled", {"base_color": (0.5, 0.3, 0.2)}),
+    "refraction": ("BsdfRefraction", {"roughness": 0.2}),
+    "sheen": ("BsdfSheen", {"color": (0.5, 0.6, 0.7)}),
+    "clear": ("BsdfTransparent", {"color": (1, 1, 1)}),
+    "tinted": ("BsdfTransparent", {"color": (0.5, 0.7, 0.9)}),
+    "light": ("Emission", {"color": (1, 0.5, 0.2), "strength": 0.5}),
+}
+
+
+def sum_of(*names):
+    made = material()
+    tree = made.node_tree
+    end = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
+    total = None
+    for name in names:
+        kind, inputs = SHADERS[name]
+        one = node(tree, kind, **inputs)
+        if total is not None:
+            both = node(tree, "AddShader")
+            link(tree, total, both.inputs[0])
+            link(tree, one, both.inputs[1])
+            one = both
+        total = one
+    link(tree, total, end.inputs["Surface"])
+    return made
+
+
+def ball(scene, made):
+    sky(scene, (0.5, 0.7, 1.0))
+    floor(scene)
+    mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1), radius=1, segments=64, ring_count=32)
+    lamp(scene, "AREA", 400, (2, -3, 4), (0.8, 0.2, 0.3), size=1.5).visible_camera = False
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("diffuse", "glossy"),
+        ("diffuse", "blue"),
+        ("diffuse", "translucent"),
+        ("diffuse", "glossy", "translucent"),
+        ("principled", "sheen"),
+        ("glossy", "refraction"),
+        ("clear", "glossy"),
+        ("tinted", "diffuse"),
+        ("clear", "light"),
+    ],
+    ids="+".join,
+)
+def test_a_sum_has_all_of_both(scene, tmp_path, names):
+    ball(scene, sum_of(*names))
+    check(scene, tmp_path, 1000)
+
+
+def test_what_is_transparent_in_a_sum_is_named(scene):
+    ball(scene, sum_of("clear", "glossy"))
+    assert "what is transparent in a sum" in told(scene)
