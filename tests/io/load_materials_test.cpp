@@ -234,7 +234,7 @@ TEST(LoadMaterials, PartsOfSumsCountByTheInverseOfTheirProbability) {
     };
     // Of each the mean count is 1; also where the amount would leave one out.
     for (const auto& [amount, tolerance] : {std::pair(0.3, 0.04), {0.0, 0.5}}) {
-        const Loaded loaded = added(fmt::format("[ \"red\" \"glass\" ] \"float amount\" {}", amount));
+        const Loaded loaded = added("[ \"red\" \"glass\" ] \"float amount\" " + std::to_string(amount));
         EXPECT_TRUE(loaded.scene.warnings.empty());
         const SceneDescription& scene = loaded.scene.scene;
         double red = 0, glass = 0;
