@@ -311,6 +311,7 @@ def _glass(nodes: Nodes, node: Any) -> Surface:
     if node.bl_idname == "ShaderNodeBsdfGlass":
         nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
     else:
+        nodes.warn(node, "refraction loses what Fresnel's equations reflect, which Cycles lets through")
         material["rgb reflectance"] = (0, 0, 0)
     tell_of_films(nodes, node)
     tell_of_facets(nodes, node, node.inputs["Roughness"], "GGX")
