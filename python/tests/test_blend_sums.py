@@ -76,7 +76,7 @@ def ball(scene, made):
 def test_a_sum_has_all_of_both(scene, tmp_path, names):
     ball(scene, sum_of(*names))
     is_noisy = {"clear", "tinted"} & set(names)
-    check(scene, tmp_path, 4000 if is_noisy else 1000, 0.02 if is_noisy else 0.01)
+    check(scene, tmp_path, 2000 if is_noisy else 1000, 0.03 if is_noisy else 0.01)
 
 
 def test_what_is_transparent_in_a_sum_is_named(scene):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 #: Makes a picture of what is wanted, on places of the object.
-Bake = Callable[[Wanted, Array], Array]
+Bake = Callable[[Wanted, Array], npt.NDArray[np.float32]]
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 

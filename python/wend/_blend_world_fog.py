@@ -95,11 +95,11 @@ def _as_material(world: Any) -> Iterator[Any]:
             if kind != "ShaderNodeBackground":
                 copies[node.name] = _copied(node, tree.nodes.new(kind))
         for link in world.node_tree.links:
-            ends = copies.get(link.from_node.name), copies.get(link.to_node.name)
-            if None not in ends:
+            origin, end = copies.get(link.from_node.name), copies.get(link.to_node.name)
+            if origin is not None and end is not None:
                 sockets = _place(link.from_node.outputs, link.from_socket), _place(link.to_node.inputs, link.to_socket)
-                if sockets[0] < len(ends[0].outputs) and sockets[1] < len(ends[1].inputs):
-                    tree.links.new(ends[0].outputs[sockets[0]], ends[1].inputs[sockets[1]])
+                if sockets[0] < len(origin.outputs) and sockets[1] < len(end.inputs):
+                    tree.links.new(origin.outputs[sockets[0]], end.inputs[sockets[1]])
         yield made
     finally:
         bpy.data.materials.remove(made)

@@ -211,7 +211,7 @@ def _dome(reader: Any, prim: Any, world: Places) -> None:
     texture = dome.GetTextureFileAttr().Get(reader.time)
     format_ = dome.GetTextureFormatAttr().Get(reader.time)
     file = file_of(reader, texture) if texture and texture.path else None
-    picture = read(file).image if file is not None else np.ones((1, 1, 3))
+    picture = read(file).image if file is not None else np.ones((1, 1, 3), dtype=np.float32)
     if np.ptp(picture, axis=(0, 1)).max() == 0:
         _stand(reader, prim, world)
         reader.builder.add("LightSource", "infinite", {"rgb L": radiance * picture[0, 0]})

@@ -81,7 +81,8 @@ WEND_API wend_status wend_flight_guided(const wend_field* surface, const wend_fi
                                         const wend_flight_start* start, float u, wend_flight* flight,
                                         wend_error* error) WEND_NOEXCEPT;
 
-/** Whether a guided flight asks for wend_flight_start::end, 0 or 1; where it does not, that need not be found. */
+/** Whether a guided flight asks for wend_flight_start::end as soon as the field of volumes knows something, 0 or 1;
+ * where it does not, that need not be found. */
 WEND_API wend_status wend_flight_looks_ahead(const wend_medium* medium, const wend_flight_start* start, int* looks,
                                              wend_error* error) WEND_NOEXCEPT;
 
