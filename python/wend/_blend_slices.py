@@ -30,7 +30,8 @@ def slices(places: npt.NDArray[np.float64], like: Any) -> tuple[Any, tuple[int, 
     # Where the pixels' borders are; and a point within each sheet that is in no pixel's middle, around which it is cut.
     ends = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.4142, 0.3719]])
     first, last = places[:, 0, 0], places[:, -1, -1]
-    step = [(last - first)[:, axis] / max(n - 1, 1) for axis, n in ((0, width), (1, height))]
+    # Of a single voxel any width will do, but none at all shows nothing.
+    step = [(last - first)[:, axis] / (n - 1) if n > 1 else np.ones(layers) for axis, n in ((0, width), (1, height))]
     corners = np.repeat(first[:, None], 5, axis=1)
     for axis, (n, by) in enumerate(((width, step[0]), (height, step[1]))):
         corners[:, :, axis] += by[:, None] * (ends[:, axis] * n - 0.5)
