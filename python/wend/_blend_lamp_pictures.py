@@ -14,7 +14,7 @@ import numpy.typing as npt
 from mathutils import Matrix  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 from ._blend_nodes import Nodes, output_node
-from ._blend_profiles import profile_of
+from ._blend_profiles import wants_profile
 from ._film import read
 from ._scene_reader import SceneReader, Silent
 
@@ -53,7 +53,7 @@ def wants_picture(reader: SceneReader, lamp: Any) -> bool:
     node = nodes.shader(output.inputs["Surface"]) if output is not None else None
     if node is None or node.bl_idname != "ShaderNodeEmission":
         return node is not None
-    if lamp.type in ("POINT", "SPOT") and profile_of(nodes, node.inputs["Strength"])[0] is not None:
+    if lamp.type in ("POINT", "SPOT") and wants_profile(nodes, node.inputs["Strength"]):
         return False
     return any(nodes.known(node.inputs[name]) is None for name in ("Color", "Strength"))
 
