@@ -44,7 +44,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"npt.ArrayLike": "ArrayLike", "npt.NDArray": "NDArray"}
 # Whoever reads the pages need not have them.
-autodoc_mock_imports = ["bpy", "pxr"]
+autodoc_mock_imports = ["bmesh", "bpy", "mathutils", "pxr"]
 
 html_theme = "furo"
 html_title = "Wend"
