@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace wend {
 namespace {
@@ -30,32 +31,42 @@ SpotLight lamp() {
     return spot;
 }
 
-/// ∫ σs p I T / r² along the ray from (0, 0, 0) in the direction z.
-Rgb exact() {
-    const SpotLight spot = lamp();
+/// Another one, beside the ray, that outshines the beam.
+PointLight bright_lamp() {
+    return {{-2, 1, 4}, Rgb(40, 50, 60)};
+}
+
+/// ∫ σs p I T / r² along the ray from (0, 0, 0) in the direction z, of a lamp at a place; `intensity_of` gives I.
+template <class Intensity>
+Rgb exact(const Vec3& lamp, const Intensity& intensity_of) {
     const HenyeyGreenstein phase{mean_cosine};
     Rgb sum(0.0f);
     constexpr int steps = 200000;
-    constexpr float end = 8;
+    constexpr float end = 20;
     for (int i = 0; i < steps; ++i) {
         const Vec3 p(0, 0, end * (static_cast<float>(i) + 0.5f) / steps);
-        const Vec3 from_light = p - spot.position;
+        const Vec3 from_light = p - lamp;
         const float r = length(from_light);
-        const Rgb intensity = intensity_towards(spot, from_light / r);
+        const Rgb intensity = intensity_of(from_light / r);
         sum += intensity * (scattering * phase.evaluate(dot(Vec3(0, 0, 1), -from_light / r)) *
                             std::exp(-extinction * (p.z + r)) / (r * r) * end / steps);
     }
     return sum;
 }
+Rgb exact() {
+    return exact(lamp().position, [](const Vec3& w) { return intensity_towards(lamp(), w); });
+}
 
-/// Up to a black wall, or without an end.
-Moments rendered(const char* preset, int samples, int channel, bool has_wall = true) {
+/// Up to a black wall, or without an end; `others`: lights beside the beam's.
+Moments rendered(const char* preset, int samples, int channel, bool has_wall = true,
+                 const std::vector<Light>& others = {}) {
     SceneDescription s = test::scene_with_camera({0, 0, 0}, {0, 0, 1}, 0.001f, 1);
     const Rgb absorbed(extinction - scattering);
     s.camera_medium = test::add_homogeneous(s, absorbed, Rgb(scattering), mean_cosine);
     const Vec3 corner(-50, -50, has_wall ? 20 : -20);
     test::add_parallelogram(s, corner, {100, 0, 0}, {0, 100, 0}, test::add_diffuse(s, Rgb(0.0f)));
     s.lights.push_back(lamp());
+    s.lights.insert(s.lights.end(), others.begin(), others.end());
     const Scene scene(std::move(s));
     Moments moments;
     for (std::uint64_t seed = 0; seed < 64; ++seed) {
@@ -89,6 +100,23 @@ TEST(SlowBeam, EveryPresetHasItsLight) {
     EXPECT_LT(2 * rendered("distance+direction", 256, 1, false).standard_error(),
               rendered("classical", 256, 1, false).standard_error());
     const Moments guided = rendered("distance+direction", 1024, 1);
+    EXPECT_LT(4 * guided.standard_error(), 0.01 * static_cast<double>(expected.g));
+    EXPECT_FALSE(agrees(guided, 1.02 * static_cast<double>(expected.g), 4, 1e-3));
+}
+
+// How far a beam is trusted depends on the other lamps, and what the picture shows does not.
+TEST(SlowBeam, AmongBrighterLampsEveryPresetHasTheirLight) {
+    const Rgb expected =
+        exact() + exact(bright_lamp().position, [](const Vec3& /*w*/) { return bright_lamp().intensity; });
+    for (const int samples : {1, 4, 16, 64, 256}) {
+        for (const char* preset : {"classical", "direction", "distance+direction", "full"}) {
+            const Moments green = rendered(preset, samples, 1, true, {bright_lamp()});
+            EXPECT_TRUE(agrees(green, static_cast<double>(expected.g), 4, 1e-3))
+                << preset << ' ' << samples << ": " << green.mean() << " +- " << green.standard_error() << ", exactly "
+                << expected.g;
+        }
+    }
+    const Moments guided = rendered("distance+direction", 1024, 1, true, {bright_lamp()});
     EXPECT_LT(4 * guided.standard_error(), 0.01 * static_cast<double>(expected.g));
     EXPECT_FALSE(agrees(guided, 1.02 * static_cast<double>(expected.g), 4, 1e-3));
 }

@@ -55,7 +55,7 @@ public:
     Rgb albedo() const { return count_ * directional_albedo(bsdf_, wo_); }
 
 private:
-    float count_ = 1;  ///< of the BSDF
+    float count_ = 1;  ///< of the BSDF; it stands before that, which sets it
     Bsdf bsdf_;
     Frame shading_;
     Vec3 wo_;
