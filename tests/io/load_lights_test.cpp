@@ -191,6 +191,8 @@ TEST(LoadLights, GoniometricLightsHaveTheirPoleAlongY) {
     EXPECT_EQ(light.position, Vec3(1, 2, 3));
     expect_near(shines(light, {0, 1, 0}), {20, 10, 0});
     EXPECT_TRUE(is_black(shines(light, {0, -1, 0})));
+    const auto coloured = only_light<GoniometricLight>(text + " \"rgb I\" [ 2 1 0 ] \"bool coloured\" true");
+    expect_near(shines(coloured, {0, 1, 0}), {2, 2, 0});
     EXPECT_NEAR(light_power(only_light<GoniometricLight>(text + " \"float power\" 3"), 0), 3, 1e-4f);
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"goniometric\""); }), "filename");
 }

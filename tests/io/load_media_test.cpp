@@ -222,6 +222,11 @@ TEST(LoadMedia, RgbGridHasAColourAtEachVoxel) {
     expect_near(extinction_at(medium, between), {4, 5, 4});
 }
 
+TEST(LoadMedia, RgbGridsGlowWithoutAbsorption) {
+    const auto medium = load_one<GridMedium>("rgbgrid", "\"rgb sigma_s\" [ 2 1 1 ] \"rgb glow\" [ 1 2 3 ]");
+    expect_near(medium.emitted_at({0.5f, 0.5f, 0.5f}), {1, 2, 3});
+}
+
 TEST(LoadMedia, RgbGridsEmissionIsNotNormalized) {
     const auto red = load_one<GridMedium>(
         "rgbgrid", "\"rgb sigma_a\" [ 1 0 0 ] \"rgb sigma_s\" [ 2 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");

@@ -70,6 +70,20 @@ TEST(DirectionalLights, PowerIsThatOfOtherProfilesToo) {
     }
 }
 
+TEST(DirectionalLights, AWhitePictureInAConeIsASpot) {
+    const SpotLight plain = spot();
+    const auto white = std::make_shared<const LightPicture>(Image(64, 64, Rgb(1.0f)));
+    ProjectionLight thrown{plain.position, plain.intensity, plain.light_from_world, white};
+    thrown.cone = ProjectionLight::Cone{plain.cos_inner, plain.cos_outer, plain.is_linear};
+    thrown.half_size = Vec2(std::sqrt(1 - plain.cos_outer * plain.cos_outer) / plain.cos_outer);
+    Pcg32 random(3);
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3 w = to_sphere(random.uniform2());
+        EXPECT_NEAR(intensity_towards(thrown, w).g, intensity_towards(plain, w).g, 1e-5f);
+    }
+    EXPECT_NEAR(spread(thrown).g, spread(plain), 0.005f * spread(plain));
+}
+
 template <class Directional>
 void expect_connection(const Directional& light, const Vec3& p) {
     Pcg32 random(1);
