@@ -145,7 +145,7 @@ def test_a_world_that_varies_by_nothing_is_even(scene):
     lamp(scene, "AREA", 300, (1, -2, 4), (0.4, 0.2, 0), size=1)
     tree = scene.world.node_tree
     shader = node(tree, "VolumeScatter", color=(0.9, 0.7, 0.5), density=density)
-    link(tree, shader, tree.nodes["World Output"].inputs["Volume"])
+    link(tree, shader, tree.get_output_node("CYCLES").inputs["Volume"])
     even = wend.render(blend.of_scene(scene, spp=200).scene(), sampling="classical").image
     texture("TexNoise", "Density", 0, "Object", line(0, density))(tree, shader)
     assert "as its mean" in told(scene, bake_resolution=16)

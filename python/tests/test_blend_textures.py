@@ -196,7 +196,7 @@ def test_a_group_that_varies_inside(scene, tmp_path):
     group = made.node_tree.nodes.new("ShaderNodeGroup")
     group.node_tree = inner
     group.inputs[0].default_value = 2.5
-    link(made.node_tree, group, made.node_tree.nodes["Material Output"].inputs["Surface"])
+    link(made.node_tree, group, made.node_tree.get_output_node("CYCLES").inputs["Surface"])
     sky(scene, (1, 1, 1))
     mesh(scene, "cube", made, place=(0, 0, 0.5))
     check(scene, tmp_path, 64, bake_resolution=512)
@@ -220,7 +220,7 @@ def test_a_mixture_by_a_texture(scene, tmp_path):
     texture("TexWave", 1, scale=1.5)(tree, mix.inputs[0])
     link(tree, node(tree, "BsdfDiffuse", color=(0.8, 0.1, 0.1)), mix.inputs[1])
     link(tree, node(tree, "BsdfTransparent"), mix.inputs[2])
-    link(tree, mix, tree.nodes["Material Output"].inputs["Surface"])
+    link(tree, mix, tree.get_output_node("CYCLES").inputs["Surface"])
     floor(scene)
     sky(scene, (1, 1, 1))
     mesh(scene, "cube", made, place=(0, 0, 1.2))
@@ -270,7 +270,7 @@ def test_displacement_is_a_bump(scene, tmp_path):
     tree = made.node_tree
     displacement = node(tree, "Displacement", scale=0.3)
     link(tree, node(tree, "TexNoise", scale=2.0), displacement.inputs["Height"])
-    link(tree, displacement, tree.nodes["Material Output"].inputs["Displacement"])
+    link(tree, displacement, tree.get_output_node("CYCLES").inputs["Displacement"])
     sky(scene, (0.1, 0.1, 0.1))
     lamp(scene, "SUN", 3, (0, 0, 5), (0.9, 0.3, 0), angle=0.1)
     mesh(scene, "uv_sphere", made, True, place=(0, 0, 0.5), radius=1.5)
