@@ -6,6 +6,7 @@ function(wend_target_options target)
   # floating-point exception flags, and loops vectorize only without them; results are the same.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms on std::string in GCC 12 (its bug 105651)
+    $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow> # of what is in another source
     $<$<BOOL:${WEND_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
@@ -16,12 +17,12 @@ if(WEND_SANITIZED_MODULES)
   add_link_options(${wend_sanitizers})
 endif()
 
-# The headers of the standard library that sources read most, as a precompiled one: they are a third of what compiling
-# a source costs. A source that forgets one of them would compile all the same, so the preset release is without.
+# The headers of the standard library that tests read most.
 set(wend_standard_headers <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
   <numeric> <optional> <span> <stdexcept> <string> <string_view> <utility> <variant> <vector>)
 
-# A library of all sources of the given modules (folders of src/wend), static unless SHARED is given.
+# A library of all sources of the given modules (folders of src/wend), static unless SHARED is given. TARGET_objects is
+# what it is made of, for another library of the same.
 function(wend_add_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "SHARED" "" "MODULES")
   set(kind STATIC)
@@ -29,21 +30,26 @@ function(wend_add_library target)
     set(kind SHARED)
   endif()
   set(sources)
+  set(objects $<TARGET_OBJECTS:${target}>)
   foreach(module IN LISTS arg_MODULES)
     file(GLOB_RECURSE module_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/wend/${module}/*.cpp)
     list(FILTER module_sources EXCLUDE REGEX "/app/main\\.cpp$")
     if(module IN_LIST WEND_SANITIZED_MODULES)
-      set_property(SOURCE ${module_sources} APPEND PROPERTY COMPILE_OPTIONS ${wend_sanitizers} -fno-omit-frame-pointer -g1)
-      # They cannot share what is compiled without.
-      set_property(SOURCE ${module_sources} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+      # A target of its own, so that its sources can be compiled together as well (CMAKE_UNITY_BUILD).
+      add_library(${target}_${module} OBJECT ${module_sources})
+      wend_target_options(${target}_${module})
+      target_compile_options(${target}_${module} PRIVATE ${wend_sanitizers} -fno-omit-frame-pointer -g1)
+      # Of what is included there are no warnings here: other presets give them.
+      target_include_directories(${target}_${module} SYSTEM PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
+      target_compile_definitions(${target}_${module} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
+      list(APPEND objects $<TARGET_OBJECTS:${target}_${module}>)
+      set(module_sources $<TARGET_OBJECTS:${target}_${module}>)
     endif()
     list(APPEND sources ${module_sources})
   endforeach()
   add_library(${target} ${kind} ${sources})
-  if(WEND_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} PRIVATE ${wend_standard_headers})
-  endif()
   wend_target_options(${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+  set(${target}_objects ${objects} PARENT_SCOPE)
 endfunction()

@@ -1,4 +1,6 @@
 // Completions for shells, and the manual page.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +13,8 @@
 namespace wend {
 namespace {
 
+using test::contains;
 using test::run_wend;
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 using Words = std::vector<std::string>;
 

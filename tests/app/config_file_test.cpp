@@ -1,4 +1,6 @@
 // Options from a file: wend --config.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 namespace wend {
 namespace {
 
+using test::contains;
 using test::run_wend;
 
 class ConfigFile : public testing::Test {
@@ -29,10 +32,6 @@ protected:
     test::ScratchFolder folder_;
     std::string scene_;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST_F(ConfigFile, GivesOptions) {
     const auto result = render(

@@ -1,4 +1,6 @@
 // Frames of a film: many scenes in one call of wend render.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 
 #include <wend/app/frames.h>
@@ -12,6 +14,7 @@
 namespace wend {
 namespace {
 
+using test::contains;
 using test::run_wend;
 
 TEST(FrameNames, AreNumbersWithDigits) {
@@ -59,10 +62,6 @@ protected:
 
     test::ScratchFolder folder_;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST_F(Frames, EachHasItsFiles) {
     const auto result =

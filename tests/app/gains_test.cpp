@@ -1,4 +1,6 @@
 // How gains are distributed over scenes, and the page that shows it.
+#include <tests/support/text.h>
+
 #include <wend/app/gains.h>
 #include <wend/app/gains_plot.h>
 #include <wend/app/scenes_page.h>
@@ -12,13 +14,7 @@
 namespace wend {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
-        ++found;
-    }
-    return found;
-}
+using test::count;
 
 ComparisonRow row(const std::string& preset, std::optional<double> ratio) {
     ComparisonRow row;

@@ -1,4 +1,6 @@
 // The pictures and tables of the half-space experiment, from data made up here.
+#include <tests/support/text.h>
+
 #include "xml_support.h"
 
 #include <wend/app/halfspace_figures.h>
@@ -14,11 +16,8 @@
 namespace wend {
 namespace {
 
+using test::contains;
 using test::xml_problem;
-
-bool contains(std::string_view text, std::string_view part) {
-    return text.find(part) != std::string_view::npos;
-}
 
 /// Two values around 0.25 with this variance.
 HalfspaceRow row(double albedo, const std::string& sampler, int modes, double variance) {

@@ -4,6 +4,7 @@
 #include <wend/app/denoiser.h>
 #include <wend/core/error.h>
 #include <wend/film/cryptomatte.h>
+#include <wend/film/merged_layers.h>
 #include <wend/io/image_file.h>
 
 #include <gtest/gtest.h>
@@ -16,12 +17,6 @@ namespace wend {
 namespace {
 
 using test::run_wend;
-
-const Layer* find(const Picture& picture, const std::string& name) {
-    const auto found =
-        std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });
-    return found == picture.layers.end() ? nullptr : &*found;
-}
 
 class LayersOption : public testing::Test {
 protected:
@@ -51,7 +46,7 @@ void expect_sum(const Picture& picture, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < 3 * picture.image.pixels.size(); ++i) {
         float sum = 0;
         for (const std::string& name : names) {
-            sum += find(picture, name)->values[i];
+            sum += find_layer(picture.layers, name)->values[i];
         }
         const float beauty = picture.image.pixels[i / 3][static_cast<int>(i % 3)];
         ASSERT_NEAR(sum, beauty, 1e-5f * beauty) << i;
@@ -66,18 +61,18 @@ TEST_F(LayersOption, PartsAddUpAndThePictureStays) {
     for (const Layer& layer : plain.layers) {
         EXPECT_EQ(find(all, layer.name)->values, layer.values) << layer.name;
     }
-    EXPECT_EQ(find(plain, "direct"), nullptr);
+    EXPECT_EQ(find_layer(plain.layers, "direct"), nullptr);
     expect_sum(all, {"emission", "background", "direct", "indirect", "volume"});
     expect_sum(all, {"light_key", "light_rim-2", "light_rest"});
     // The key light is red, and the rim green.
-    const auto& key = find(all, "light_key")->values;
-    const auto& rim = find(all, "light_rim-2")->values;
+    const auto& key = find_layer(all.layers, "light_key")->values;
+    const auto& rim = find_layer(all.layers, "light_rim-2")->values;
     for (std::size_t i = 0; i < key.size(); i += 3) {
         EXPECT_TRUE(key[i] > 0 && key[i + 1] == 0 && rim[i] == 0) << i;
     }
     const Picture some = rendered("some.exr", {"--layers", "volume"});
-    EXPECT_EQ(find(some, "volume")->values, find(all, "volume")->values);
-    EXPECT_EQ(find(some, "direct"), nullptr);
+    EXPECT_EQ(find_layer(some.layers, "volume")->values, find_layer(all.layers, "volume")->values);
+    EXPECT_EQ(find_layer(some.layers, "direct"), nullptr);
 }
 
 TEST_F(LayersOption, CheckpointsKeepThem) {
@@ -111,7 +106,8 @@ TEST_F(LayersOption, MergedPicturesAddUpToo) {
     const Picture merged = read_picture(folder_.file("m.exr"));
     expect_sum(merged, {"direct", "indirect", "volume", "emission"});
     for (std::size_t i = 0; i < 3 * merged.image.pixels.size(); ++i) {
-        const float a = find(merged, "half_a")->values[i], b = find(merged, "half_b")->values[i];
+        const float a = find_layer(merged.layers, "half_a")->values[i],
+                    b = find_layer(merged.layers, "half_b")->values[i];
         const float beauty = merged.image.pixels[i / 3][static_cast<int>(i % 3)];
         ASSERT_NEAR(0.5f * (a + b), beauty, 1e-6f * (std::abs(a) + std::abs(b)));
     }
@@ -142,8 +138,8 @@ Shape "sphere" "string name" "ball" "float radius" [ 0.3 ]
         EXPECT_TRUE(names.contains("ball") && names.contains("fog") && names.contains("named.pbrt:14")) << manifest;
         const std::string ball = names["ball"];
         float most = 0;
-        const Layer& layer = *find(picture, "CryptoObject00");
-        const Layer& alpha = *find(picture, "alpha");
+        const Layer& layer = *find_layer(picture.layers, "CryptoObject00");
+        const Layer& alpha = *find_layer(picture.layers, "alpha");
         for (std::size_t i = 0; i < alpha.values.size(); ++i) {
             const float* v = &layer.values[4 * i];
             EXPECT_LE(v[1] + v[3], alpha.values[i] * (1 + 1e-5f));
@@ -201,10 +197,10 @@ protected:
 TEST_F(DenoisedLayers, LightOfMediaIsRecordedWhereThereAreMedia) {
     const Picture automatic = rendered("automatic.exr", {"--denoise"}), raw = rendered("raw.exr", {});
     const Picture asked = rendered("asked.exr", {"--denoise", "--layers", "volume"});
-    ASSERT_NE(find(automatic, "volume"), nullptr);
+    ASSERT_NE(find_layer(automatic.layers, "volume"), nullptr);
     EXPECT_TRUE(automatic.image.pixels == asked.image.pixels);
-    EXPECT_EQ(find(raw, "volume"), nullptr);
-    const Layer* const noisy = find(automatic, "noisy");
+    EXPECT_EQ(find_layer(raw.layers, "volume"), nullptr);
+    const Layer* const noisy = find_layer(automatic.layers, "noisy");
     ASSERT_NE(noisy, nullptr);
     for (std::size_t i = 0; i < raw.image.pixels.size(); ++i) {
         ASSERT_EQ(noisy->values[3 * i], raw.image.pixels[i].r) << "what was is the picture without --denoise";
@@ -215,12 +211,12 @@ TEST_F(DenoisedLayers, ARenderGoesOnWithTheLayersItBeganWith) {
     const std::string with = folder_.file("with.checkpoint"), without = folder_.file("without.checkpoint");
     rendered("begun.exr", {"--denoise", "--checkpoint", with});
     rendered("raw.exr", {"--checkpoint", without});
-    EXPECT_NE(find(rendered("again.exr", {"--denoise", "--resume", with}), "volume"), nullptr);
+    EXPECT_NE(find_layer(rendered("again.exr", {"--denoise", "--resume", with}).layers, "volume"), nullptr);
     EXPECT_EQ(render("raw_again.exr", {"--resume", with}).status, 2) << "nobody asks for the layer";
-    EXPECT_NE(find(rendered("asked.exr", {"--layers", "volume", "--resume", with}), "volume"), nullptr);
+    EXPECT_NE(find_layer(rendered("asked.exr", {"--layers", "volume", "--resume", with}).layers, "volume"), nullptr);
     const Picture late = rendered("late.exr", {"--denoise", "--resume", without});
-    EXPECT_EQ(find(late, "volume"), nullptr);
-    EXPECT_NE(find(late, "noisy"), nullptr);
+    EXPECT_EQ(find_layer(late.layers, "volume"), nullptr);
+    EXPECT_NE(find_layer(late.layers, "noisy"), nullptr);
     const auto other = render("other.exr", {"--denoise", "--layers", "halves", "--resume", with});
     EXPECT_EQ(other.status, 2) << "other layers than it began with";
     EXPECT_NE(other.err.find("layers"), std::string::npos) << other.err;

@@ -1,4 +1,6 @@
 // `wend merge`: what it joins, what it keeps, and what it refuses.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 
 #include <wend/io/image_file.h>
@@ -12,11 +14,8 @@ namespace wend {
 namespace {
 
 using nlohmann::json;
+using test::contains;
 using test::run_wend;
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 Layer& layer(Picture& picture, const std::string& name) {
     return *std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });

@@ -1,6 +1,7 @@
 // Choices of OpenEXR files on the command line, and that all commands read whatever is written by them.
 #include "program_support.h"
 
+#include <wend/film/merged_layers.h>
 #include <wend/io/image_file.h>
 
 #include <gtest/gtest.h>
@@ -25,12 +26,6 @@ protected:
     test::ScratchFolder folder_;
     std::string scene_ = folder_.write("room.pbrt", test::small_scene());
 };
-
-const Layer* find(const Picture& picture, const std::string& name) {
-    const auto found =
-        std::find_if(picture.layers.begin(), picture.layers.end(), [&](const Layer& l) { return l.name == name; });
-    return found == picture.layers.end() ? nullptr : &*found;
-}
 
 void expect_same(const Picture& a, const Picture& b) {
     EXPECT_EQ(a.image.pixels, b.image.pixels);
@@ -78,10 +73,11 @@ TEST_F(PictureOptionsOfCommands, DefaultsKeepEveryBit) {
     const std::string half = render("half.exr", {"--seed", "1", "--exr", "half", "--alpha"});
     const Picture full = read_picture(plain), rounded = read_picture(half);
     EXPECT_NE(full.image.pixels, rounded.image.pixels);
-    EXPECT_EQ(find(full, "variance")->values, find(rounded, "variance")->values);
-    EXPECT_EQ(find(full, "depth")->values, find(rounded, "depth")->values);
+    EXPECT_EQ(find_layer(full.layers, "variance")->values, find_layer(rounded.layers, "variance")->values);
+    EXPECT_EQ(find_layer(full.layers, "depth")->values, find_layer(rounded.layers, "depth")->values);
     EXPECT_TRUE(read_image_with_opacity(plain).opacity.empty()) << "no channel A unless it is asked for";
-    EXPECT_EQ(find(full, "alpha")->values, std::vector<float>(16 * 12, 1.0f)) << "the room has walls all around";
+    EXPECT_EQ(find_layer(full.layers, "alpha")->values, std::vector<float>(16 * 12, 1.0f))
+        << "the room has walls all around";
 }
 
 TEST_F(PictureOptionsOfCommands, SecondsAreKeptWhereTheyAreAskedFor) {

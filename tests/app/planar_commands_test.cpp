@@ -1,4 +1,6 @@
 // `wend halfspace` and `wend slab`: options, results, and what is refused.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 #include "xml_support.h"
 
@@ -11,11 +13,8 @@ namespace wend {
 namespace {
 
 using nlohmann::json;
+using test::contains;
 using test::run_wend;
-
-bool contains(std::string_view text, std::string_view part) {
-    return text.find(part) != std::string_view::npos;
-}
 
 test::ProgramResult run_with(const std::string& command, std::vector<std::string> more) {
     more.insert(more.begin(), command);

@@ -1,4 +1,6 @@
 // Plots are well-formed pictures that show every point where its value belongs, and nothing that cannot be shown.
+#include <tests/support/text.h>
+
 #include "xml_support.h"
 
 #include <wend/app/convergence_plot.h>
@@ -14,17 +16,10 @@
 namespace wend {
 namespace {
 
+using test::count;
 using test::xml_problem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t count(std::string_view text, std::string_view part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size())) {
-        ++found;
-    }
-    return found;
-}
 
 /// A plot of one series without a legend.
 Plot plot_of(std::vector<PlotPoint> points, PlotAxis x = {"length, m"}, PlotAxis y = {"time, s"}) {

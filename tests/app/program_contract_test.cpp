@@ -1,4 +1,6 @@
 // The command line as scripts rely on it: options, names, JSON keys, streams and exit status.
+#include <tests/support/text.h>
+
 #include "program_support.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@ namespace wend {
 namespace {
 
 using nlohmann::json;
+using test::contains;
 using test::run_wend;
 
 std::vector<std::string> keys(const json& object) {
@@ -18,10 +21,6 @@ std::vector<std::string> keys(const json& object) {
         names.push_back(item.key());
     }
     return names;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 class Program : public testing::Test {

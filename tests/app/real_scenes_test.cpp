@@ -66,16 +66,16 @@ std::vector<std::string> own_scenes() {
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScene, testing::ValuesIn(own_scenes()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-struct Expected {
+struct ExpectedMean {
     const char* file;
     const char* resolution;
     double mean;  ///< luminance, by a classical render of twenty seconds at this resolution
 };
 
-class RealScene : public testing::TestWithParam<Expected> {};
+class RealScene : public testing::TestWithParam<ExpectedMean> {};
 
 TEST_P(RealScene, RendersAboutAsBrightAsALongerRender) {
-    const Expected& expected = GetParam();
+    const ExpectedMean& expected = GetParam();
     const auto file = test::shared_dir() / "scenes" / expected.file;
     if (!std::filesystem::exists(file)) {
         GTEST_SKIP() << "no collection of scenes beside the checkout: " << file;
@@ -88,13 +88,13 @@ TEST_P(RealScene, RendersAboutAsBrightAsALongerRender) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, RealScene,
-                         testing::Values(Expected{"cornell-box/scene-v4.pbrt", "64x64", 0.135},
-                                         Expected{"veach-ajar/scene-v4.pbrt", "64x36", 1.34},
-                                         Expected{"volumetric-caustic/scene-v4.pbrt", "64x64", 0.46},
-                                         Expected{"fog-box/fog-box.pbrt", "64x64", 0.162},
-                                         Expected{"smoke/smoke.pbrt", "64x64", 0.125},
-                                         Expected{"cloud/cloud.pbrt", "64x36", 0.171},
-                                         Expected{"cloud/cloud-grey.pbrt", "64x36", 0.19}),
+                         testing::Values(ExpectedMean{"cornell-box/scene-v4.pbrt", "64x64", 0.135},
+                                         ExpectedMean{"veach-ajar/scene-v4.pbrt", "64x36", 1.34},
+                                         ExpectedMean{"volumetric-caustic/scene-v4.pbrt", "64x64", 0.46},
+                                         ExpectedMean{"fog-box/fog-box.pbrt", "64x64", 0.162},
+                                         ExpectedMean{"smoke/smoke.pbrt", "64x64", 0.125},
+                                         ExpectedMean{"cloud/cloud.pbrt", "64x36", 0.171},
+                                         ExpectedMean{"cloud/cloud-grey.pbrt", "64x36", 0.19}),
                          [](const auto& parameter) { return test_name(parameter.param.file); });
 
 /// What Tungsten's tone curve (Hejl and Burgess-Dawson's) makes of a linear value.

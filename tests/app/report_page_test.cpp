@@ -1,3 +1,5 @@
+#include <tests/support/text.h>
+
 #include <wend/app/markup.h>
 #include <wend/app/report_page.h>
 
@@ -12,17 +14,8 @@
 namespace wend {
 namespace {
 
-std::size_t count(std::string_view text, std::string_view part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size())) {
-        ++found;
-    }
-    return found;
-}
-
-bool contains(std::string_view text, std::string_view part) {
-    return text.find(part) != std::string_view::npos;
-}
+using test::contains;
+using test::count;
 
 /// The inverse of encode_base64, refusing anything that is not complete groups of the alphabet.
 std::string decode_base64(const std::string& text) {

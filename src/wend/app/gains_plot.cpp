@@ -13,7 +13,7 @@
 namespace wend {
 namespace {
 
-constexpr double width = 560, left = 12, right = 548, strip_height = 74, top = 8, axis_height = 48;
+constexpr double plot_width = 560, plot_left = 12, plot_right = 548, strip_height = 74, plot_top = 8, axis_height = 48;
 
 constexpr const char* opening =
     R"(<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" color="#767676" role="group" aria-label="Gains over classical sampling, a dot for each scene">
@@ -40,8 +40,8 @@ std::string dot(const SceneGain& one, const std::string& name, const PlotScale& 
 }
 
 std::string strip(const GainDistribution& d, std::span<const Comparison> comparisons, const PlotScale& x, double y) {
-    std::string svg =
-        fmt::format("<text class=\"start\" x=\"{}\" y=\"{:.1f}\">{}</text>\n", left, y + 14, escape_markup(d.sampling));
+    std::string svg = fmt::format("<text class=\"start\" x=\"{}\" y=\"{:.1f}\">{}</text>\n", plot_left, y + 14,
+                                  escape_markup(d.sampling));
     if (d.scenes.empty()) {
         return svg;
     }
@@ -95,23 +95,23 @@ PlotAxis axis_of(const std::vector<GainDistribution>& gains) {
 }  // namespace
 
 std::string gains_svg(const std::vector<GainDistribution>& gains, std::span<const Comparison> comparisons) {
-    const double bottom = top + strip_height * static_cast<double>(gains.size());
+    const double bottom = plot_top + strip_height * static_cast<double>(gains.size());
     const PlotAxis axis = axis_of(gains);
-    PlotScale x(axis, left + 8, right - 8);
+    PlotScale x(axis, plot_left + 8, plot_right - 8);
     for (const double value : values_of(gains)) {
         x.include(value);
     }
     x.finish();
-    std::string svg = fmt::format(opening, width, bottom + axis_height);
+    std::string svg = fmt::format(opening, plot_width, bottom + axis_height);
     auto out = std::back_inserter(svg);
     for (const auto& [at, label] : x.ticks()) {
         fmt::format_to(out, "<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\">{4}</text>\n",
-                       at, top, bottom, bottom + 18, label);
+                       at, plot_top, bottom, bottom + 18, label);
     }
-    fmt::format_to(out, "<path class=\"one\" d=\"M{:.1f} {}V{}\"/>\n", x.pixel(1), top, bottom);
+    fmt::format_to(out, "<path class=\"one\" d=\"M{:.1f} {}V{}\"/>\n", x.pixel(1), plot_top, bottom);
     fmt::format_to(out, "<text x=\"{}\" y=\"{}\">gain over classical sampling, in error times time</text>\n",
-                   (left + right) / 2, bottom + 38);
-    double y = top;
+                   (plot_left + plot_right) / 2, bottom + 38);
+    double y = plot_top;
     for (const GainDistribution& d : gains) {
         svg += strip(d, comparisons, x, y);
         y += strip_height;

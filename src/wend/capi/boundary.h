@@ -40,6 +40,14 @@ inline void require(bool holds, const char* rule) {
     }
 }
 
+/// Throws a Refusal where a segment cannot have the length.
+inline void require_length(float length) {
+    require(length >= 0 && length <= longest_segment, "a length must be 0 to 1e30");
+}
+
+/// What WEND_NOTHING_LEARNED says.
+inline constexpr const char* nothing_learned = "the field has learned nothing yet";
+
 /// A finite vector within the coordinates that a field can hold.
 Vec3 to_position(const wend_vec3& v, const char* name);
 /// A vector of unit length.

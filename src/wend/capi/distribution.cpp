@@ -16,8 +16,6 @@ using Incident = Stored<guide::VmfMixture, 0x57454e4449434431>;
 using Product = Stored<guide::MixtureProduct, 0x57454e4450524431>;
 using Lobes = Stored<AxialLobes, 0x57454e444c4f4231>;
 
-constexpr const char* nothing_learned = "the field has learned nothing yet";
-
 /// Calls body(value) with the mixture or product in a distribution.
 template <class Body>
 void visit(const wend_distribution* distribution, const Body& body) {

@@ -12,10 +12,6 @@ namespace {
 
 using Distance = GuidedDistance<guide::Field>;
 
-void require_length(float length) {
-    require(length >= 0 && length <= longest_segment, "a length must be 0 to 1e30");
-}
-
 FlightEnd to_end(const wend_flight_end& end) {
     require(end.kind >= WEND_END_NOTHING && end.kind <= WEND_END_INTERFACE, "there is no such end of a flight");
     require_weight(end.emitted, "what is emitted at the end");
@@ -73,8 +69,6 @@ wend_ray_cell from_cell(const guide::ScatteredLight& light, float t_in, float t_
             {from_vector(near.position), near.extent_squared, near.intensity, near.share},
             light.confidence};
 }
-
-constexpr const char* nothing_learned = "the field has learned nothing yet";
 
 }  // namespace
 

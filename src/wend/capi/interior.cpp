@@ -83,10 +83,6 @@ wend_status enter(const wend_interior_guide* guide, const float channels[3], flo
     return WEND_OK;
 }
 
-void require_length(float length) {
-    require(length >= 0 && length <= longest_segment, "a length must be 0 to 1e30");
-}
-
 }  // namespace
 
 wend_status wend_interior_guide_create(const wend_medium* medium, float classical_share, wend_interior_guide** guide,

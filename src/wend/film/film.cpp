@@ -15,7 +15,7 @@
 namespace wend {
 namespace {
 
-constexpr double channels = 3;
+constexpr double colour_channels = 3;
 
 std::size_t checked_size(const Vec2i& full, const PixelRect& crop) {
     if (full.x <= 0 || full.y <= 0) {
@@ -170,7 +170,7 @@ std::array<Film::Comparison, 2> Film::compare_stages(const Halves& weights) cons
         if (count == 0) {
             return;
         }
-        shown.more_light = light / (channels * count);
+        shown.more_light = light / (colour_channels * count);
         shown.noise = {variances / count, shown.samples - count, 0};
         if (count > 1 && variances > 0) {
             const double of_pixels = std::max(0.0, count * squares / (variances * variances) - 1);
@@ -198,8 +198,8 @@ double Film::stage_weight(double earlier_weight, const StageNoise& first, const 
     // All stages have the same mean. What is missing in a sum of n samples comes once in n of them, or more seldom. The
     // more earlier samples would count little then, the less it may be chance.
     const double deviations = std::sqrt(4 + 2 * std::log(std::max(1.0, shown.earlier_samples / shown.samples)));
-    const double missing = shown.more_light - deviations * std::sqrt(variance / (channels * shown.samples));
-    const double lack = missing > 0 ? channels * shown.earlier_samples * missing * missing : 0.0;
+    const double missing = shown.more_light - deviations * std::sqrt(variance / (colour_channels * shown.samples));
+    const double lack = missing > 0 ? colour_channels * shown.earlier_samples * missing * missing : 0.0;
     return std::max(weight, earlier_weight * lack / variance);
 }
 

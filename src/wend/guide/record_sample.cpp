@@ -9,7 +9,7 @@
 namespace wend::guide {
 namespace {
 
-constexpr SealedKind kind{"guiding records", "records", "WENDREC\x1a", 1};
+constexpr SealedKind sealed_records{"guiding records", "records", "WENDREC\x1a", 1};
 
 /// The numbers of a record, in the order of the version.
 using Numbers = std::array<float, 15>;
@@ -51,14 +51,14 @@ std::string to_bytes(const RecordSample& sample) {
         const Numbers numbers = pack(record);
         body.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
     }
-    return seal(kind, body);
+    return seal(sealed_records, body);
 }
 
 RecordSample record_sample_from_bytes(std::string_view bytes) {
-    const std::string_view body = unseal(kind, bytes);
+    const std::string_view body = unseal(sealed_records, bytes);
     const auto require = [](bool holds) {
         if (!holds) {
-            throw InputError(std::string(kind.title) + ": a number is out of range");
+            throw InputError(std::string(sealed_records.title) + ": a number is out of range");
         }
     };
     RecordSample sample;

@@ -14,10 +14,10 @@
 namespace wend::guide {
 namespace {
 
-constexpr SealedKind kind{"guiding field", "a field", "WENDFLD\x1a", 5};
+constexpr SealedKind sealed_field{"guiding field", "a field", "WENDFLD\x1a", 5};
 
 [[noreturn]] void refuse(const std::string& reason) {
-    throw InputError(std::string(kind.title) + ": " + reason);
+    throw InputError(std::string(sealed_field.title) + ": " + reason);
 }
 
 template <class T>
@@ -287,11 +287,11 @@ void FieldBytes::require_tree(const Field& field) {
 }
 
 std::string to_bytes(const Field& field) {
-    return seal(kind, FieldBytes::body(field));
+    return seal(sealed_field, FieldBytes::body(field));
 }
 
 Field field_from_bytes(std::string_view bytes) {
-    Reader in(unseal(kind, bytes));
+    Reader in(unseal(sealed_field, bytes));
     // What rays are told follows from the sums.
     Field field = FieldBytes::field(in);
     field = fit_scattered(std::move(field), {}, 1);

@@ -15,7 +15,7 @@
 namespace wend {
 namespace {
 
-constexpr std::string_view signature = "WENDCHECKPOINT\n";
+constexpr std::string_view checkpoint_signature = "WENDCHECKPOINT\n";
 constexpr std::uint32_t version = 10;
 
 /// Bytes that go into a file one part after another, with the checksum of all.
@@ -49,7 +49,7 @@ void write_checkpoint(const std::filesystem::path& file, std::string_view descri
     write_atomically(file, [&](const std::filesystem::path& temporary) {
         errno = 0;
         CheckedStream stream(temporary);
-        stream.write(signature);
+        stream.write(checkpoint_signature);
         stream.write_number(version);
         for (const std::string_view part : {description, state}) {
             stream.write_number(static_cast<std::uint64_t>(part.size()));
@@ -65,11 +65,11 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     const Place place{file.string()};
     constexpr std::size_t most = std::size_t{1} << 40;
     const std::string content = read_file(file, most);
-    if (!std::string_view(content).starts_with(signature)) {
+    if (!std::string_view(content).starts_with(checkpoint_signature)) {
         throw InputError(place, "is no checkpoint");
     }
     Bytes bytes(content, place);
-    bytes.seek(signature.size());
+    bytes.seek(checkpoint_signature.size());
     if (const auto found = bytes.take<std::uint32_t>(); found != version) {
         throw InputError(place, "version " + std::to_string(found) + " of checkpoints is not known; this is version " +
                                     std::to_string(version));

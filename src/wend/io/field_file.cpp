@@ -10,7 +10,7 @@
 namespace wend {
 namespace {
 
-constexpr std::string_view signature = "WENDFIELDS\n";
+constexpr std::string_view field_signature = "WENDFIELDS\n";
 // The version is that of what a render notes (render/taught.h).
 constexpr guide::SealedKind notes{"notes of a guiding field", "notes", "WENDNOTE\x1a", 3};
 constexpr guide::SealedKind digest{"scene of a guiding field", "a scene's digest", "WENDSCENE\x1a", 1};
@@ -18,7 +18,7 @@ constexpr guide::SealedKind digest{"scene of a guiding field", "a scene's digest
 }  // namespace
 
 void write_fields(const std::filesystem::path& file, const guide::Fields& fields, const std::string& scene) {
-    write_parts(file, signature,
+    write_parts(file, field_signature,
                 std::array{guide::to_bytes(fields.surface), guide::to_bytes(fields.volume),
                            guide::seal(notes, fields.notes), guide::seal(digest, scene)});
 }
@@ -29,7 +29,7 @@ guide::Fields read_fields(const std::filesystem::path& file) {
 
 SavedFields read_saved_fields(const std::filesystem::path& file) {
     // Older files have no scene, or no notes either.
-    const PartsFile parts(file, signature, 4, "guiding fields", 2);
+    const PartsFile parts(file, field_signature, 4, "guiding fields", 2);
     SavedFields saved{{parts.decode(0, guide::field_from_bytes), parts.decode(1, guide::field_from_bytes)}, {}};
     const auto text = [&](std::size_t part, const guide::SealedKind& kind) {
         return parts.decode(part, [&](std::string_view bytes) { return std::string(guide::unseal(kind, bytes)); });

@@ -16,7 +16,7 @@
 namespace wend {
 namespace {
 
-constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t empty_chunk = 12;  // bytes of its length, type and checksum
 
 std::uint32_t big_endian(std::string_view bytes) {
@@ -100,13 +100,13 @@ private:
 }  // namespace
 
 void prepare_png(std::string& file, const Place& place) {
-    if (!file.starts_with(signature)) {
+    if (!file.starts_with(png_signature)) {
         return;
     }
     std::uint64_t most = 0;
     Unpacking unpacking;
     std::vector<std::size_t> empty;
-    for (auto chunk = chunk_at(file, signature.size());; chunk = chunk_at(file, chunk->end())) {
+    for (auto chunk = chunk_at(file, png_signature.size());; chunk = chunk_at(file, chunk->end())) {
         if (!chunk) {
             // stb takes memory for what a chunk says that it holds.
             throw InputError(place, "the picture is truncated");

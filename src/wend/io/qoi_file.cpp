@@ -10,7 +10,7 @@
 namespace wend {
 namespace {
 
-constexpr std::string_view signature = "qoif";
+constexpr std::string_view qoi_signature = "qoif";
 
 struct Pixel {
     std::uint8_t r = 0, g = 0, b = 0, a = 255;
@@ -81,12 +81,12 @@ private:
 }  // namespace
 
 bool is_qoi(std::string_view file) {
-    return file.starts_with(signature);
+    return file.starts_with(qoi_signature);
 }
 
 ImageWithOpacity read_qoi(std::string_view file, const Place& place) {
     Bytes bytes(file, place);
-    bytes.take(signature.size());
+    bytes.take(qoi_signature.size());
     const std::int64_t width = take_big_endian(bytes), height = take_big_endian(bytes);
     const auto channels = bytes.take<std::uint8_t>(), space = bytes.take<std::uint8_t>();
     if (channels < 3 || channels > 4 || space > 1) {

@@ -9,7 +9,7 @@
 namespace wend {
 namespace {
 
-constexpr std::string_view signature = "WENDRECORDS\n";
+constexpr std::string_view records_signature = "WENDRECORDS\n";
 
 }  // namespace
 
@@ -28,11 +28,11 @@ guide::Records records_in(const guide::RecordSample& sample, const guide::Field&
 }
 
 void write_records(const std::filesystem::path& file, const RecordSamples& samples) {
-    write_parts(file, signature, std::array{guide::to_bytes(samples.surface), guide::to_bytes(samples.volume)});
+    write_parts(file, records_signature, std::array{guide::to_bytes(samples.surface), guide::to_bytes(samples.volume)});
 }
 
 RecordSamples read_records(const std::filesystem::path& file) {
-    const PartsFile parts(file, signature, 2, "records");
+    const PartsFile parts(file, records_signature, 2, "records");
     return {parts.decode(0, guide::record_sample_from_bytes), parts.decode(1, guide::record_sample_from_bytes)};
 }
 

@@ -58,11 +58,11 @@ std::vector<double> roots_by_reflectance(double mean_cosine, double ior) {
     reflectances.push_back(1);
     roots.push_back(0);
     const boost::math::interpolators::pchip monotonic(std::move(reflectances), std::move(roots));
-    std::vector<double> table;
+    std::vector<double> values;
     for (int i = 0; i <= table_steps; ++i) {
-        table.push_back(monotonic(static_cast<double>(i) / table_steps));
+        values.push_back(monotonic(static_cast<double>(i) / table_steps));
     }
-    return table;
+    return values;
 }
 
 }  // namespace

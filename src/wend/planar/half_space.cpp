@@ -1,15 +1,13 @@
 #include <wend/planar/half_space.h>
 
 #include <wend/core/contracts.h>
+#include <wend/core/vector.h>
 #include <wend/planar/h_function.h>
 
 #include <cmath>
-#include <limits>
 
 namespace wend {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// 1 - sqrt(1 - albedo) H(mu), for mu in [0, infinity]: nothing cancels for a small albedo.
 double reflectance(const HFunction& h, double mu) {

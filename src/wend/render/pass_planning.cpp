@@ -1,6 +1,7 @@
 #include <wend/render/pass_planning.h>
 
 #include <wend/decision/roulette_splitting.h>
+#include <wend/render/noise_target.h>
 #include <wend/render/sample_budget.h>
 #include <wend/render/schedule.h>
 
@@ -9,9 +10,6 @@
 
 namespace wend {
 namespace {
-
-/// By fewer samples the noise is not known well enough to divide what follows by it.
-constexpr int known_noise = 15;
 
 /// A film's picture before its white was balanced.
 Image as_in_scene(const Film& film, const ColourMatrix& balance) {

@@ -9,7 +9,7 @@ namespace wend {
 namespace {
 
 /// A place and the whole number below.
-struct Place {
+struct CellPlace {
     int cell;
     double at;
 
@@ -24,7 +24,7 @@ struct Place {
 /// Where an integral that grows from `low` to `high`, linearly between whole numbers, reaches a share of what it is in
 /// the end.
 template <class Integral>
-Place invert(double low, double high, double share, const Integral& integral) {
+CellPlace invert(double low, double high, double share, const Integral& integral) {
     const double target = share * integral(high);
     int first = static_cast<int>(std::floor(low)), last = static_cast<int>(std::ceil(high));
     while (last - first > 1) {
@@ -77,10 +77,10 @@ std::optional<WindowedPiecewiseConstant2D::Sample> WindowedPiecewiseConstant2D::
     if (!(x1 > x0 && y1 > y0) || !(integral(x0, y0, x1, y1) > 0)) {
         return std::nullopt;
     }
-    const Place x = invert(x0, x1, double{u.x}, [&](double to) { return integral(x0, y0, to, y1); });
+    const CellPlace x = invert(x0, x1, double{u.x}, [&](double to) { return integral(x0, y0, to, y1); });
     // Within the column of cells that holds x all rows are in proportion to their weights.
     const double left = x.cell;
-    const Place y = invert(y0, y1, double{u.y}, [&](double to) { return integral(left, y0, left + 1, to); });
+    const CellPlace y = invert(y0, y1, double{u.y}, [&](double to) { return integral(left, y0, left + 1, to); });
     const Vec2 point(std::clamp(x.coordinate(width_), window.min.x, window.max.x),
                      std::clamp(y.coordinate(height_), window.min.y, window.max.y));
     const float found = density(point, window);

@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t most_edges = 1u << 20;
 /// Of the meshes' size, and of the largest coordinate, whose rounding it has to cover.
 constexpr float same_place = 1e-5f;
-constexpr float rounding = 1e-6f;
+constexpr float size_rounding = 1e-6f;
 
-std::uint64_t key_of(const Vec3& p) {
+std::uint64_t point_key(const Vec3& p) {
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
     return hash_of(bits(p.x), bits(p.y), bits(p.z));
 }
@@ -93,7 +93,7 @@ std::optional<std::vector<LooseEdge>> exactly_loose(std::span<const OrientedMesh
     const auto bucket_of = [](const EdgeKey& key) { return static_cast<std::size_t>(key.hash >> (64 - bucket_bits)); };
     std::vector<std::uint64_t> sums(std::size_t{1} << bucket_bits);
     for_each_edge(meshes, [&](std::uint32_t, const Vec3& from, const Vec3& to) {
-        const EdgeKey key(key_of(from), key_of(to));
+        const EdgeKey key(point_key(from), point_key(to));
         sums[bucket_of(key)] += key.hash * static_cast<std::uint64_t>(key.sense);
     });
     if (std::all_of(sums.begin(), sums.end(), [](std::uint64_t sum) { return sum == 0; })) {
@@ -101,7 +101,7 @@ std::optional<std::vector<LooseEdge>> exactly_loose(std::span<const OrientedMesh
     }
     EdgeCount count;
     for_each_edge(meshes, [&](std::uint32_t mesh, const Vec3& from, const Vec3& to) {
-        const EdgeKey key(key_of(from), key_of(to));
+        const EdgeKey key(point_key(from), point_key(to));
         if (key.sense != 0 && sums[bucket_of(key)] != 0 && count.size() <= most_edges) {
             LooseEdge edge{from, to};
             edge.mesh = mesh;
@@ -178,7 +178,7 @@ std::optional<std::vector<LooseEdge>> loose_edges(std::span<const OrientedMesh> 
         }
     }
     const Vec3 size = box.size();
-    const float tolerance = std::max(same_place * std::max({size.x, size.y, size.z}), rounding * largest);
+    const float tolerance = std::max(same_place * std::max({size.x, size.y, size.z}), size_rounding * largest);
     Places places(std::max(tolerance, std::numeric_limits<float>::min()));
     EdgeCount count;
     for (LooseEdge& edge : *exact) {

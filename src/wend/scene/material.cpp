@@ -74,7 +74,7 @@ Bsdf bsdf_of(const ThinDielectricMaterial& m, const Textures& textures, const Te
 }
 
 /// Different for different points.
-std::uint64_t key_of(const Vec3& position) {
+std::uint64_t seed_of(const Vec3& position) {
     return hash_of(std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
                    std::bit_cast<std::uint32_t>(position.z));
 }
@@ -102,7 +102,7 @@ Bsdf bsdf_of(const CoatedMaterial& m, const Textures& textures, const TexturePoi
     b.max_depth = m.max_depth;
     b.walks = m.walks;
     b.returned = m.returned;
-    b.seed = key_of(p.position);
+    b.seed = seed_of(p.position);
     return b;
 }
 
@@ -264,7 +264,7 @@ MaterialPart material_at(const std::vector<Material>& materials, int index, cons
                          const TexturePoint& p) {
     MaterialPart part{index};
     while (const auto* mix = std::get_if<MixMaterial>(&materials[static_cast<std::size_t>(part.index)])) {
-        const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(key_of(p.position), part.index) >> 32));
+        const float u = to_unit_float(static_cast<std::uint32_t>(hash_of(seed_of(p.position), part.index) >> 32));
         float amount = textures.evaluate_grey(mix->amount, p);
         if (mix->is_sum) {
             // Neither is ever left out.

@@ -8,7 +8,7 @@ namespace {
 
 /// What a position and Embree's distance to it may be off by, over the coordinates that they are made of: some of the
 /// spacings of floats, with room to spare (pharr2023, section 6.8).
-constexpr float rounding = 1e-6f;
+constexpr float clearance_rounding = 1e-6f;
 
 /// Magnitudes, by coordinate.
 Vec3 largest_of(const Vec3& a, const Vec3& b) {
@@ -179,7 +179,7 @@ Hit completed(const RayHit& raw, const Ray& ray, const Surface& surface, const P
     hit.is_behind = dot(ray.direction, hit.normal) > 0;
     // Along the normal: a wide surface across an axis is as exact as its place on that axis.
     const Vec3 facing(std::abs(hit.normal.x), std::abs(hit.normal.y), std::abs(hit.normal.z));
-    hit.clearance = rounding * (dot(facing, point.largest) + max_of(largest_of(hit.position, hit.position)));
+    hit.clearance = clearance_rounding * (dot(facing, point.largest) + max_of(largest_of(hit.position, hit.position)));
     hit.shading = shading_frame(point.shading, point.tangents);
     hit.facing = std::abs(dot(ray.direction, hit.shading.n));
     return hit;

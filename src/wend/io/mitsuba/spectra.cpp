@@ -37,7 +37,7 @@ std::vector<SpectrumSample> read_pairs(const Element& element) {
 }
 
 /// A line each; # begins a comment.
-std::vector<SpectrumSample> read_file(Context& context, const Element& element) {
+std::vector<SpectrumSample> read_spectrum_file(Context& context, const Element& element) {
     const std::filesystem::path file = find_file(context.document, element.attribute("filename"), element.place);
     std::istringstream lines(pbrt::read_text_file(file, element.place));
     context.files.insert(file);
@@ -87,7 +87,7 @@ Rgb rgb_of(const Element& element) {
 
 Rgb spectrum_of(Context& context, const Element& element, SpectrumUse use) {
     if (element.has("filename")) {
-        return integrate(read_file(context, element), use, element.place);
+        return integrate(read_spectrum_file(context, element), use, element.place);
     }
     const std::string_view value = element.attribute("value");
     if (value.find(':') == std::string_view::npos) {

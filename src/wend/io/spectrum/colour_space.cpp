@@ -10,14 +10,14 @@ namespace {
 
 using pbrt::ColourSpace;
 
-constexpr Primaries::Point d65{0.3127, 0.3290}, d60{0.32168, 0.33767};
+constexpr Primaries::Point d65_white{0.3127, 0.3290}, d60_white{0.32168, 0.33767};
 
 // In the order of ColourSpace.
 constexpr std::array<Primaries, 4> all_primaries = {{
-    {{0.64, 0.33}, {0.3, 0.6}, {0.15, 0.06}, d65},
-    {{0.68, 0.32}, {0.265, 0.69}, {0.15, 0.06}, d65},
-    {{0.708, 0.292}, {0.17, 0.797}, {0.131, 0.046}, d65},
-    {{0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, d60},
+    {{0.64, 0.33}, {0.3, 0.6}, {0.15, 0.06}, d65_white},
+    {{0.68, 0.32}, {0.265, 0.69}, {0.15, 0.06}, d65_white},
+    {{0.708, 0.292}, {0.17, 0.797}, {0.131, 0.046}, d65_white},
+    {{0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, d60_white},
 }};
 
 std::array<double, 3> tristimulus(const Primaries::Point& p) {
@@ -53,7 +53,7 @@ const ColourMatrix& rec709_from(ColourSpace space, bool keeps_white) {
         for (std::size_t i = 1; i < all_primaries.size(); ++i) {
             const ColourMatrix xyz = xyz_of(all_primaries[i]);
             matrices[0][i] = from_xyz * xyz;
-            matrices[1][i] = from_xyz * adaptation(tristimulus(all_primaries[i].white), tristimulus(d65)) * xyz;
+            matrices[1][i] = from_xyz * adaptation(tristimulus(all_primaries[i].white), tristimulus(d65_white)) * xyz;
         }
         return matrices;
     }();

@@ -10,7 +10,7 @@ struct Row {
     MediumPreset preset;  // absorption, reduced scattering
 };
 
-constexpr std::array rows{
+constexpr std::array presets{
     Row{"Apple", {Rgb(0.0030f, 0.0034f, 0.046f), Rgb(2.29f, 2.39f, 1.97f)}},
     Row{"Chicken1", {Rgb(0.015f, 0.077f, 0.19f), Rgb(0.15f, 0.21f, 0.38f)}},
     Row{"Chicken2", {Rgb(0.018f, 0.088f, 0.20f), Rgb(0.19f, 0.25f, 0.32f)}},
@@ -63,7 +63,7 @@ constexpr std::array rows{
 }  // namespace
 
 std::optional<MediumPreset> medium_preset(std::string_view name) {
-    for (const Row& row : rows) {
+    for (const Row& row : presets) {
         if (row.name == name) {
             return row.preset;
         }
@@ -73,7 +73,7 @@ std::optional<MediumPreset> medium_preset(std::string_view name) {
 
 std::vector<std::string> medium_preset_names() {
     std::vector<std::string> names;
-    for (const Row& row : rows) {
+    for (const Row& row : presets) {
         names.emplace_back(row.name);
     }
     return names;
