@@ -33,6 +33,12 @@ _IS_POINT = "a light that is shaped is taken as a point: its shadows are hard"
 _TURNED = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
+def is_light(prim: Any) -> bool:
+    """Also one that only a plugin knows; shapes that shine are none."""
+    is_known = prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase)
+    return bool(is_known or prim.GetTypeName() == "PluginLight")
+
+
 def add(reader: Any, prim: Any, world: Places) -> bool:
     """Whether there is a light then. `world` is where it is when the shutter opens and when it closes."""
     kinds = {

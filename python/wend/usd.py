@@ -10,8 +10,6 @@ import argparse
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -35,7 +33,9 @@ from . import _usd_old_lights as old_lights
 from . import _usd_materials as materials
 from . import _usd_skeletons as skeletons
 from ._usd_colours import COLOURS, coloured, display_colour
+from ._usd_copies import Copies
 from ._usd_curves import curve_segments
+from ._usd_errors import named, reason
 from ._usd_files import file_of
 from ._usd_shapes import box_mesh, mesh_parts, primitive_mesh
 from ._usd_subdivision import Refinement
@@ -75,7 +75,7 @@ def read(
     try:
         stage = Usd.Stage.Open(os.fspath(path))
     except Tf.ErrorException as error:
-        raise InputError(f"{os.fspath(path)}: error: {_reason(error)}") from None
+        raise InputError(f"{os.fspath(path)}: error: {reason(error)}") from None
     except UnicodeDecodeError:
         # USD's own message quotes what is wrong.
         raise InputError(f"{os.fspath(path)}: error: its text is not UTF-8") from None
@@ -83,24 +83,6 @@ def read(
         time = stage.GetStartTimeCode()
     when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
     return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp, progress)
-
-
-#: Instances within instances multiply.
-_MOST_NESTED = 2**20
-
-#: Of lights and what shines, of which each copy is a light of its own.
-_MOST_LIGHTS = 2**14
-
-
-@dataclass
-class Prototype:
-    """What an instancer copies: an object, and what it copies itself, with where to."""
-
-    name: str | None  #: None: it has no shapes of its own
-    inner: list[tuple[Prototype, Places]]
-    #: what no object may hold: lights, what shines, volumes; with where in the prototype it is
-    lights: list[tuple[Any, Places]]
-    is_made: bool
 
 
 class _Reader(SceneReader):
@@ -115,10 +97,9 @@ class _Reader(SceneReader):
         #: when the shutter opens and when it closes; the time twice where nothing is blurred
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
-        self.prototypes: dict[str, Prototype] = {}
+        self.copies = Copies()
         self.unpacked: dict[str, str] = {}  #: files of packages
         self.pictures = 0  #: how many others were made
-        self.nested = self.lights = 0
         self.has_light = False
 
     def warn(self, prim: Any, text: str) -> None:
@@ -128,7 +109,7 @@ class _Reader(SceneReader):
         add = self.builder.add
         resolution = resolution or cameras.resolution_of(self)
         eye = cameras.find(self, path)
-        with _named(eye or self.stage.GetPseudoRoot()):
+        with named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
             old_lights.rename(self)
             skeletons.pose(self)
@@ -146,7 +127,7 @@ class _Reader(SceneReader):
         bar = Bar(os.path.basename(self.file), progress)
         for i, prim in enumerate(prims):
             bar.update(i / len(prims), prim.GetName())
-            with _named(prim):
+            with named(prim):
                 self.add_prim(prim, self.world(prim), in_object=False)
         bar.close()
         if not self.has_light:
@@ -194,7 +175,7 @@ class _Reader(SceneReader):
         return bool(purpose == UsdGeom.Tokens.default_)
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
-        if _is_light(prim):
+        if lights.is_light(prim):
             self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
             if prim.HasAPI(UsdLux.MeshLightAPI):
@@ -210,7 +191,7 @@ class _Reader(SceneReader):
         elif prim.IsA(UsdVol.Volume):
             self.add_volume(prim, world)
         elif prim.IsA(UsdGeom.PointInstancer):
-            self.add_instances(prim, world)
+            self.copies.add(self, prim, world)
         elif prim.IsA(UsdGeom.Gprim):
             mesh = primitive_mesh(prim, self.time)
             if mesh is None:
@@ -244,80 +225,6 @@ class _Reader(SceneReader):
                 self.builder.add("AreaLightSource", "diffuse", look.shine | {"bool alphaonce": True})
                 self.has_light = True
             self.builder.add("Shape", kind, parameters | look.shape_parameters)
-
-    def add_instances(self, prim: Any, world: Places) -> None:
-        for prototype, places in self.instances(prim, world):
-            self.place(prim, prototype, places)
-
-    def instances(self, prim: Any, world: Places) -> Iterator[tuple[Prototype, Places]]:
-        """What an instancer copies, and where to."""
-        instancer = UsdGeom.PointInstancer(prim)
-        prototypes = [self.prototype(target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
-        indices = instancer.GetProtoIndicesAttr().Get(self.time) or []
-        start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, self.time)) for time in self.shutter)
-        own = [p.GetPrimvarName() for p in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues() if p.GetInterpolation() != "constant"]
-        if own:
-            self.warn(prim, f"what an instancer gives to each of its copies is left out: {', '.join(sorted(own))}")
-        mask = instancer.ComputeMaskAtTime(self.time)
-        shown = [i for i in range(len(indices)) if not mask or mask[i]]
-        if not len(start) == len(end) == len(shown):
-            self.warn(prim, "an instancer whose positions are not as many as what it copies is left out")
-            return
-        for i, places in zip(shown, zip(start, end)):
-            if not 0 <= indices[i] < len(prototypes):
-                raise InputError(f"{prim.GetPath()}: error: prototype {indices[i]} of {len(prototypes)}")
-            yield prototypes[indices[i]], np.array(places) @ world
-
-    def prototype(self, path: Any) -> Prototype:
-        """Made once. Of one that is within itself nothing is there."""
-        key = str(path)
-        if key in self.prototypes:
-            if not self.prototypes[key].is_made:
-                self.warn(self.stage.GetPrimAtPath(path), "what copies itself is left out")
-                return Prototype(None, [], [], True)
-            return self.prototypes[key]
-        made = self.prototypes[key] = Prototype(None, [], [], False)
-        root = self.stage.GetPrimAtPath(path)
-        if not root:
-            raise InputError(f"{path}: error: what an instancer copies is not there")
-        from_root = np.linalg.inv(self.world(root))
-        held = []
-        # An object holds no instances and no lights: they are placed where all of it is.
-        for part in self.prims(root):
-            with _named(part):
-                place = self.world(part) @ from_root
-            if part.IsA(UsdGeom.PointInstancer):
-                made.inner += self.instances(part, place)
-            elif _is_light(part) or part.IsA(UsdVol.Volume) or materials.shines(self, part):
-                made.lights.append((part, place))
-            else:
-                held.append((part, place))
-        empty = len(self.builder) + 2
-        with self.builder.block("Object", key):
-            for part, place in held:
-                with _named(part):
-                    self.add_prim(part, place, in_object=True)
-        made.name = key if len(self.builder) > empty else None
-        made.is_made = True
-        return made
-
-    def place(self, prim: Any, prototype: Prototype, places: Places) -> None:
-        if prototype.name is not None:
-            with self.builder.block():
-                self.put(places)
-                self.builder.add("ObjectInstance", prototype.name)
-        for part, within in prototype.lights:
-            self.lights += 1
-            if self.lights > _MOST_LIGHTS:
-                self.warn(prim, f"of copies of lights, of what shines and of volumes no more than {_MOST_LIGHTS} are there")
-                break
-            self.add_prim(part, within @ places, in_object=False)
-        for inner, within in prototype.inner:
-            self.nested += 1
-            if self.nested > _MOST_NESTED:
-                self.warn(prim, f"of instances within instances no more than {_MOST_NESTED} are there")
-                return
-            self.place(prim, inner, within @ places)
 
     def add_volume(self, prim: Any, world: Places) -> None:
         fields = UsdVol.Volume(prim).GetFieldPaths()
@@ -359,45 +266,6 @@ class _Reader(SceneReader):
             self.builder.add("Material", "interface")
             self.builder.add("Shape", "trianglemesh", box_mesh(np.array(extent[0]), np.array(extent[1])))
         self.warn(prim, "a volume scatters as much as its density says, with the display colour as its albedo")
-
-
-#: What a value of a wrong type, or one that is not finite, ends in.
-_BAD_VALUES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError, Tf.ErrorException)
-
-
-@contextmanager
-def _named(prim: Any) -> Iterator[None]:
-    """Errors that the prim's values end in are the file's, not ours.
-
-    Raises:
-        InputError: with the prim's path.
-    """
-    try:
-        yield
-    except InputError:
-        raise
-    except _BAD_VALUES as error:
-        reason = _reason(error) if isinstance(error, Tf.ErrorException) else str(error)
-        raise InputError(f"{prim.GetPath()}: error: a value is none that there can be ({reason})") from error
-
-
-def _is_light(prim: Any) -> bool:
-    """Also one that only a plugin knows; shapes that shine are none."""
-    is_known = prim.IsA(UsdLux.BoundableLightBase) or prim.IsA(UsdLux.NonboundableLightBase)
-    return bool(is_known or prim.GetTypeName() == "PluginLight")
-
-
-def _reason(error: Any) -> str:
-    """The first of USD's errors, which tells the place in the text."""
-    for reason in error.args:
-        try:
-            text = str(getattr(reason, "commentary", reason)).strip()
-        except UnicodeDecodeError:
-            # It quotes what is wrong.
-            text = "its text is not UTF-8"
-        if text:
-            return text
-    return "cannot be read"
 
 
 def main(arguments: list[str] | None = None) -> int:

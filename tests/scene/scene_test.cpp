@@ -310,8 +310,8 @@ TEST(SceneLights, ARayDoesNotMeetTheFlatLampThatItIsAimedAt) {
     const Scene scene(std::move(description));
     const auto is_occluded = [&](int aimed_at) {
         TracedRay ray = Ray{{0.5f, -0.5f, 1}, {0, 0, -1}};
-        ray.aim_at({0.5f, -0.5f, 0}, scene.flat_element(aimed_at));
-        return scene.is_occluded(ray, 2);
+        ray.aim_at({0.5f, -0.5f, 0});
+        return scene.is_occluded(ray, 2, scene.flat_element(aimed_at));
     };
     EXPECT_FALSE(is_occluded(0));
     EXPECT_TRUE(is_occluded(1)) << "that is the other triangle";

@@ -16,22 +16,26 @@ struct LastVertex {
     bool unconnected = true;
     /// Of the direction drawn there, per steradian, times what it counts for against connections.
     float density = 0;
-    /// How often it was connected, straight and along ways that boundaries refract, as a mean.
+    /// How often it was connected along straight lines, as a mean.
     float connected = 1;
-    float connected_through = 0;
     /// Probabilities of the walk's colour channels, and under each of them of flying as far as the walk has.
     Rgb channels;
     Rgb pass_probability;
-    /// The direction drawn there, in which medium that is, and how often the walk was refracted since, where it met
-    /// nothing else.
-    Vec3 direction{0, 0, 1};
-    MediumState medium;
-    float time = 0;  ///< Ray::time
-    int refractions = 0;
     /// Of the direction drawn there: the density of connections at the boundary ahead, over its own.
     float emitters_ahead = 0;
 
     float own_density() const { return density * dot(channels, pass_probability); }
+};
+
+/// The way from the last vertex out of a medium, where boundaries refract it.
+struct WayOut {
+    /// How often the vertex was connected along such ways, as a mean: only collisions in dense media are.
+    float connected = 0;
+    /// How often the walk was refracted since, where it met nothing else.
+    int refractions = 0;
+    /// The direction drawn there, and in which medium that is.
+    Vec3 direction{0, 0, 1};
+    MediumState medium;
 };
 
 /// Light with its weight of multiple importance sampling.
@@ -51,33 +55,34 @@ public:
     EmitterHits(const Scene& scene, const LightSelection& choices) : scene_(scene), choices_(choices) {}
 
     /// Of a surface that shines.
-    EmitterHit at(const Hit& hit, const LastVertex& last, const Vec3& direction) const {
+    EmitterHit at(const Hit& hit, const LastVertex& last, const WayOut& way, const Ray& ray) const {
         EmitterHit arriving;
         const Light& light = scene_.lights()[static_cast<std::size_t>(hit.light)];
-        Rgb emitted = emitted_radiance(light, hit.normal, hit.uv, -direction);
-        if ((last.unconnected || last.refractions > 0) && presence_of(light) == Presence::partly) {
+        Rgb emitted = emitted_radiance(light, hit.normal, hit.uv, -ray.direction);
+        if ((last.unconnected || way.refractions > 0) && presence_of(light) == Presence::partly) {
             // As pbrt has it: where a lamp is partly there, a ray that has met it may yet find it dark. No connection
             // looks for such a lamp through boundaries.
             emitted *= scene_.presence(hit.light, texture_point(hit));
         }
         if (!is_black(emitted)) {
-            arriving.add(emitted, weight(hit.light, last, direction, hit.position, hit.normal));
+            arriving.add(emitted, weight(hit.light, last, way, ray, hit.position, hit.normal));
         }
         return arriving;
     }
 
     /// From beyond the scene, as seen from where the walk has turned last.
-    EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction) const {
-        return beyond(last, from, direction, [](int, const Rgb&) {});
+    EmitterHit beyond(const LastVertex& last, const WayOut& way, const TracedRay& ray) const {
+        return beyond(last, way, ray, [](int, const Rgb&) {});
     }
     /// The same; `each` is told what comes from each light.
     template <class Each>
-    EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction, const Each& each) const {
+    EmitterHit beyond(const LastVertex& last, const WayOut& way, const TracedRay& ray, const Each& each) const {
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {
-            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], from, direction);
+            const Rgb emitted =
+                environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], ray.start(), ray.direction);
             if (!is_black(emitted)) {
-                const float w = weight(light, last, direction, {}, {});
+                const float w = weight(light, last, way, ray, {}, {});
                 arriving.add(emitted, w);
                 each(light, emitted * w);
             }
@@ -86,9 +91,9 @@ public:
     }
 
     /// What a flight through a medium may keep of its light.
-    EmissionShare in(MediumId medium, const LastVertex& last) const {
+    EmissionShare in(MediumId medium, const LastVertex& last, const WayOut& way) const {
         const int light = scene_.medium_light(medium);
-        if (light < 0 || last.unconnected || last.refractions > 0) {
+        if (light < 0 || last.unconnected || way.refractions > 0) {
             return {};
         }
         return {std::get<MediumLight>(scene_.lights()[static_cast<std::size_t>(light)]).grid->glow(),
@@ -97,38 +102,39 @@ public:
     }
 
 private:
-    float weight(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
+    float weight(int light, const LastVertex& last, const WayOut& way, const Ray& ray, const Vec3& hit,
+                 const Vec3& normal) const {
         if (last.unconnected) {
             return 1;
         }
         const float other =
             choices_.probability(last.receiver, light) *
-            (last.refractions > 0 ? last.connected_through * refracted_density(light, last, direction, hit, normal)
-                                  : last.connected * density(light, last, direction, hit, normal));
+            (way.refractions > 0 ? way.connected * refracted_density(light, last.receiver, way, ray, hit, normal)
+                                 : last.connected * density(light, last.receiver, ray, hit, normal));
         const float own = last.own_density();
         return own > 0 ? own / (own + other) : 0.0f;
     }
 
-    float density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit, const Vec3& normal) const {
-        return light_density(scene_.lights()[static_cast<std::size_t>(light)], last.receiver.position, direction, hit,
-                             normal, last.time);
+    /// Of the ray's direction, as seen from the receiver.
+    float density(int light, const LightReceiver& from, const Ray& ray, const Vec3& hit, const Vec3& normal) const {
+        return light_density(scene_.lights()[static_cast<std::size_t>(light)], from.position, ray.direction, hit,
+                             normal, ray.time);
     }
 
-    /// Of the first direction of a refracted way that ends with `direction`: 0 where connections do not find it.
-    float refracted_density(int light, const LastVertex& last, const Vec3& direction, const Vec3& hit,
+    /// Of the first direction of a refracted way that ends with the ray: 0 where connections do not find it.
+    float refracted_density(int light, const LightReceiver& from, const WayOut& way, const Ray& ray, const Vec3& hit,
                             const Vec3& normal) const {
         const Light& source = scene_.lights()[static_cast<std::size_t>(light)];
         const bool is_far = is_at_infinity(source);
-        const Vec3 straight = is_far ? direction : normalize(hit - last.receiver.position);
-        if (!is_seen_through_boundaries(source) || (!is_far && !emits_towards(source, normal, -straight))) {
+        const Ray straight{from.position, is_far ? ray.direction : normalize(hit - from.position), ray.time};
+        if (!is_seen_through_boundaries(source) || (!is_far && !emits_towards(source, normal, -straight.direction))) {
             return 0;
         }
-        const float distance = is_far ? infinity : length(hit - last.receiver.position);
-        const auto way =
-            find_specular_chain(scene_, {last.receiver.position, straight, last.time}, distance, last.medium);
+        const float distance = is_far ? infinity : length(hit - from.position);
+        const auto found = find_specular_chain(scene_, straight, distance, way.medium);
         constexpr float same = 1e-3f;
-        return way && way->refractions == last.refractions && length(way->direction - last.direction) < same
-                   ? way->density_ratio * density(light, last, straight, hit, normal)
+        return found && found->refractions == way.refractions && length(found->direction - way.direction) < same
+                   ? found->density_ratio * density(light, from, straight, hit, normal)
                    : 0.0f;
     }
 

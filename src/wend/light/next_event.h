@@ -47,7 +47,8 @@ inline std::optional<ChosenSample> choose_light(const Scene& scene, const LightS
 struct ShadowRay {
     TracedRay ray;
     float length;
-    MediumId medium;  ///< that glows at its end; vacuum for other lights
+    MediumId medium;          ///< that glows at its end; vacuum for other lights
+    SurfaceElement target{};  ///< what it ends on, if that is flat: it is not met on the way
 };
 
 /// A ray from a vertex at `position` in the light's direction, up to the light.
@@ -59,8 +60,8 @@ inline ShadowRay shadow_ray(const Scene& scene, TracedRay ray, const Vec3& posit
     // Neither where the ray begins, beside the position, nor rounding must move its end through a lamp that is seen
     // edge on. It ends short of what lies in the lamp's place, and of a lamp that is not flat.
     const float part = light.medium == vacuum ? 1 - 1e-4f : 1.0f;
-    const float distance = ray.aim_at(position + light.direction * light.distance, scene.flat_element(chosen.index));
-    return {ray, distance * part, light.medium};
+    const float distance = ray.aim_at(position + light.direction * light.distance);
+    return {ray, distance * part, light.medium, scene.flat_element(chosen.index)};
 }
 
 /// An estimate of the transmittance, 0 where something blocks the light, and the probability, by channel, that a walk
@@ -79,11 +80,12 @@ Passage pass(const Scene& scene, const Distance& distance, const ShadowRay& shad
     Passage passage;
     TracedRay ray = shadow.ray;
     float rest = std::min(shadow.length, longest_segment);
-    if (scene.is_occluded(ray, rest)) {
+    if (scene.is_occluded(ray, rest, shadow.target)) {
         return blocked;
     }
     for (int crossed = 0; crossed < most_interfaces; ++crossed) {
-        const std::optional<Hit> hit = scene.has_interfaces() ? scene.intersect_interface(ray, rest) : std::nullopt;
+        const std::optional<Hit> hit =
+            scene.has_interfaces() ? scene.intersect_interface(ray, rest, shadow.target) : std::nullopt;
         const bool is_there = hit && scene.is_there(*hit, ray);
         if (is_there && !scene.is_interface(*hit)) {
             return blocked;

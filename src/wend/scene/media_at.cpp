@@ -284,7 +284,9 @@ MediumRegions::MediumRegions(const SceneDescription& scene) {
     rank_.resize(regions.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         rank_[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
-        interiors_.push_back(regions[static_cast<std::size_t>(order[i])].interiors);
+        const std::vector<MediumId>& media = regions[static_cast<std::size_t>(order[i])].interiors;
+        media_of_parts_.insert(media_of_parts_.end(), media.begin(), media.end());
+        first_part_.push_back(static_cast<std::int32_t>(media_of_parts_.size()));
     }
     parts_ = std::move(parts_of);
     first_ = std::move(first);
@@ -307,28 +309,27 @@ void MediumRegions::cross(MediumState& state, const Surface& surface, const Surf
         state.id = beyond;
         return;
     }
-    const auto begin = state.inside_.begin();
-    auto end = begin + state.count_;
-    auto place = std::find_if(begin, end, [&](const auto& inside) { return inside.region >= r; });
-    bool is_in = place != end && place->region == r;
+    const std::int32_t first = first_part_[static_cast<std::size_t>(r)];
+    const std::int32_t last = first_part_[static_cast<std::size_t>(r) + 1];
+    const auto media = media_of_parts_.begin();
+    const auto part = static_cast<std::int32_t>(std::find(media + first, media + last, beyond) - media);
+    auto& inside = state.inside_;
+    const auto place = std::find_if(inside.begin(), inside.end(),
+                                    [&](std::int32_t i) { return i == MediumState::nowhere || i >= first; });
+    bool is_in = place != inside.end() && *place >= first && *place < last;
     // A wall within a region has another part of it on its other side.
-    const std::vector<MediumId>& interiors = interiors_[static_cast<std::size_t>(r)];
-    const bool stays = inwards || (beyond != vacuum && interiors.size() > 1 &&
-                                   std::find(interiors.begin(), interiors.end(), beyond) != interiors.end());
-    if (stays && !is_in && place != state.inside_.end()) {
-        state.count_ = std::min<std::uint32_t>(state.count_ + 1, MediumState::most);
-        end = begin + state.count_;
-        std::move_backward(place, end - 1, end);
+    const bool stays = inwards || (beyond != vacuum && last - first > 1 && part < last);
+    if (stays && !is_in && place != inside.end()) {
+        std::move_backward(place, inside.end() - 1, inside.end());
         is_in = true;
     }
     if (is_in && stays) {
-        *place = {r, beyond};
+        *place = part;
     } else if (is_in) {
-        std::move(place + 1, end, place);
-        --state.count_;
-        state.inside_[state.count_] = {};
+        std::move(place + 1, inside.end(), place);
+        inside.back() = MediumState::nowhere;
     }
-    state.id = state.count_ > 0 ? begin->medium : beyond;
+    state.id = inside[0] == MediumState::nowhere ? beyond : media[inside[0]];
 }
 
 }  // namespace wend

@@ -29,16 +29,11 @@ public:
 private:
     friend class MediumRegions;
 
-    struct Inside {
-        std::int32_t region = -1;
-        MediumId medium = vacuum;
-        friend bool operator==(const Inside&, const Inside&) = default;
-    };
-    static constexpr std::size_t most = 6;
+    static constexpr std::int32_t nowhere = -1;
 
-    /// The smallest first; what there is no room for is the largest.
-    std::array<Inside, most> inside_{};
-    std::uint32_t count_ = 0;
+    /// Parts of the regions that it is in (MediumRegions), the smallest region first, then `nowhere`. What there is no
+    /// room for is the largest.
+    std::array<std::int32_t, 6> inside_{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
 };
 
 /// The regions of space that the boundaries of media enclose: one for each closed part of a boundary that hangs
@@ -57,7 +52,7 @@ public:
     MediumRegions() = default;
     explicit MediumRegions(const SceneDescription& scene);
 
-    bool is_empty() const { return interiors_.empty(); }
+    bool is_empty() const { return media_of_parts_.empty(); }
 
     /// A walk goes through a surface that bounds a medium: to its interior, or to its exterior.
     void cross(MediumState& state, const Surface& surface, const SurfaceElement& element, bool inwards) const;
@@ -69,7 +64,9 @@ private:
     std::vector<std::vector<std::int32_t>> parts_;  ///< by surface and primitive, or for all its primitives
     std::vector<std::int32_t> first_;               ///< by instance, after the world itself: its first region
     std::vector<std::int32_t> rank_;                ///< of regions by their size
-    std::vector<std::vector<MediumId>> interiors_;  ///< by rank
+    /// The media that each region's boundary names as its interior, by rank: several where walls part it.
+    std::vector<MediumId> media_of_parts_;
+    std::vector<std::int32_t> first_part_{0};  ///< of each region, by rank; at last the end
 };
 
 }  // namespace wend

@@ -29,10 +29,14 @@ RTCRay to_embree(const TracedRay& ray, float distance, Visible visible) {
 }  // namespace
 
 struct RayCaster::Query : EmbreeContext {
-    Query(const RayCaster& of, const TracedRay& traced) : caster(of), ray(traced) { embree_start(*this); }
+    Query(const RayCaster& of, const TracedRay& traced, const SurfaceElement& aimed_at)
+        : caster(of), ray(traced), target(aimed_at) {
+        embree_start(*this);
+    }
 
     bool is_ahead(unsigned surface, unsigned primitive, unsigned inst, float t, bool along) const {
-        return ray.is_ahead({surface, primitive, caster.instance(inst)}, t, along);
+        const SurfaceElement met{surface, primitive, caster.instance(inst)};
+        return met != target && ray.is_ahead(met, t, along);
     }
     /// Where the ray meets a shape of ours next within its bounds; u and v are those of curves.
     std::optional<CurveCrossing> next(unsigned surface, unsigned primitive, const RTCRay& bounds) const {
@@ -61,7 +65,7 @@ struct RayCaster::Query : EmbreeContext {
     std::optional<CurveCrossing> next_of(const CurveSet& curves, unsigned surface, unsigned primitive,
                                          const RTCRay& bounds) const {
         const int inst = caster.instance(instID[0]);
-        Vec3 offset = ray.offset_for({surface, primitive, inst});
+        Vec3 offset = ray.offset_for({surface, primitive, inst}, curves.pieces);
         std::optional<Placement> moved;
         if (const Placement* placement = caster.placement_of(inst, ray.time, moved)) {
             offset = placement->object_from_world.vector(offset);
@@ -79,6 +83,7 @@ struct RayCaster::Query : EmbreeContext {
 
     const RayCaster& caster;
     const TracedRay& ray;
+    const SurfaceElement& target;
 };
 
 void RayCaster::filter(const RTCFilterFunctionNArguments* arguments) {
@@ -149,7 +154,8 @@ bool RayCaster::reaches_scene(const TracedRay& ray, float distance) const {
     return is_near(ray.start()) && is_near(ray.direction) && distance >= 0;
 }
 
-std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance, Visible visible) const {
+std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance, Visible visible,
+                                           const SurfaceElement& target) const {
     if (!reaches_scene(ray, distance)) {
         return std::nullopt;
     }
@@ -157,7 +163,7 @@ std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance,
     found.ray = to_embree(ray, distance, visible);
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    Query query(*this, ray);
+    Query query(*this, ray, target);
     embree_intersect(structure_->scene(), query, found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
@@ -169,12 +175,12 @@ std::optional<RayHit> RayCaster::intersect(const TracedRay& ray, float distance,
                   {found.hit.geomID, found.hit.primID, instance(found.hit.instID[0])}};
 }
 
-bool RayCaster::is_occluded(const TracedRay& ray, float distance) const {
+bool RayCaster::is_occluded(const TracedRay& ray, float distance, const SurfaceElement& target) const {
     if (!reaches_scene(ray, distance)) {
         return false;
     }
     RTCRay found = to_embree(ray, distance, Visible::opaque);
-    Query query(*this, ray);
+    Query query(*this, ray, target);
     embree_occluded(structure_->scene(), query, found);
     return found.tfar < 0;
 }

@@ -21,8 +21,10 @@ public:
 
     bool shares_structure_with(const RayCaster& other) const { return structure_ == other.structure_; }
 
-    std::optional<RayHit> intersect(const TracedRay& ray, float distance, Visible visible) const;
-    bool is_occluded(const TracedRay& ray, float distance) const;
+    /// Neither meets `target`.
+    std::optional<RayHit> intersect(const TracedRay& ray, float distance, Visible visible,
+                                    const SurfaceElement& target = {}) const;
+    bool is_occluded(const TracedRay& ray, float distance, const SurfaceElement& target = {}) const;
 
     /// The hit's place, normals and parameters in the world.
     Hit complete(const RayHit& raw, const Ray& ray) const;

@@ -222,8 +222,8 @@ Vec3 Scene::normal_change(const Hit& hit, const Vec3& displacement) const {
     return caster_->normal_change(hit, displacement);
 }
 
-bool Scene::is_occluded(const TracedRay& ray, float distance) const {
-    return caster_->is_occluded(ray, distance);
+bool Scene::is_occluded(const TracedRay& ray, float distance, const SurfaceElement& target) const {
+    return caster_->is_occluded(ray, distance, target);
 }
 
 bool Scene::is_there(const Hit& hit, const Ray& ray) const {
@@ -237,8 +237,9 @@ bool Scene::is_there(const Hit& hit, const Ray& ray) const {
     return to_unit_float(static_cast<std::uint32_t>(h)) < alpha;
 }
 
-std::optional<Hit> Scene::intersect_interface(const TracedRay& ray, float distance) const {
-    const auto raw = caster_->intersect(ray, distance, Visible::interfaces);
+std::optional<Hit> Scene::intersect_interface(const TracedRay& ray, float distance,
+                                              const SurfaceElement& target) const {
+    const auto raw = caster_->intersect(ray, distance, Visible::interfaces, target);
     if (!raw) {
         return std::nullopt;
     }

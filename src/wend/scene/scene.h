@@ -97,7 +97,7 @@ struct Hit {
     Vec3 position;
     Vec3 normal;            ///< geometric, unit length, towards the exterior
     Frame shading;          ///< z: interpolated normal on the geometric normal's side; x along dp/du
-    Vec2 uv;                ///< surface parameters; not computed for interfaces
+    Vec2 uv{0, 0};          ///< surface parameters; not computed for interfaces
     Vec2 of_corners{0, 0};  ///< TexturePoint::of_corners
     const Surface* surface = nullptr;
     SurfaceElement element;
@@ -140,10 +140,12 @@ public:
     /// By how much the shading normal changes when the hit moves by a small `displacement` along the surface, to first
     /// order.
     Vec3 normal_change(const Hit& hit, const Vec3& displacement) const;
-    /// Whether anything opaque (no interface) lies within `distance`.
-    bool is_occluded(const TracedRay& ray, float distance) const;
-    /// The nearest interface or partly transparent surface ahead within `distance`; opaque ones are not seen.
-    std::optional<Hit> intersect_interface(const TracedRay& ray, float distance) const;
+    /// Whether anything opaque (no interface) lies within `distance`, but for the `target` of the ray.
+    bool is_occluded(const TracedRay& ray, float distance, const SurfaceElement& target = {}) const;
+    /// The nearest interface or partly transparent surface ahead within `distance`; opaque ones are not seen, nor is
+    /// the `target` of the ray.
+    std::optional<Hit> intersect_interface(const TracedRay& ray, float distance,
+                                           const SurfaceElement& target = {}) const;
     /// Whether a surface found by intersect_interface() is there for this ray: as find() has it, what is not is neither
     /// met nor a boundary of its media.
     bool is_there(const Hit& hit, const Ray& ray) const;

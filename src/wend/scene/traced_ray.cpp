@@ -28,32 +28,37 @@ bool is_along(const Hit& hit, const Vec3& w) {
 
 }  // namespace
 
-void TracedRay::add(const Crossing& crossing) {
-    std::move_backward(crossings_.begin(), crossings_.end() - 1, crossings_.end());
-    crossings_[0] = crossing;
-    count_ = std::min<std::uint32_t>(count_ + 1, crossings_.size());
+void TracedRay::add(const SurfaceElement& met, float t, bool along) {
+    const auto put_first = [](auto& list, const auto& value) {
+        std::move_backward(list.begin(), list.end() - 1, list.end());
+        list[0] = value;
+    };
+    put_first(met_, met);
+    put_first(t_, t);
+    put_first(along_, along);
+    count_ = static_cast<std::uint8_t>(std::min(count_ + std::size_t{1}, most));
 }
 
 void TracedRay::pass(const Hit& met) {
     passed_ = met.t;
     origin = start_ + direction * passed_;
-    add({met.element, met.t, is_along(met, direction)});
+    add(met.element, met.t, is_along(met, direction));
 }
 
 TracedRay TracedRay::leave(const Hit& hit, const Vec3& w) const {
     TracedRay ray(hit, w, (dot(direction, hit.normal) < 0) != (dot(w, hit.normal) < 0));
-    const Crossing own = ray.crossings_[0];
+    const bool along = ray.along_[0];
     // Near the origin the place is known better than the way there was. What is farther than the ray's own zone will be
     // met as anything else is.
     const float reach = ray.zone_ + rounding * hit.t;
     ray.count_ = 0;
-    for (const Crossing* crossing = end(); crossing-- != begin();) {
-        const bool is_here = crossing->t == before ? hit.t < zone_ : hit.t - crossing->t <= reach;
+    for (std::size_t i = count_; i-- > 0;) {
+        const bool is_here = t_[i] == before ? hit.t < zone_ : hit.t - t_[i] <= reach;
         if (is_here) {
-            ray.add({crossing->met, before, crossing->along});
+            ray.add(met_[i], before, along_[i]);
         }
     }
-    ray.add(own);
+    ray.add(hit.element, before, along);
     return ray;
 }
 
@@ -68,11 +73,11 @@ TracedRay::TracedRay(const Hit& hit, const Vec3& w, bool reflected) : reflected_
     own_ = hit.element;
     own_again_ = !along && is_round(*hit.surface);
     zone_ = 2 * behind;
-    if (const auto* curves = std::get_if<CurveSet>(hit.surface->shape.get())) {
+    if (std::holds_alternative<CurveSet>(*hit.surface->shape)) {
+        leaves_curve_ = true;
         curve_offset_ = hit.normal * (cosine > 0 ? hit.thickness : -hit.thickness);
-        curve_reach_ = curves->pieces;
     }
-    add({hit.element, before, along});
+    add(hit.element, before, along);
 }
 
 }  // namespace wend

@@ -3,7 +3,6 @@
 
 #include <wend/core/vector.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,18 +44,19 @@ public:
     static TracedRay leave_anew(const Hit& hit, const Vec3& w) { return TracedRay(hit, w, true); }
 
     /// Turns the ray, before it has met anything, so that it goes through a point far from where it starts; returns the
-    /// distance of that. `on` is what the point lies on if that is flat: it is not met on the way.
-    float aim_at(const Vec3& point, const SurfaceElement& on) {
+    /// distance of that.
+    float aim_at(const Vec3& point) {
         const Vec3 way = point - start_;
         const float distance = length(way);
         direction = way * (1 / distance);
-        aim_ = on;
         return distance;
     }
 
-    /// By how much the ray starts elsewhere for what it meets, so that it is outside of the curve that it leaves.
-    Vec3 offset_for(const SurfaceElement& met) const {
-        return curve_reach_ > 0 && met.is_of_the_same(own_) && is_near(met.primitive) ? curve_offset_ : Vec3(0, 0, 0);
+    /// By how much the ray starts elsewhere for a primitive of a curve that has so many, so that it is outside of the
+    /// curve that it leaves.
+    Vec3 offset_for(const SurfaceElement& met, std::uint32_t pieces) const {
+        const bool is_near = met.primitive + pieces >= own_.primitive && met.primitive <= own_.primitive + pieces;
+        return leaves_curve_ && met.is_of_the_same(own_) && is_near ? curve_offset_ : Vec3(0, 0, 0);
     }
 
     /// Where the ray is traced from, and how far along it has come.
@@ -66,58 +66,59 @@ public:
     /// Whether what is met at distance t from start() is still ahead. `along`: whether the normal by the surface's
     /// winding is along the ray.
     bool is_ahead(const SurfaceElement& met, float t, bool along) const {
-        if (t < passed_ || met == aim_ || (met == own_ && !(own_again_ && along) && curve_reach_ == 0)) {
+        if (t < passed_ || (met == own_ && !(own_again_ && along) && !leaves_curve_)) {
             return false;
         }
-        if (t == passed_ && std::any_of(begin(), end(), [&](const Crossing& c) { return c.t == t && c.met == met; })) {
+        if (t == passed_ && has_crossing([&](std::size_t i) { return t_[i] == t && met_[i] == met; })) {
             return false;
         }
         if (t > zone_) {
             return true;
         }
-        if (reflected_ && met.is_of_the_same(own_) && curve_reach_ == 0) {
+        if (reflected_ && met.is_of_the_same(own_) && !leaves_curve_) {
             return false;
         }
-        const bool was_crossed = std::any_of(begin(), end(), [&](const Crossing& c) {
-            return c.t == before && c.met.is_of_the_same(met) && c.along == (along != reflected_);
+        const bool was_crossed = has_crossing([&](std::size_t i) {
+            return t_[i] == before && met_[i].is_of_the_same(met) && along_[i] == (along != reflected_);
         });
         return was_crossed == reflected_;
     }
 
 private:
-    /// The ray's last crossings of surfaces, and those of the ray before in the same place.
-    struct Crossing {
-        SurfaceElement met;
-        float t = 0;  ///< from start(), or `before`
-        bool along = false;
-    };
+    static constexpr std::size_t most = 4;
     static constexpr float before = -1;
 
     TracedRay(const Hit& hit, const Vec3& w, bool reflected);
 
-    void add(const Crossing& crossing);
-    /// Whether a primitive of the surface that it leaves may be a part of the same curve.
-    bool is_near(std::uint32_t primitive) const {
-        return primitive + curve_reach_ >= own_.primitive && primitive <= own_.primitive + curve_reach_;
+    void add(const SurfaceElement& met, float t, bool along);
+    template <class Is>
+    bool has_crossing(const Is& is) const {
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (is(i)) {
+                return true;
+            }
+        }
+        return false;
     }
-    const Crossing* begin() const { return crossings_.data(); }
-    const Crossing* end() const { return crossings_.data() + count_; }
 
     Vec3 start_{0, 0, 0};
     float passed_ = 0;
-    /// What it starts on, and whether it may meet that again along its normal, as from within a sphere.
-    SurfaceElement own_{};
-    /// What it is aimed at.
-    SurfaceElement aim_{};
-    bool own_again_ = false;
-    bool reflected_ = false;
-    /// Where it leaves a curve: how far outside of that it starts, and how many primitives on either side may be of it.
-    Vec3 curve_offset_{0, 0, 0};
-    std::uint32_t curve_reach_ = 0;
     /// Up to where lies what may be in the place that it starts from.
     float zone_ = 0;
-    std::array<Crossing, 4> crossings_{};  // the latest first
-    std::uint32_t count_ = 0;
+    /// What it starts on.
+    SurfaceElement own_{};
+    /// The last crossings of surfaces, and those of the ray before in the same place, the latest first. Paths keep
+    /// rays, so that there is no padding within.
+    std::array<SurfaceElement, most> met_{};
+    std::array<float, most> t_{};  ///< from start(), or `before`
+    std::array<bool, most> along_{};
+    std::uint8_t count_ = 0;
+    bool reflected_ = false;
+    /// Whether it may meet what it starts on again along its normal, as from within a sphere.
+    bool own_again_ = false;
+    /// Whether that is a curve; then how far outside of it the ray starts.
+    bool leaves_curve_ = false;
+    Vec3 curve_offset_{0, 0, 0};
 };
 
 }  // namespace wend

@@ -41,7 +41,7 @@ public:
     /// The answer of the technique at hand.
     template <class Question>
     decltype(auto) ask_technique(Question&& question) {
-        return std::visit(question, now.technique);
+        return std::visit(question, now.interior.technique);
     }
 
     void weigh(const Rgb& weight) {
@@ -67,7 +67,7 @@ public:
     void bring(const Rgb& light, const walk_events::LightFound& found) {
         radiance_ += light;
         count_unguided(mean_value(light));
-        record(walk_events::Contributed{mean_value(light), now.technique, found});
+        record(walk_events::Contributed{mean_value(light), now.interior.technique, found});
     }
 
     /// Sorts light, before its weight is counted, that the path brings in one of the ways above, or is a part of that.

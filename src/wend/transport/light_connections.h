@@ -78,7 +78,7 @@ public:
     /// The same from a collision in a dense medium, along a way that boundaries refract.
     template <class F, class Directions>
     void connect_through_boundaries(const F& f, const Directions& directions, const Vertex& v) {
-        const float often = path_.now.next_event.through_boundaries;
+        const float often = path_.now.interior.next_event.through_boundaries;
         if (often == 0 || !(sampler_.random().uniform() < often)) {
             return;
         }
@@ -111,7 +111,7 @@ public:
         }
         auto here = path_.branch();
         const Rgb phase = f.evaluate(*w);
-        path_.record(walk_events::Turning{path_.now.technique});
+        path_.record(walk_events::Turning{path_.now.interior.technique});
         technique.turn(directions, *w);
         path_.now.ray = ray;
         const float passing = technique.pass(hit->distance);

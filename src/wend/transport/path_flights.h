@@ -57,7 +57,7 @@ private:
                           path_.now.weight.throughput,
                           path_.now.weight_to_bound(),
                           {},
-                          emitters_.in(path_.now.medium.id, path_.now.last)};
+                          emitters_.in(path_.now.medium.id, path_.now.last, path_.now.interior.way)};
         if (d_.distance.looks_ahead(medium, start)) {
             start.end = end_of_segment(ahead);
         }
@@ -67,8 +67,7 @@ private:
     FlightEnd end_of_segment(SurfaceAhead& ahead) const {
         FlightEnd end;
         if (!ahead) {
-            end.emitted =
-                mean_value(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction).radiance);
+            end.emitted = mean_value(emitters_.beyond(path_.now.last, path_.now.interior.way, path_.now.ray).radiance);
             return end;
         }
         const Hit& hit = ahead.hit();
@@ -76,7 +75,9 @@ private:
         end.position = hit.position;
         end.normal = Vertex::facing_normal(hit, path_.now.ray.direction);
         end.emitted =
-            hit.light >= 0 ? mean_value(emitters_.at(hit, path_.now.last, path_.now.ray.direction).radiance) : 0.0f;
+            hit.light >= 0
+                ? mean_value(emitters_.at(hit, path_.now.last, path_.now.interior.way, path_.now.ray).radiance)
+                : 0.0f;
         return end;
     }
 

@@ -9,6 +9,7 @@
 #include <wend/transport/path_technique.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <variant>
 
 namespace wend {
@@ -32,8 +33,8 @@ struct PathWeight {
 /// What the path has met so far.
 struct PathCounts {
     int vertices = 0;
-    int uncounted = 0;  ///< of those, the ones that do not count towards the largest depth
-    int interfaces = 0;
+    int uncounted = 0;              ///< of those, the ones that do not count towards the largest depth
+    std::int16_t interfaces = 0;    ///< up to most_interfaces
     bool begins_in_medium = false;  ///< whether the first vertex is in one
 
     /// How many vertices more, that count, are not too many.
@@ -46,17 +47,23 @@ struct MediumTint {
     Rgb relative_albedo{1.0f};  ///< in it, over that of the medium
 };
 
+/// What a path has of the interior walk that it is in, or that it has come out of.
+struct PathInterior {
+    PathTechnique technique;
+    NextEventSettings next_event{};  ///< of collisions in the medium and of what is met from inside of it
+    MediumTint tint;
+    WayOut way;
+};
+
 /// All that a path needs to go on from its last vertex. One that was split has several.
 struct PathState {
     TracedRay ray{};
     MediumState medium;
-    MediumTint tint;
     PathWeight weight;
     PathCounts counts;
     float travelled = 0;  ///< since the last vertex
     LastVertex last;
-    NextEventSettings next_event{};  ///< of collisions in the medium and of what is met from inside of it
-    PathTechnique technique;
+    PathInterior interior;
 
     /// The ray from a vertex that the path has just come to, in a direction, and the medium that it is in.
     TracedRay leave(const Vertex& v, const Vec3& w) const {
@@ -72,16 +79,19 @@ struct PathState {
     /// that has become heavy is split again, and all of them together would know no bound.
     float weight_to_bound() const {
         constexpr float free_copies = 8;
-        const bool is_bounded = std::visit([](const auto& t) { return t.bounds_weights; }, technique);
+        const bool is_bounded = std::visit([](const auto& t) { return t.bounds_weights; }, interior.technique);
         return is_bounded ? 0.0f : weight.value() * std::max(1.0f, weight.copies / free_copies);
     }
 
     /// How often such a vertex is connected to lights that directions find as well, as a mean.
     float connections(const Vertex& v) const {
-        return v.in_volume() ? next_event.probability : static_cast<float>(next_event.at_surfaces);
+        return v.in_volume() ? interior.next_event.probability : static_cast<float>(interior.next_event.at_surfaces);
     }
     /// What multiplies the density of the path's own directions there where it is weighed against that of connections.
-    float preference(const Vertex& v) const { return v.in_volume() ? next_event.preference : 1.0f; }
+    float preference(const Vertex& v) const { return v.in_volume() ? interior.next_event.preference : 1.0f; }
 };
+
+// A path that is split keeps one of each branch.
+static_assert(sizeof(PathState) - sizeof(PathInterior) <= 288);
 
 }  // namespace wend

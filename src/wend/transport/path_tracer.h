@@ -88,7 +88,7 @@ public:
         do {
             while (!is_stopped() && step()) {
             }
-            path_.record(walk_events::Paused{path_.now.technique});
+            path_.record(walk_events::Paused{path_.now.interior.technique});
         } while (!is_stopped() && path_.take_up_pending());
         path_.finish();
         result_.sample.radiance = path_.radiance();
@@ -105,7 +105,7 @@ private:
     /// One flight to the next collision, surface or interface; false where the walk ends.
     bool step() {
         ++result_.sample.segments;
-        result_.interior_segments += interior_of(path_.now.technique) ? 1 : 0;
+        result_.interior_segments += interior_of(path_.now.interior.technique) ? 1 : 0;
         const float drawn = flights_.draw_distance();
         SurfaceAhead ahead(scene_, path_.now.ray, drawn);
         if (path_.now.medium.id != vacuum) {
@@ -126,7 +126,7 @@ private:
             }
         }
         if (!ahead) {
-            path_.meet(emitters_.beyond(path_.now.last, path_.now.ray.start(), path_.now.ray.direction,
+            path_.meet(emitters_.beyond(path_.now.last, path_.now.interior.way, path_.now.ray,
                                         [&](int light, const Rgb& radiance) { path_.sort(radiance, {light}); }));
             return false;
         }
@@ -137,7 +137,7 @@ private:
             return hit.surface->view == CameraView::hidden && ++path_.now.counts.interfaces < most_interfaces;
         }
         if (hit.light >= 0) {
-            const EmitterHit found = emitters_.at(hit, path_.now.last, path_.now.ray.direction);
+            const EmitterHit found = emitters_.at(hit, path_.now.last, path_.now.interior.way, path_.now.ray);
             path_.meet(found);
             path_.sort(found.radiance, {hit.light});
         }
@@ -162,20 +162,20 @@ private:
         const MediumId medium = path_.now.medium.id;
         if (medium != from && medium == hit.surface->interior) {
             if (const auto relative = scene_.relative_albedo(hit)) {
-                path_.now.tint = {medium, *relative};
+                path_.now.interior.tint = {medium, *relative};
             }
         }
         if (!hit.surface->bounds_medium() || tracer_.subsurface_.is_empty()) {
             return;
         }
-        path_.record(walk_events::Paused{path_.now.technique});
+        path_.record(walk_events::Paused{path_.now.interior.technique});
         if (medium != from) {
             const TechniqueMix* mix = tracer_.subsurface_.plan(medium, hit.position);
             const bool guided = mix && !(sampler_.random().uniform() < mix->unguided_probability);
             path_.record(walk_events::EnteredMedium{medium, hit.position, mix != nullptr, guided,
                                                     mix ? mix->recording_probability : 1.0f, sampler_.random()});
-            path_.now.next_event = !mix ? NextEventSettings{} : guided ? mix->guided : mix->unguided;
-            path_.now.technique = technique_of(mix, guided);
+            path_.now.interior.next_event = !mix ? NextEventSettings{} : guided ? mix->guided : mix->unguided;
+            path_.now.interior.technique = technique_of(mix, guided);
         }
         path_.ask_technique([&](auto& technique) {
             if constexpr (requires { technique.enter(tracer_.subsurface_, medium, hit, Vec3(), Rgb()); }) {
@@ -187,8 +187,8 @@ private:
     // ---- Vertices ----
 
     bool scatter_in(const Medium& medium, float distance) {
-        if (path_.now.medium.id == path_.now.tint.medium) {
-            path_.weigh(path_.now.tint.relative_albedo);
+        if (path_.now.medium.id == path_.now.interior.tint.medium) {
+            path_.weigh(path_.now.interior.tint.relative_albedo);
             if (is_black(path_.now.weight.throughput)) {
                 return false;
             }
@@ -279,7 +279,7 @@ private:
         }
         path_.ask_technique([&](auto& technique) {
             if constexpr (requires { technique.turn(directions, s->direction); }) {
-                path_.record(walk_events::Turning{path_.now.technique});
+                path_.record(walk_events::Turning{path_.now.interior.technique});
                 technique.turn(directions, s->direction);
             }
         });
@@ -309,13 +309,14 @@ private:
         path_.now.weight.index_scale *= sqr(f.index_ratio(s.direction));
         // Connections that look through boundaries see past a refraction, to where the walk is going.
         const bool refracts = dot(path_.now.ray.direction, v.normal) * dot(s.direction, v.normal) > 0;
-        if (s.specular && refracts && path_.now.last.connected_through > 0) {
-            ++path_.now.last.refractions;
+        WayOut& way = path_.now.interior.way;
+        if (s.specular && refracts && way.connected > 0) {
+            ++way.refractions;
             path_.now.last.emitters_ahead = 0;
             return;
         }
         const float connected = path_.now.connections(v) + v.connected_before;
-        const bool from_itself = v.in_volume() && interior_of(path_.now.technique);
+        const bool from_itself = v.in_volume() && interior_of(path_.now.interior.technique);
         path_.record(walk_events::ConnectedBefore{from_itself              ? 1.0f
                                                   : v.connected_before > 0 ? v.connected_before / connected
                                                                            : 0.0f});
@@ -323,12 +324,10 @@ private:
                           s.specular,
                           s.density * path_.now.preference(v),
                           connected,
-                          v.in_volume() ? path_.now.next_event.through_boundaries : 0.0f,
                           channel_probabilities(path_.now.weight.throughput),
-                          Rgb(1.0f),
-                          s.direction,
-                          path_.now.medium,
-                          path_.now.ray.time};
+                          Rgb(1.0f)};
+        way = {v.in_volume() ? path_.now.interior.next_event.through_boundaries : 0.0f, 0, s.direction,
+               path_.now.medium};
     }
 
     const PathTracer& tracer_;
