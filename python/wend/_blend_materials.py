@@ -10,6 +10,7 @@ from ._blend_chalk import add_roughness
 from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
 from ._blend_fog import Fog, fog_of
 from ._blend_hair import hair_of
+from ._blend_glass import dielectric, glass_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
 from ._blend_subsurface import add_inside
@@ -206,13 +207,15 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
             nodes.warn(node, "a coat has the normals of what it covers")
     has_sheen = add_sheen(nodes, material, inputs)
     brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
-    tell_of_facets(nodes, node, inputs["Roughness"], "MULTI_GGX")
     add_detail(nodes, node, material)
     result = Surface(material, emission=emission, brushed=brushed)
     # Metal comes first, glass gets of the rest.
     transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
     metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
     clear = transmission * (1 - metallic)
+    for share, ours in ((1 - clear, "MULTI_GGX"), (clear, "GGX")):
+        if share > 0:
+            tell_of_facets(nodes, node, inputs["Roughness"], ours)
     if 0 < clear < 1:
         material.pop("texture metallic", None)
         material["float metallic"] = metallic / (1 - clear)
@@ -224,12 +227,10 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
         names |= {"roughness": inputs["Roughness"], "ior": nodes.number(nodes.input(node, "Subsurface IOR")) if is_skin else material["float eta"]}
         add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
-        glass = _dielectric(nodes, inputs["Roughness"], ior)
+        glass = dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
         add_detail(nodes, node, glass)
-        if node.distribution == "MULTI_GGX":
-            tell_of_facets(nodes, node, inputs["Roughness"], "GGX")
         if has_sheen:
             nodes.warn(node, "the sheen of glass is left out")
         result = _blended(result, Surface(glass), clear, emission)
@@ -306,23 +307,7 @@ def _held_out(nodes: Nodes, node: Any) -> Surface:
 
 
 def _glass(nodes: Nodes, node: Any) -> Surface:
-    material = _dielectric(nodes, node.inputs["Roughness"], max(nodes.number(node.inputs["IOR"]), 1e-3))
-    nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
-    if node.bl_idname == "ShaderNodeBsdfGlass":
-        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
-    else:
-        nodes.warn(node, "refraction loses what Fresnel's equations reflect, which Cycles lets through")
-        material["rgb reflectance"] = (0, 0, 0)
-    tell_of_films(nodes, node)
-    tell_of_facets(nodes, node, node.inputs["Roughness"], "GGX")
-    add_detail(nodes, node, material)
-    return Surface(material)
-
-
-def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
-    material: dict[str, Any] = {"string type": "dielectric", "float eta": ior, "bool remaproughness": False}
-    nodes.add_to(material, roughness, "roughness", "float", power=2)
-    return material
+    return Surface(glass_of(nodes, node))
 
 
 def _transparent(nodes: Nodes, node: Any) -> Surface:
