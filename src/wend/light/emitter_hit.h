@@ -14,7 +14,8 @@ struct LastVertex {
     LightReceiver receiver{};
     /// Whether nothing was connected to lights there: before the first vertex, and after a mirror.
     bool unconnected = true;
-    /// Of the direction drawn there, per steradian, times what it counts for against connections.
+    /// Of the direction drawn there, per steradian, times what it counts for against connections; 0 before the first
+    /// vertex.
     float density = 0;
     /// How often it was connected, straight and along ways that boundaries refract, as a mean.
     float connected = 1;
@@ -31,6 +32,7 @@ struct LastVertex {
     /// Of the direction drawn there: the density of connections at the boundary ahead, over its own.
     float emitters_ahead = 0;
 
+    bool has_scattered() const { return density > 0; }
     float own_density() const { return density * dot(channels, pass_probability); }
 };
 
@@ -75,7 +77,8 @@ public:
     EmitterHit beyond(const LastVertex& last, const Vec3& from, const Vec3& direction, const Each& each) const {
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {
-            const Rgb emitted = environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], from, direction);
+            const Rgb emitted =
+                environment_radiance(scene_.light_at_infinity(light, last.has_scattered()), from, direction);
             if (!is_black(emitted)) {
                 const float w = weight(light, last, direction, {}, {});
                 arriving.add(emitted, w);
