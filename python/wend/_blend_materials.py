@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,8 +10,8 @@ import numpy as np
 from ._blend_chalk import add_roughness
 from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
 from ._blend_fog import Fog, fog_of
+from ._blend_glass import dielectric, glass_of, lets_through, mirror_of
 from ._blend_hair import hair_of
-from ._blend_glass import dielectric, glass_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
 from ._blend_subsurface import add_inside
@@ -97,7 +98,8 @@ def _look(
         reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
         named = key
     shown = picture["string filename"] if picture is not None else None
-    shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
+    view = "holdout" if surface.is_held_out else "hidden" if surface.is_hidden else ""
+    shape = surface.alpha | ({"string cameraview": view} if view else {})
     inside = key if medium is not None else None
     fog = medium if isinstance(medium, Fog) else None
     return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface))
@@ -106,7 +108,7 @@ def _look(
 def _refracts(surface: Surface) -> bool:
     if surface.mixed is not None:
         return any(_refracts(part) for part in surface.mixed[:2])
-    return surface.material is not None and surface.material["string type"] == "dielectric"
+    return surface.material is not None and lets_through(surface.material)
 
 
 def _brush_of(surface: Surface) -> Brush | None:
@@ -278,6 +280,9 @@ def _metal(nodes: Nodes, node: Any, colour: str) -> Surface:
 
 
 def _glossy(nodes: Nodes, node: Any) -> Surface:
+    mirror = mirror_of(nodes, node)
+    if mirror is not None:
+        return Surface(mirror)
     # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten, on average.
     surface = _metal(nodes, node, "Color")
     colour = nodes.known(node.inputs["Color"])
@@ -356,7 +361,10 @@ def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
 
 def _mixed(nodes: Nodes, node: Any, depth: int) -> Surface:
     first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[1:3])
-    factor = nodes.known(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
+    by = node.inputs["Fac" if "Fac" in node.inputs else "Factor"]
+    if depth == 0 and second.is_clear and nodes.is_of_camera_rays(by):
+        return replace(first, is_hidden=True)
+    factor = nodes.known(by)
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
@@ -367,7 +375,7 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> Surface:
     if first.is_held_out or second.is_held_out:
         nodes.warn(node, "a holdout in a mixture is black")
     amount: dict[str, Any] = {}
-    nodes.add_to(amount, node.inputs["Fac" if "Fac" in node.inputs else "Factor"], "amount", "float")
+    nodes.add_to(amount, by, "amount", "float")
     if first.is_clear or second.is_clear:
         seen = second if first.is_clear else first
         if seen.is_clear:
