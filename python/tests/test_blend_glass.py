@@ -54,3 +54,8 @@ def test_facets_that_are_taken_as_others_are_named(scene, transmission, distribu
     assert f"the distribution {distribution} is taken as {other}" in told(scene)
     made.node_tree.nodes["Principled BSDF"].distribution = other
     assert "distribution" not in told(scene)
+
+
+def test_the_coat_of_glass_is_named(scene):
+    mesh(scene, "cube", material("BsdfPrincipled", transmission_weight=1.0, coat_weight=1.0))
+    assert "the coat of glass is left out" in told(scene)

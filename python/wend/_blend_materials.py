@@ -233,6 +233,8 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
         add_detail(nodes, node, glass)
+        if coat > 0:
+            nodes.warn(node, "the coat of glass is left out")
         if has_sheen:
             nodes.warn(node, "the sheen of glass is left out")
         result = _blended(result, Surface(glass), clear, emission)
