@@ -165,12 +165,13 @@ def test_settings_that_have_no_counterpart_are_named(scene):
     eye = scene.camera.data
     eye.dof.use_dof, eye.dof.aperture_ratio, eye.clip_start = True, 2, 1
     scene.render.film_transparent = scene.render.use_freestyle = scene.render.use_multiview = True
-    scene.world.cycles_visibility.camera = False
+    scene.cycles.film_transparent_glass = True
+    scene.world.cycles_visibility.glossy = False
     layer = bpy.context.view_layer
     layer.use_sky, layer.material_override = False, bpy.data.materials.new("clay")
     made.light_linking.receiver_collection = bpy.data.collections.new("lit")
     words = "\n".join(told()[1])
-    for word in ("round", "clipped", "transparent film", "Freestyle", "views", "camera do not see", "the world", "override", "linked"):
+    for word in ("round", "clipped", "transparent film", "Freestyle", "views", "glossy do not see", "the world", "override", "linked"):
         assert word in words, word
 
 

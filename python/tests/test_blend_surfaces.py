@@ -6,6 +6,7 @@ import pytest
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
 from blender_scene import (  # noqa: E402, F401
     add,
+    camera,
     check,
     floor,
     lamp,
@@ -70,6 +71,20 @@ def test_principled(scene, tmp_path, inputs):
 def test_others(scene, tmp_path, kind, inputs):
     ball(scene, material(kind, **inputs))
     check(scene, tmp_path, 1000, tolerance=CHALK if kind == "BsdfDiffuse" else 0.01)
+
+
+@pytest.mark.parametrize(
+    ("roughness", "distribution"),
+    [(0.0, "MULTI_GGX"), (0.5, "MULTI_GGX"), (0.5, "GGX")],
+    ids=["mirror", "reflecting several times", "reflecting once"],
+)
+def test_what_is_glossy_has_its_colour_at_every_angle(scene, tmp_path, roughness, distribution):
+    made = material("BsdfAnisotropic", color=(0.8, 0.4, 0.1), roughness=roughness, distribution=distribution)
+    sky(scene, (0.5, 0.7, 1.0))
+    mesh(scene, "plane", material("BsdfDiffuse", color=(0.6, 0.4, 0.2)), size=6)
+    mesh(scene, "cube", made, place=(0, 0, 1), turn=(0.3, 0.2, 0.7))
+    camera(scene, (0, -6, 2), (0, 0, 0.8))
+    check(scene, tmp_path, 1000, cycles_spp=500)
 
 
 def test_flat_faces_are_brushed_around_the_object(scene, tmp_path):
@@ -153,6 +168,20 @@ def test_strands_of_particles(scene, tmp_path, children, grows_on):
     settings.child_type, settings.rendered_child_count = children, 2
     scene.cycles_curves.shape = "THICK"
     check(scene, tmp_path, 1024, tolerance=HAIR, keeps=False)
+
+
+def test_what_rays_of_the_camera_go_through_is_there_for_others(scene, tmp_path):
+    """A panel that shines in the middle of the picture, and is not seen there."""
+    floor(scene)
+    sky(scene, (0.1, 0.1, 0.1))
+    made = material("MixShader")
+    tree = made.node_tree
+    mixed = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeMixShader")
+    link(tree, node(tree, "LightPath"), mixed.inputs[0], "Is Camera Ray")
+    link(tree, node(tree, "Emission", color=(1, 0.6, 0.3), strength=5.0), mixed.inputs[1])
+    link(tree, node(tree, "BsdfTransparent"), mixed.inputs[2])
+    mesh(scene, "plane", made, place=(0, 0, 1.5), turn=(0.4, 0, 0), size=1)
+    check(scene, tmp_path, 500)
 
 
 @pytest.mark.parametrize("share", [None, 0.3])

@@ -7,12 +7,14 @@ import wend
 
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
 from blender_scene import (  # noqa: E402, F401
+    SIZE,
     agree,
     blocks,
     by_cycles,
     camera,
     check,
     floor,
+    lamp,
     link,
     material,
     mesh,
@@ -41,12 +43,45 @@ def shown_otherwise(scene):
 
 def test_a_world_lights_as_other_rays_see_it(scene, tmp_path):
     shown_otherwise(scene)
-    floor(scene)
-    mesh(scene, "cube", material("BsdfDiffuse"), place=(0, 0, 0.5))
-    camera(scene, (0, -4, 5), (0, 0, 0.5))
-    check(scene, tmp_path, 256, tolerance=0.015)
-    assert "everywhere as diffuse surfaces see it" in told(scene)
+    mesh(scene, "plane", material("BsdfDiffuse", color=(0.6, 0.4, 0.2)), size=6)
+    mesh(scene, "cube", material("BsdfAnisotropic", roughness=0.0), place=(0, 0, 0.5))
+    camera(scene, (0, -6, 2), (0, 0, 0.5))
+    ours = check(scene, tmp_path, 256)
+    np.testing.assert_allclose(ours[0], [[0, 0, 0.1]] * SIZE, atol=1e-6)
     assert not [world for world in bpy.data.worlds if world.name != "world"]
+
+
+def test_a_world_that_mirrors_see_otherwise_is_named(scene):
+    shown_otherwise(scene)
+    tree = scene.world.node_tree
+    mixed, path = tree.nodes["Mix Shader"], tree.nodes["Light Path"]
+    link(tree, path, mixed.inputs[0], "Is Glossy Ray")
+    mesh(scene, "plane", material("BsdfDiffuse"), size=6)
+    assert "is as diffuse surfaces see it, but for the camera" in told(scene)
+
+
+@pytest.mark.parametrize("how", ["film", "visibility"])
+@pytest.mark.parametrize("is_even", [True, False], ids=["even", "picture"])
+def test_a_world_that_the_camera_does_not_see_is_in_mirrors(scene, tmp_path, how, is_even):
+    sky(scene, (0.5, 0.7, 1.0))
+    if not is_even:
+        link(scene.world.node_tree, node(scene.world.node_tree, "TexGradient"), scene.world.node_tree.nodes["Background"].inputs[0])
+    scene.render.film_transparent = how == "film"
+    scene.world.cycles_visibility.camera = how == "film"
+    mesh(scene, "plane", material("BsdfDiffuse", color=(0.6, 0.4, 0.2)), size=6)
+    mesh(scene, "uv_sphere", material("BsdfAnisotropic", roughness=0.0), smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
+    lamp(scene, "SUN", 1, (0, 0, 9), (0.3, -0.3, 0), angle=0.6).visible_camera = False
+    camera(scene, (0, -6, 2), (0, 0, 0.5))
+    assert np.all(check(scene, tmp_path, 256)[0] == 0)
+
+
+@pytest.mark.parametrize("is_seen", [True, False])
+def test_a_sun_is_seen_by_the_camera_as_it_is_set(scene, tmp_path, is_seen):
+    sky(scene, (0.2, 0.2, 0.2))
+    lamp(scene, "SUN", 1, (0, 0, 9), (-1.5, 0, 0), angle=0.6).visible_camera = is_seen
+    mesh(scene, "plane", material("BsdfDiffuse"), place=(0, 0, 1), size=1)
+    camera(scene, (0, -6, 1.1), (0, 0, 1.4))
+    check(scene, tmp_path, 256)
 
 
 def test_a_world_that_the_camera_does_not_see_lights(scene, tmp_path):

@@ -173,7 +173,8 @@ def _sun(reader: SceneReader, place: str, lamp: Any, places: Places, power: Any,
     reader.builder.add("Transform", _TURNED @ _unscaled(reader.held(places, place)))
     power = power * _unnormalised(lamp, math.pi * math.sin(min(lamp.angle / 2, math.pi / 2)) ** 2)
     parameters: dict[str, Any] = {"rgb L": power, "point3 from": (0, 0, 0), "point3 to": (0, 0, 1)}
-    reader.builder.add("LightSource", "distant", parameters | {"float angle": min(math.degrees(lamp.angle), 180.0)})
+    parameters["float angle"] = min(math.degrees(lamp.angle), 180.0)
+    reader.builder.add("LightSource", "distant", parameters if is_seen else parameters | {"string cameraview": "hidden"})
 
 
 def _area(

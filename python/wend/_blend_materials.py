@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from ._blend_chalk import add_roughness
 from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
 from ._blend_fog import Fog, fog_of
+from ._blend_glass import dielectric, glass_of, lets_through, mirror_of
 from ._blend_hair import hair_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
@@ -96,7 +98,8 @@ def _look(
         reader.builder.add("MakeNamedMaterial", key, {"string type": "diffuse", "rgb reflectance": (0, 0, 0)})
         named = key
     shown = picture["string filename"] if picture is not None else None
-    shape = surface.alpha | ({"string cameraview": "holdout"} if surface.is_held_out else {})
+    view = "holdout" if surface.is_held_out else "hidden" if surface.is_hidden else ""
+    shape = surface.alpha | ({"string cameraview": view} if view else {})
     inside = key if medium is not None else None
     fog = medium if isinstance(medium, Fog) else None
     return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface))
@@ -105,7 +108,7 @@ def _look(
 def _refracts(surface: Surface) -> bool:
     if surface.mixed is not None:
         return any(_refracts(part) for part in surface.mixed[:2])
-    return surface.material is not None and surface.material["string type"] == "dielectric"
+    return surface.material is not None and lets_through(surface.material)
 
 
 def _brush_of(surface: Surface) -> Brush | None:
@@ -206,13 +209,15 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
             nodes.warn(node, "a coat has the normals of what it covers")
     has_sheen = add_sheen(nodes, material, inputs)
     brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
-    tell_of_facets(nodes, node, inputs["Roughness"], "MULTI_GGX")
     add_detail(nodes, node, material)
     result = Surface(material, emission=emission, brushed=brushed)
     # Metal comes first, glass gets of the rest.
     transmission = min(nodes.number(inputs["Transmission Weight"]), 1.0)
     metallic = min(max(nodes.number(inputs["Metallic"]), 0.0), 1.0) if transmission > 0 else 0.0
     clear = transmission * (1 - metallic)
+    for share, ours in ((1 - clear, "MULTI_GGX"), (clear, "GGX")):
+        if share > 0:
+            tell_of_facets(nodes, node, inputs["Roughness"], ours)
     if 0 < clear < 1:
         material.pop("texture metallic", None)
         material["float metallic"] = metallic / (1 - clear)
@@ -224,12 +229,12 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
         names |= {"roughness": inputs["Roughness"], "ior": nodes.number(nodes.input(node, "Subsurface IOR")) if is_skin else material["float eta"]}
         add_inside(nodes, node, material, inputs["Base Color"], node.subsurface_method, names)
     if clear > 0:
-        glass = _dielectric(nodes, inputs["Roughness"], ior)
+        glass = dielectric(nodes, inputs["Roughness"], ior)
         # Of two boundaries the base colour.
         glass["rgb transmittance"] = np.sqrt(np.clip(nodes.colour(inputs["Base Color"]), 0, 1))
         add_detail(nodes, node, glass)
-        if node.distribution == "MULTI_GGX":
-            tell_of_facets(nodes, node, inputs["Roughness"], "GGX")
+        if coat > 0:
+            nodes.warn(node, "the coat of glass is left out")
         if has_sheen:
             nodes.warn(node, "the sheen of glass is left out")
         result = _blended(result, Surface(glass), clear, emission)
@@ -277,6 +282,9 @@ def _metal(nodes: Nodes, node: Any, colour: str) -> Surface:
 
 
 def _glossy(nodes: Nodes, node: Any) -> Surface:
+    mirror = mirror_of(nodes, node)
+    if mirror is not None:
+        return Surface(mirror)
     # It reflects its colour from everywhere: a metal whose edge is tinted so that it does not brighten, on average.
     surface = _metal(nodes, node, "Color")
     colour = nodes.known(node.inputs["Color"])
@@ -306,23 +314,7 @@ def _held_out(nodes: Nodes, node: Any) -> Surface:
 
 
 def _glass(nodes: Nodes, node: Any) -> Surface:
-    material = _dielectric(nodes, node.inputs["Roughness"], max(nodes.number(node.inputs["IOR"]), 1e-3))
-    nodes.add_to(material, node.inputs["Color"], "transmittance", "rgb")
-    if node.bl_idname == "ShaderNodeBsdfGlass":
-        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
-    else:
-        nodes.warn(node, "refraction loses what Fresnel's equations reflect, which Cycles lets through")
-        material["rgb reflectance"] = (0, 0, 0)
-    tell_of_films(nodes, node)
-    tell_of_facets(nodes, node, node.inputs["Roughness"], "GGX")
-    add_detail(nodes, node, material)
-    return Surface(material)
-
-
-def _dielectric(nodes: Nodes, roughness: Any, ior: float) -> dict[str, Any]:
-    material: dict[str, Any] = {"string type": "dielectric", "float eta": ior, "bool remaproughness": False}
-    nodes.add_to(material, roughness, "roughness", "float", power=2)
-    return material
+    return Surface(glass_of(nodes, node))
 
 
 def _transparent(nodes: Nodes, node: Any) -> Surface:
@@ -371,7 +363,10 @@ def _emitted(nodes: Nodes, colour: Any, strength: Any) -> tuple[Colour, bool]:
 
 def _mixed(nodes: Nodes, node: Any, depth: int) -> Surface:
     first, second = (_surface_at(nodes, socket, depth + 1) for socket in node.inputs[1:3])
-    factor = nodes.known(node.inputs["Fac" if "Fac" in node.inputs else "Factor"])
+    by = node.inputs["Fac" if "Fac" in node.inputs else "Factor"]
+    if depth == 0 and second.is_clear and nodes.is_of_camera_rays(by):
+        return replace(first, is_hidden=True)
+    factor = nodes.known(by)
     share = min(max(float(np.mean(factor)), 0.0), 1.0) if factor is not None else 0.5
     if factor is not None and share in (0.0, 1.0):
         return second if share == 1 else first
@@ -382,7 +377,7 @@ def _mixed(nodes: Nodes, node: Any, depth: int) -> Surface:
     if first.is_held_out or second.is_held_out:
         nodes.warn(node, "a holdout in a mixture is black")
     amount: dict[str, Any] = {}
-    nodes.add_to(amount, node.inputs["Fac" if "Fac" in node.inputs else "Factor"], "amount", "float")
+    nodes.add_to(amount, by, "amount", "float")
     if first.is_clear or second.is_clear:
         seen = second if first.is_clear else first
         if seen.is_clear:

@@ -99,6 +99,12 @@ class Nodes:
         found = self.source(socket)
         return found.node if found is not None and found.is_output else None
 
+    def is_of_camera_rays(self, socket: Any) -> bool:
+        """Whether an input is 1 for rays of the camera, and 0 for all others."""
+        with self.aside():
+            found = self.source(socket)
+        return bool(found is not None and found.is_output and found.node.bl_idname == "ShaderNodeLightPath" and found.name == "Is Camera Ray")
+
     @staticmethod
     def input(node: Any, label: str) -> Any:
         """The input of that name, also where a setting of the node has put it out of use."""

@@ -19,8 +19,6 @@ _LAYER = {
 def tell_of_scene(reader: SceneReader, scene: Any, layer: Any) -> None:
     """Of a scene, as its view layer shows it."""
     place, render = f"scene '{scene.name}'", scene.render
-    if render.film_transparent:
-        reader.tell(place, "a transparent film shows the world; its alpha (--alpha) does not")
     if render.use_freestyle:
         reader.tell(place, "lines of Freestyle are left out")
     if render.use_multiview:
@@ -28,6 +26,8 @@ def tell_of_scene(reader: SceneReader, scene: Any, layer: Any) -> None:
     if render.use_compositing and getattr(scene, "compositing_node_group", None) is not None:
         reader.tell(place, "compositing is left out: the picture is the render's")
     cycles = getattr(scene, "cycles", None)
+    if render.film_transparent and getattr(cycles, "film_transparent_glass", False):
+        reader.tell(place, "glass before a transparent film is opaque, and shows the world")
     if render.use_motion_blur and getattr(cycles, "rolling_shutter_type", "NONE") != "NONE":
         reader.tell(place, "a rolling shutter is open everywhere at once")
     for name, label in (("caustics_reflective", "caustics of reflections"), ("caustics_refractive", "caustics of refractions")):
@@ -42,7 +42,7 @@ def tell_of_scene(reader: SceneReader, scene: Any, layer: Any) -> None:
         if getattr(layer, name, None) is not None:
             reader.tell(f"view layer '{layer.name}'", f"its {name.replace('_', ' ')} is left out")
     rays = getattr(scene.world, "cycles_visibility", None)
-    unseen = [ray for ray in ("camera", "diffuse", "glossy", "transmission", "scatter") if not getattr(rays, ray, True)]
+    unseen = [ray for ray in ("diffuse", "glossy", "transmission", "scatter") if not getattr(rays, ray, True)]
     if unseen:
         reader.tell(f"world '{scene.world.name}'", f"a world that rays of {', '.join(unseen)} do not see is seen by them")
 

@@ -23,6 +23,7 @@ class Surface:
     is_clear: bool = False  #: light goes straight through
     brushed: Brush | None = None  #: along which way
     is_held_out: bool = False  #: there is a hole in the picture
+    is_hidden: bool = False  #: from the camera
 
 
 def is_nothing(surface: Surface) -> bool:

@@ -25,13 +25,14 @@ _SAMPLES = 1 << 23
 _BRIGHT = 1e-3
 
 
-def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
+def add_world(reader: SceneReader, world: Any, can_render: bool, is_seen: bool) -> bool:
     """Adds the light of the world; whether there is any. What is not one colour is rendered by Cycles as a panorama, if
-    that can be done here."""
+    that can be done here. `is_seen`: by the camera."""
+    view = {} if is_seen and (world is None or world.cycles_visibility.camera) else {"string cameraview": "hidden"}
     tree = world.node_tree if world and world.use_nodes else None
     output = output_node(tree) if tree else None
     if output is None:
-        return _add_even(reader, np.array(world.color, dtype=np.float64) if world else np.zeros(3))
+        return _add_even(reader, np.array(world.color, dtype=np.float64) if world else np.zeros(3), view)
     nodes = Nodes(reader, f"world '{world.name}'", f" world {world.name}")
     node = nodes.shader(output.inputs["Surface"])
     if node is None:
@@ -39,11 +40,18 @@ def add_world(reader: SceneReader, world: Any, can_render: bool) -> bool:
     if node.bl_idname == "ShaderNodeBackground":
         colour, strength = nodes.known(node.inputs["Color"]), nodes.known(node.inputs["Strength"])
         if colour is not None and strength is not None:
-            return _add_even(reader, np.broadcast_to(colour, 3) * float(strength[0]))
+            return _add_even(reader, np.broadcast_to(colour, 3) * float(strength[0]), view)
     if not can_render:
         nodes.warn(node, "a world that is not one colour is left out: it cannot be rendered while a render is going on")
         return False
-    return _add_panorama(reader, nodes, node, world)
+    width = _width_of(world)
+    nodes.warn(node, f"a world that is not one colour becomes a picture of {width} x {width // 2}, by Cycles")
+    if view or not _depends_on_rays(world.node_tree):
+        return _add_panorama(reader, nodes, world, width, _PATH, view)
+    # What lights, and what the camera sees.
+    shines = _add_panorama(reader, nodes, world, width, _PATH, {"string cameraview": "hidden"})
+    is_shown = _add_panorama(reader, nodes, world, width, _OF_CAMERA, {"string cameraview": "only"})
+    return shines or is_shown
 
 
 def add_world_volume(reader: SceneReader, world: Any) -> str | None:
@@ -62,20 +70,29 @@ def add_world_volume(reader: SceneReader, world: Any) -> str | None:
     return name
 
 
-def _add_even(reader: SceneReader, colour: Any) -> bool:
+def _add_even(reader: SceneReader, colour: Any, view: dict[str, Any]) -> bool:
     if colour.max() <= 0:
         return False
-    reader.builder.add("LightSource", "infinite", {"rgb L": colour})
+    reader.builder.add("LightSource", "infinite", {"rgb L": colour} | view)
     return True
 
 
 #: Of a Light Path node, for rays of diffuse surfaces; all others are 0.
 _PATH = {"Is Diffuse Ray": 1.0, "Is Reflection Ray": 1.0, "Ray Depth": 1.0, "Diffuse Depth": 1.0}
 
+#: For those of the camera.
+_OF_CAMERA = {"Is Camera Ray": 1.0}
+
+
+def _depends_on_rays(tree: Any) -> bool:
+    groups = [node.node_tree for node in tree.nodes if node.bl_idname == "ShaderNodeGroup" and node.node_tree]
+    is_asked = (any(o.is_linked for o in node.outputs) for node in tree.nodes if node.bl_idname == "ShaderNodeLightPath")
+    return any(is_asked) or any(map(_depends_on_rays, groups))
+
 
 @contextmanager
-def _as_it_lights(nodes: Nodes, world: Any) -> Iterator[Any]:
-    """A copy of the world in which rays of a camera see what those of diffuse surfaces do."""
+def _seen_by(nodes: Nodes, world: Any, path: dict[str, float]) -> Iterator[Any]:
+    """A copy of the world in which rays of a camera see what those do of which a Light Path node says this."""
     import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
     made, groups = world.copy(), []
@@ -89,9 +106,10 @@ def _as_it_lights(nodes: Nodes, world: Any) -> Iterator[Any]:
                 settle(node.node_tree)
             elif node.bl_idname == "ShaderNodeLightPath":
                 for link in [link for output in node.outputs for link in output.links]:
-                    nodes.warn(node, "a world that depends on the kind of ray is everywhere as diffuse surfaces see it")
+                    if link.from_socket.name != "Is Camera Ray":
+                        nodes.warn(node, "a world that depends on the kind of ray is as diffuse surfaces see it, but for the camera")
                     value = tree.nodes.new("ShaderNodeValue")
-                    value.outputs[0].default_value = _PATH.get(link.from_socket.name, 0.0)
+                    value.outputs[0].default_value = path.get(link.from_socket.name, 0.0)
                     tree.links.new(value.outputs[0], link.to_socket)
 
     try:
@@ -103,19 +121,24 @@ def _as_it_lights(nodes: Nodes, world: Any) -> Iterator[Any]:
             bpy.data.node_groups.remove(group)
 
 
-def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> bool:
-    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
-
+def _width_of(world: Any) -> int:
     width = 2048
     for other in world.node_tree.nodes:
         if other.bl_idname == "ShaderNodeTexEnvironment" and other.image:
             width = min(max(int(other.image.size[0]), 512), 4096)
-    nodes.warn(node, f"a world that is not one colour becomes a picture of {width} x {width // 2}, by Cycles")
+    return width
+
+
+def _add_panorama(
+    reader: SceneReader, nodes: Nodes, world: Any, width: int, path: dict[str, float], view: dict[str, Any]
+) -> bool:
+    import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
+
     before = bpy.context.scene
     scene = bpy.data.scenes.new("panorama")
     camera = bpy.data.cameras.new("panorama")
     eye = bpy.data.objects.new("panorama", camera)
-    file = reader.map_file("world.exr")
+    file = reader.map_file(f"world{len(reader.builder)}.exr")
     try:
         scene.collection.objects.link(eye)
         eye.rotation_euler = (np.pi / 2, 0, 0)
@@ -130,7 +153,7 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
         scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
         scene.render.filepath, scene.render.use_file_extension = file, False
         scene.frame_set(before.frame_current, subframe=before.frame_subframe)
-        with _as_it_lights(nodes, world) as scene.world:
+        with _seen_by(nodes, world, path) as scene.world:
             picture = _rendered(scene, width * width // 2)
             _refine(scene, picture)
     finally:
@@ -140,8 +163,8 @@ def _add_panorama(reader: SceneReader, nodes: Nodes, node: Any, world: Any) -> b
     Film.of(picture).save(file)
     with reader.builder.block():
         reader.builder.add("Transform", _LATLONG)
-        reader.builder.add("LightSource", "infinite", {"string filename": file, "string mapping": "equirectangular"})
-    return True
+        reader.builder.add("LightSource", "infinite", {"string filename": file, "string mapping": "equirectangular"} | view)
+    return bool(picture.max() > 0)
 
 
 def _rendered(scene: Any, pixels: int) -> npt.NDArray[np.float32]:

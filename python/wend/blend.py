@@ -189,7 +189,7 @@ class _Reader(SceneReader):
         add("WorldBegin")
         if fog is not None:
             fog.add_end(self)
-        self.has_light = add_world(self, self.scene.world, self.can_render)
+        self.has_light = add_world(self, self.scene.world, self.can_render, not self.scene.render.film_transparent)
         # What the depsgraph gives is valid only while it is walked through: once to count, and once to read.
         seen = [self.is_seen(instance) for instance in depsgraph.object_instances]
         self.copies.count(depsgraph, seen)

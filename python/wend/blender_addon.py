@@ -216,7 +216,7 @@ def _render(engine: Any, depsgraph: Any) -> None:
             engine.report({"ERROR"}, str(error))
             engine.error_set(str(error))
             return
-        shown = 0.0
+        shown, has_sky = 0.0, not depsgraph.scene.render.film_transparent
         while render.step(_STEP):
             state = render.progress
             engine.update_progress(state["fraction"])
@@ -225,18 +225,19 @@ def _render(engine: Any, depsgraph: Any) -> None:
                 break
             if state["seconds"] > shown + _PICTURE:
                 shown = state["seconds"]
-                _show(engine, render.film, is_last=False)
-        _show(engine, render.film, is_last=True)
+                _show(engine, render.film, has_sky, is_last=False)
+        _show(engine, render.film, has_sky, is_last=True)
 
 
-def _show(engine: Any, film: Any, is_last: bool) -> None:
-    """Gives Blender the picture so far, from below to above as it wants it."""
+def _show(engine: Any, film: Any, has_sky: bool, is_last: bool) -> None:
+    """Gives Blender the picture so far, from below to above as it wants it. `has_sky`: all of it is opaque."""
     height, width = film.image.shape[:2]
     result = engine.begin_result(0, 0, width, height)
     if result is None:
         return
+    opacity = np.ones((height, width), dtype=np.float32) if has_sky else film["alpha"]
     values = {
-        "Combined": np.concatenate([film.image, np.ones((height, width, 1), dtype=np.float32)], axis=2),
+        "Combined": np.dstack([film.image, opacity]),
         "Depth": film["depth"][..., None],
         "Normal": film["normal"],
         "Diffuse Color": film["albedo"],

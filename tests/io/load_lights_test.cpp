@@ -89,6 +89,21 @@ TEST(LoadLights, InfiniteLights) {
     EXPECT_TRUE(load_text("LightSource \"infinite\" \"rgb L\" [ 0 0 0 ]").scene.lights.empty());
 }
 
+TEST(LoadLights, BackdropsAreSeenOtherwiseThanTheyShine) {
+    const auto shines = [](const Light& light) { return std::get<UniformInfiniteLight>(light).radiance.r; };
+    const std::string sky = "LightSource \"infinite\" \"rgb L\" [ 2 2 2 ] \"string cameraview\" ";
+    const SceneDescription shown = load_text(sky + "\"shown\"").scene;
+    EXPECT_TRUE(shown.backdrops.empty());
+    const SceneDescription hidden = load_text(sky + "\"hidden\"").scene;
+    EXPECT_FLOAT_EQ(shines(hidden.lights.at(0)), 2);
+    EXPECT_EQ(shines(hidden.backdrops.at(0).seen), 0);
+    const SceneDescription only = load_text("LightSource \"point\" " + sky + "\"only\"").scene;
+    EXPECT_EQ(shines(only.lights.at(1)), 0);
+    EXPECT_FLOAT_EQ(shines(only.backdrops.at(0).seen), 2);
+    EXPECT_EQ(only.backdrops.at(0).light, 1);
+    EXPECT_PRED2(contains, message_of([&] { load_text(sky + "\"none\""); }), "known are shown, hidden, only");
+}
+
 TEST(LoadLights, PortalsAreInTheWorld) {
     // Seen from below: against the clock, and not where the light is translated to.
     const auto light = only_light<PortalInfiniteLight>(

@@ -136,6 +136,9 @@ TEST(LoadMaterials, Dielectrics) {
     EXPECT_NEAR(Loaded("Material \"dielectric\" \"rgb eta\" [ 1.5 1.5 1.5 ]").as<DielectricMaterial>().ior, 1.5f,
                 1e-5f);
     EXPECT_PRED2(contains, message_of([] { Loaded("Material \"dielectric\" \"float eta\" -1"); }), "refractive index");
+    EXPECT_FALSE(Loaded("Material \"dielectric\"").as<DielectricMaterial>().is_antireflective);
+    EXPECT_TRUE(
+        Loaded("Material \"dielectric\" \"bool antireflective\" true").as<DielectricMaterial>().is_antireflective);
     const Loaded none("Material \"dielectric\" \"float eta\" 0");
     EXPECT_EQ(none.as<DielectricMaterial>().ior, 1);
     EXPECT_EQ(warnings_with(none.scene, "a refractive index of 0 is taken for 1"), 1);

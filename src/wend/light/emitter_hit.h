@@ -14,7 +14,8 @@ struct LastVertex {
     LightReceiver receiver{};
     /// Whether nothing was connected to lights there: before the first vertex, and after a mirror.
     bool unconnected = true;
-    /// Of the direction drawn there, per steradian, times what it counts for against connections.
+    /// Of the direction drawn there, per steradian, times what it counts for against connections; 0 before the first
+    /// vertex.
     float density = 0;
     /// How often it was connected along straight lines, as a mean.
     float connected = 1;
@@ -24,6 +25,7 @@ struct LastVertex {
     /// Of the direction drawn there: the density of connections at the boundary ahead, over its own.
     float emitters_ahead = 0;
 
+    bool has_scattered() const { return density > 0; }
     float own_density() const { return density * dot(channels, pass_probability); }
 };
 
@@ -80,7 +82,7 @@ public:
         EmitterHit arriving;
         for (const int light : scene_.infinite_lights()) {
             const Rgb emitted =
-                environment_radiance(scene_.lights()[static_cast<std::size_t>(light)], ray.start(), ray.direction);
+                environment_radiance(scene_.light_at_infinity(light, last.has_scattered()), ray.start(), ray.direction);
             if (!is_black(emitted)) {
                 const float w = weight(light, last, way, ray, {}, {});
                 arriving.add(emitted, w);

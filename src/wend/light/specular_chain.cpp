@@ -88,7 +88,7 @@ bool refract_at(const Scene& scene, const Hit& hit, const DielectricBsdf& bounda
         beam.direction_by[i] = beam.direction_by[i] / index + turned * (cosine / index - cosine_beyond) +
                                n * (cosine_by / index - beyond_by);
     }
-    way.transmitted *= boundary.transmittance * ((1 - fresnel_dielectric(cosine * side, boundary.ior)) / sqr(index));
+    way.transmitted *= boundary.transmittance * ((1 - boundary.reflected_share(cosine * side)) / sqr(index));
     ++way.refractions;
     beam.ray = beam.ray.leave(hit, refracted->direction);
     return true;

@@ -183,11 +183,15 @@ TreeLightSampler::Bounds TreeLightSampler::merge(const Bounds& a, const Bounds& 
     return m;
 }
 
-TreeLightSampler::TreeLightSampler(std::span<const Light> lights, float) : leaf_of_light_(lights.size(), -1) {
+TreeLightSampler::TreeLightSampler(std::span<const Light> lights, float scene_radius)
+    : leaf_of_light_(lights.size(), -1) {
     std::vector<std::pair<int, Bounds>> placed;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (is_at_infinity(lights[i])) {
-            infinite_.push_back(static_cast<int>(i));
+            // What shines on nothing is never chosen.
+            if (light_power(lights[i], scene_radius) > 0) {
+                infinite_.push_back(static_cast<int>(i));
+            }
             continue;
         }
         const Bounds b = bounds_of(lights[i]);

@@ -66,6 +66,7 @@ Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const Textur
     bsdf.slopes = m.roughness.slopes;
     bsdf.reflectance = factor_of(m.reflectance, textures, p);
     bsdf.transmittance = factor_of(m.transmittance, textures, p);
+    bsdf.is_antireflective = m.is_antireflective;
     return bsdf;
 }
 

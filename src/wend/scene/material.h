@@ -41,6 +41,7 @@ struct DielectricMaterial {
     /// Those of DielectricBsdf; -1: 1.
     TextureId reflectance = -1;
     TextureId transmittance = -1;
+    bool is_antireflective = false;
 };
 
 struct DiffuseTransmissionMaterial {

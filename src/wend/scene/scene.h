@@ -63,6 +63,12 @@ struct Instance {
     friend bool operator==(const Instance&, const Instance&) = default;
 };
 
+/// A light at infinity that rays which nothing has scattered see as another one.
+struct Backdrop {
+    int light = 0;
+    Light seen;
+};
+
 /// What a scene consists of. Indices refer to the vectors here.
 struct SceneDescription {
     Camera camera;
@@ -76,6 +82,7 @@ struct SceneDescription {
     std::vector<ObjectDefinition> objects;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    std::vector<Backdrop> backdrops;  ///< those in `lights` that have one
     LightGroups light_groups;
     ObjectNames names;
     bool light_tree = true;  ///< choose lights by the tree, not by power alone
@@ -210,6 +217,15 @@ public:
     /// The light that a medium is, as an index of lights(); -1: none.
     int medium_light(MediumId id) const { return medium_lights_[static_cast<std::size_t>(id)]; }
     const std::vector<int>& infinite_lights() const { return infinite_lights_; }
+    /// A light at infinity as it shines, or as rays see it that nothing has scattered.
+    const Light& light_at_infinity(int light, bool is_scattered) const {
+        for (const Backdrop& backdrop : d_.backdrops) {
+            if (backdrop.light == light && !is_scattered) {
+                return backdrop.seen;
+            }
+        }
+        return lights_[static_cast<std::size_t>(light)];
+    }
     /// Whether there are lights that only connections find.
     bool has_point_like_lights() const { return has_point_like_lights_; }
     const LightSampler& light_sampler() const { return *light_sampler_; }

@@ -1,5 +1,6 @@
 #include <wend/io/load/load_scene.h>
 
+#include <wend/io/load/backdrops.h>
 #include <wend/io/load/boundaries.h>
 #include <wend/io/load/camera_film.h>
 #include <wend/io/load/curves.h>
@@ -67,8 +68,9 @@ public:
         add_materials();
         for (const pbrt::LightEntity& light : description_.lights) {
             const int group = light_group(light);
+            const BackdropView view = load_backdrop_view(light);
             if (auto loaded = load_light(context_, textures_, light)) {
-                scene_.lights.push_back(std::move(*loaded));
+                add_light(std::move(*loaded), view, scene_);
                 group_lights_from(scene_.lights.size() - 1, group);
             }
         }

@@ -273,6 +273,7 @@ private:
         DielectricMaterial material{load_ior(entity.parameters, "eta", 1.5f), load_roughness(entity.parameters, "")};
         material.reflectance = load_factor(entity, "reflectance");
         material.transmittance = load_factor(entity, "transmittance");
+        material.is_antireflective = entity.parameters.get_bool("antireflective", false);
         return {material};
     }
 

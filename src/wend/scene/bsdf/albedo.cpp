@@ -16,7 +16,7 @@ Rgb albedo(const ConductorBsdf& b, const Vec3& wo) {
             fresnel_conductor(cosine, b.eta.b, b.k.b)};
 }
 Rgb albedo(const DielectricBsdf& b, const Vec3& wo) {
-    return b.transmittance + (b.reflectance - b.transmittance) * fresnel_dielectric(wo.z, b.ior);
+    return b.transmittance + (b.reflectance - b.transmittance) * b.reflected_share(wo.z);
 }
 Rgb albedo(const ThinDielectricBsdf& b, const Vec3& wo) {
     return b.transmittance + (b.reflectance - b.transmittance) * b.reflected_share(wo);

@@ -75,11 +75,15 @@ struct DielectricBsdf {
     /// Factors of what is reflected and of what passes, up to 1: glass that is coloured at its surface.
     Rgb reflectance{1.0f};
     Rgb transmittance{1.0f};
+    /// Whether all that can pass does, as below an ideal coat against reflections: total reflection alone is left.
+    bool is_antireflective = false;
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const;
+    /// Of light that a facet meets at this cosine, signed as that of fresnel_dielectric().
+    float reflected_share(float cosine) const;
 
     /// Reflections alone, or refractions alone: densities are those given that.
     std::optional<BsdfSample> sample_reflection(const Vec3& wo, const Vec2& u2) const;

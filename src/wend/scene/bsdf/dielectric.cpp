@@ -42,6 +42,11 @@ float DielectricBsdf::reflection_probability(float fresnel) const {
                : fresnel_share * fresnel + (1 - fresnel_share) * reflected / (reflected + 1 - fresnel);
 }
 
+float DielectricBsdf::reflected_share(float cosine) const {
+    const float share = fresnel_dielectric(cosine, ior);
+    return is_antireflective && share < 1 ? 0 : share;
+}
+
 bool DielectricBsdf::is_specular() const {
     return ior == 1 || Microfacets::is_smooth(alpha_x, alpha_y);
 }
@@ -56,7 +61,7 @@ Rgb DielectricBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     }
     const Microfacets facets(alpha_x, alpha_y, slopes);
     const Vec3& m = facet->normal;
-    const float f = fresnel_dielectric(dot(wo, m), ior);
+    const float f = reflected_share(dot(wo, m));
     if (facet->reflects) {
         return reflectance * (facets.d(m) * facets.g(wo, wi) * f / (4 * std::abs(wo.z)));
     }
@@ -77,7 +82,7 @@ float DielectricBsdf::density(const Vec3& wo, const Vec3& wi) const {
     }
     const Microfacets facets(alpha_x, alpha_y, slopes);
     const Vec3& m = facet->normal;
-    const float f = fresnel_dielectric(dot(wo, m), ior);
+    const float f = reflected_share(dot(wo, m));
     const float reflection = reflection_probability(f);
     if (facet->reflects) {
         return reflection * facets.visible_density(wo, m) / (4 * abs_dot(wo, m));
@@ -106,7 +111,7 @@ std::optional<BsdfSample> DielectricBsdf::reflected(const Vec3& wo, const Vec3& 
     }
     const Vec3 wi = m * (2 * dot(wo, m)) - wo;
     if (is_specular()) {
-        return BsdfSample{wi, reflectance * fresnel_dielectric(dot(wo, m), ior), 1, true};
+        return BsdfSample{wi, reflectance * reflected_share(dot(wo, m)), 1, true};
     }
     const float p = Microfacets(alpha_x, alpha_y, slopes).visible_density(wo, m) / (4 * abs_dot(wo, m));
     return wo.z * wi.z > 0 && p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
@@ -120,8 +125,7 @@ std::optional<BsdfSample> DielectricBsdf::refracted(const Vec3& wo, const Vec3& 
     }
     const Vec3& wi = refraction->direction;
     if (is_specular()) {
-        return BsdfSample{wi, transmittance * ((1 - fresnel_dielectric(dot(wo, m), ior)) / sqr(refraction->ior)), 1,
-                          true};
+        return BsdfSample{wi, transmittance * ((1 - reflected_share(dot(wo, m))) / sqr(refraction->ior)), 1, true};
     }
     const float p = refraction_density(wo, wi);
     return p > 0 ? std::optional(BsdfSample{wi, evaluate(wo, wi), p}) : std::nullopt;
@@ -140,7 +144,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Vec3& wo, float u, const 
         return std::nullopt;
     }
     const Vec3 m = sample_facet(wo, u2);
-    const float f = fresnel_dielectric(dot(wo, m), ior);
+    const float f = reflected_share(dot(wo, m));
     const float reflection = reflection_probability(f);
     const bool reflects = u < reflection;
     auto s = reflects ? reflected(wo, m) : refracted(wo, m);
