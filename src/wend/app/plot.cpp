@@ -87,11 +87,11 @@ std::vector<std::vector<PlotPoint>> pieces(const PlotSeries& series, const PlotS
 }
 
 /// The rectangle between the axes.
-struct Frame {
+struct PlotFrame {
     double left, right, top, bottom;
 };
 
-std::string axes(const PlotPanel& panel, const Frame& f, const PlotScale& x, const PlotScale& y) {
+std::string axes(const PlotPanel& panel, const PlotFrame& f, const PlotScale& x, const PlotScale& y) {
     std::string svg;
     auto out = std::back_inserter(svg);
     for (const auto& [at, label] : x.ticks()) {
@@ -112,7 +112,7 @@ std::string axes(const PlotPanel& panel, const Frame& f, const PlotScale& x, con
     return svg;
 }
 
-std::string panel_svg(const PlotPanel& panel, const Frame& f, const std::string& nothing) {
+std::string panel_svg(const PlotPanel& panel, const PlotFrame& f, const std::string& nothing) {
     const double middle = (f.left + f.right) / 2;
     std::string svg;
     if (!panel.title.empty()) {
