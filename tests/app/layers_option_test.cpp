@@ -59,7 +59,7 @@ TEST_F(LayersOption, PartsAddUpAndThePictureStays) {
         rendered("all.exr", {"--layers", "emission,background,direct,indirect,volume,lights,halves,geometry"});
     EXPECT_EQ(all.image.pixels, plain.image.pixels);
     for (const Layer& layer : plain.layers) {
-        EXPECT_EQ(find(all, layer.name)->values, layer.values) << layer.name;
+        EXPECT_EQ(find_layer(all.layers, layer.name)->values, layer.values) << layer.name;
     }
     EXPECT_EQ(find_layer(plain.layers, "direct"), nullptr);
     expect_sum(all, {"emission", "background", "direct", "indirect", "volume"});
@@ -159,9 +159,9 @@ TEST_F(LayersOption, OtherNamesAreThoseOfOthers) {
         const Picture named = rendered("named.exr", more);
         ASSERT_EQ(named.layers.size(), plain.layers.size());
         for (const Layer& layer : plain.layers) {
-            ASSERT_TRUE(find(named, layer.name)) << names << ' ' << layer.name;
+            ASSERT_TRUE(find_layer(named.layers, layer.name)) << names << ' ' << layer.name;
             if (layer.name != "variance") {  // which 15 samples do not scale exactly
-                EXPECT_EQ(find(named, layer.name)->values, layer.values) << names << ' ' << layer.name;
+                EXPECT_EQ(find_layer(named.layers, layer.name)->values, layer.values) << names << ' ' << layer.name;
             }
         }
     }

@@ -32,7 +32,7 @@ void expect_same(const Picture& a, const Picture& b) {
     EXPECT_EQ(a.metadata, b.metadata);
     ASSERT_EQ(a.layers.size(), b.layers.size());
     for (const Layer& layer : a.layers) {
-        const Layer* const other = find(b, layer.name);
+        const Layer* const other = find_layer(b.layers, layer.name);
         ASSERT_TRUE(other) << layer.name;
         EXPECT_EQ(other->values, layer.values) << layer.name;
     }
