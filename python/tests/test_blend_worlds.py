@@ -72,7 +72,7 @@ def test_a_world_that_the_camera_does_not_see_is_in_mirrors(scene, tmp_path, how
     mesh(scene, "uv_sphere", material("BsdfAnisotropic", roughness=0.0), smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
     lamp(scene, "SUN", 1, (0, 0, 9), (0.3, -0.3, 0), angle=0.6).visible_camera = False
     camera(scene, (0, -6, 2), (0, 0, 0.5))
-    assert np.all(check(scene, tmp_path, 256)[0] == 0)
+    assert np.all(check(scene, tmp_path, 2000)[0] == 0)
 
 
 @pytest.mark.parametrize("is_seen", [True, False])
