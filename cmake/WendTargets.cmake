@@ -17,10 +17,6 @@ if(WEND_SANITIZED_MODULES)
   add_link_options(${wend_sanitizers})
 endif()
 
-# The headers of the standard library that tests read most.
-set(wend_standard_headers <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-  <numeric> <optional> <span> <stdexcept> <string> <string_view> <utility> <variant> <vector>)
-
 # A library of all sources of the given modules (folders of src/wend), static unless SHARED is given. TARGET_objects is
 # what it is made of, for another library of the same.
 function(wend_add_library target)
