@@ -247,8 +247,8 @@ Look look_along_pixel(const FieldOptions& options, const Parts& parts, const gui
             page_place(fmt::format("{}{:.4g} from the camera", stop.on_surface ? "surface, " : "", stop.distance),
                        field_place(part, position, options.file));
         look.text += place_text(one);
-        nlohmann::json& told = look.json["stops"].emplace_back(place_json(one.place));
-        told["distance"] = stop.distance;
+        nlohmann::json& entry = look.json["stops"].emplace_back(place_json(one.place));
+        entry["distance"] = stop.distance;
         look.page.places.push_back(std::move(one));
     }
     if (look.page.places.empty()) {
@@ -330,9 +330,9 @@ nlohmann::json show_summary(const FieldOptions& options, const Parts& parts, con
                    "bounds {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g}; samples of earlier passes count less\n",
                    bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z);
     }
-    nlohmann::json told = summary_json(all, bounds);
-    told["fields"] = std::move(by_part);
-    return told;
+    nlohmann::json report = summary_json(all, bounds);
+    report["fields"] = std::move(by_part);
+    return report;
 }
 
 void show_field(const FieldOptions& options, const Streams& streams) {
@@ -341,7 +341,7 @@ void show_field(const FieldOptions& options, const Streams& streams) {
     const std::optional<RecordSamples> samples =
         options.records.empty() ? std::nullopt : std::optional(read_records(options.records));
     const Parts parts = parts_of(fields);
-    nlohmann::json told = show_summary(options, parts, streams);
+    nlohmann::json report = show_summary(options, parts, streams);
     if (options.has_places()) {
         Look look = options.pixel.empty() ? look_at_position(options, parts, samples)
                                           : look_along_pixel(options, parts, fields, streams);
@@ -353,13 +353,13 @@ void show_field(const FieldOptions& options, const Streams& streams) {
             streams.out << look.text << (picture.empty() ? "" : "incident radiance by direction: " + picture + "\n")
                         << (options.page.empty() ? "" : "a page to turn it: " + options.page + "\n");
         }
-        told[options.pixel.empty() ? "at" : "pixel"] = std::move(look.json);
+        report[options.pixel.empty() ? "at" : "pixel"] = std::move(look.json);
     }
     if (!options.vtk.empty()) {
         write_atomically(options.vtk, vtk_text(parts));
         options.common.note(streams, "cells for ParaView: " + options.vtk);
     }
-    options.common.write_json(streams, told);
+    options.common.write_json(streams, report);
 }
 
 }  // namespace
