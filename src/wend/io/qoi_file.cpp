@@ -11,6 +11,7 @@ namespace wend {
 namespace {
 
 constexpr std::string_view qoi_signature = "qoif";
+constexpr std::int64_t most_pixels_a_byte = 62;  // of a run
 
 struct Pixel {
     std::uint8_t r = 0, g = 0, b = 0, a = 255;
@@ -93,6 +94,9 @@ ImageWithOpacity read_qoi(std::string_view file, const Place& place) {
         throw InputError(place, "the picture is damaged: its header has an unknown number of channels or colour space");
     }
     check_image_size(width, height, file.size(), place);
+    if (width * height > most_pixels_a_byte * static_cast<std::int64_t>(file.size())) {
+        throw InputError(place, "the picture is damaged: its size is more than so few bytes can hold");
+    }
     const std::vector<float> table =
         decoding_table<std::uint8_t>(space == 0 ? ColourEncoding::srgb : ColourEncoding::linear);
     ImageWithOpacity picture{Image(static_cast<int>(width), static_cast<int>(height)), {}};
