@@ -31,9 +31,6 @@ def glass_of(nodes: Nodes, node: Any) -> dict[str, Any]:
     return material
 
 
-#: An index at which Fresnel's equations reflect all, but one in ten thousand at 87 degrees.
-_ALL = 1e6
-
 #: Up to it what facets reflect several times is less than one in 200.
 _SMOOTH = 0.15
 
@@ -55,12 +52,13 @@ def mirror_of(nodes: Nodes, node: Any) -> dict[str, Any] | None:
             return None
     elif node.distribution != "GGX" and (roughness is None or roughness[0] > _SMOOTH):
         return None
-    material = dielectric(nodes, node.inputs["Roughness"], _ALL)
+    # Of this index a metal reflects all, from everywhere.
+    material: dict[str, Any] = {"string type": "conductor", "rgb eta": (0, 0, 0), "rgb k": (1, 1, 1), "bool remaproughness": False}
+    nodes.add_to(material, node.inputs["Roughness"], "roughness", "float", power=2)
     if values is None:
-        nodes.add_to(material, node.inputs["Color"], "reflectance", "rgb")
+        nodes.add_to(material, node.inputs["Color"], "tint", "rgb")
     else:
-        material["texture reflectance"] = nodes.add_texture("rgb", "facing", {"float values": np.minimum(values, 1).ravel()})
-    material["rgb transmittance"] = (0, 0, 0)
+        material["texture tint"] = nodes.add_texture("rgb", "facing", {"float values": np.minimum(values, 1).ravel()})
     if node.distribution != "GGX":
         tell_of_facets(nodes, node, node.inputs["Roughness"], "MULTI_GGX")
     add_detail(nodes, node, material)
@@ -69,4 +67,4 @@ def mirror_of(nodes: Nodes, node: Any) -> dict[str, Any] | None:
 
 def lets_through(material: dict[str, Any]) -> bool:
     """Whether it is glass."""
-    return bool(material["string type"] == "dielectric" and material["float eta"] != _ALL)
+    return bool(material["string type"] == "dielectric")

@@ -124,6 +124,9 @@ TEST(LoadMaterials, Conductors) {
     EXPECT_PRED2(contains,
                  message_of([] { Loaded("Material \"conductor\" \"rgb reflectance\" [ 1 1 1 ] \"rgb k\" [ 1 1 1 ]"); }),
                  "either");
+    EXPECT_EQ(grey.as<ConductorMaterial>().tint, -1);
+    const Loaded tinted("Material \"conductor\" \"rgb tint\" [ 0.9 0.6 0.3 ]");
+    expect_near(tinted.value(tinted.as<ConductorMaterial>().tint), Rgb(0.9f, 0.6f, 0.3f));
 }
 
 TEST(LoadMaterials, Dielectrics) {

@@ -179,7 +179,9 @@ const std::vector<Model>& models() {
         // coarse for.
         {"dielectric_antireflective", antireflective(1.5f, 0.08f)},
         {"dielectric_antireflective_bubble", antireflective(1 / 1.5f, 0.4f)},
-        {"dielectric_antireflective_smooth", antireflective(1.5f, 0)}};
+        {"dielectric_antireflective_smooth", antireflective(1.5f, 0)},
+        {"conductor_tinted", ConductorBsdf{Rgb(0.0f, 0.9f, 1.5f), Rgb(1, 2.4f, 1.9f), 0.4f, 0.4f, FacetSlopes::ggx,
+                                           Rgb(0.9f, 0.5f, 0.1f)}}};
     return all;
 }
 

@@ -35,29 +35,32 @@ Bsdf bsdf_of(const DiffuseTransmissionMaterial& m, const Textures& textures, con
                                    clamp01(textures.evaluate(m.transmittance, p) * m.scale)};
 }
 
+/// 1 where there is no texture.
+Rgb factor_of(TextureId texture, const Textures& textures, const TexturePoint& p) {
+    return texture < 0 ? Rgb(1.0f) : clamp01(textures.evaluate(texture, p));
+}
+
 /// `around`: index of what is around the metal.
 ConductorBsdf metal_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p, float around) {
     const Alpha alpha = alpha_at(m.roughness, textures, p);
+    ConductorBsdf metal{Rgb(1.0f), Rgb(0.0f), alpha.x, alpha.y, m.roughness.slopes, factor_of(m.tint, textures, p)};
     if (m.reflectance < 0) {
-        return {textures.evaluate(m.eta, p) / around, textures.evaluate(m.k, p) / around, alpha.x, alpha.y,
-                m.roughness.slopes};
+        metal.eta = textures.evaluate(m.eta, p);
+        metal.k = textures.evaluate(m.k, p);
+    } else {
+        // With eta = 1 the normal reflectance is k²/(4 + k²).
+        const Rgb r = clamp01(textures.evaluate(m.reflectance, p));
+        for (int c = 0; c < 3; ++c) {
+            metal.k[c] = 2 * std::sqrt(std::min(r[c], 0.9999f) / (1 - std::min(r[c], 0.9999f)));
+        }
     }
-    // With eta = 1 the normal reflectance is k²/(4 + k²).
-    Rgb k;
-    const Rgb r = clamp01(textures.evaluate(m.reflectance, p));
-    for (int c = 0; c < 3; ++c) {
-        k[c] = 2 * std::sqrt(std::min(r[c], 0.9999f) / (1 - std::min(r[c], 0.9999f)));
-    }
-    return {Rgb(1 / around), k / around, alpha.x, alpha.y, m.roughness.slopes};
+    metal.eta = metal.eta / around;
+    metal.k = metal.k / around;
+    return metal;
 }
 
 Bsdf bsdf_of(const ConductorMaterial& m, const Textures& textures, const TexturePoint& p) {
     return metal_of(m, textures, p, 1);
-}
-
-/// 1 where there is no texture.
-Rgb factor_of(TextureId texture, const Textures& textures, const TexturePoint& p) {
-    return texture < 0 ? Rgb(1.0f) : clamp01(textures.evaluate(texture, p));
 }
 
 Bsdf bsdf_of(const DielectricMaterial& m, const Textures& textures, const TexturePoint& p) {

@@ -30,6 +30,7 @@ struct ConductorMaterial {
     TextureId k = 0;
     TextureId reflectance = -1;
     Roughness roughness;
+    TextureId tint = -1;  ///< that of ConductorBsdf; -1: 1
 };
 
 struct DielectricMaterial {

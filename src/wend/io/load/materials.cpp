@@ -292,6 +292,7 @@ private:
     ConductorMaterial load_metal(const pbrt::ParameterSet& p, const std::string& prefix, float around) {
         ConductorMaterial material;
         material.roughness = load_roughness(p, prefix);
+        material.tint = textures_.find_colour(p, prefix + "tint", SpectrumKind::reflectance).value_or(-1);
         if (const auto found = textures_.find_colour(p, "reflectance", SpectrumKind::reflectance)) {
             if (p.has(prefix + "eta") || p.has(prefix + "k")) {
                 throw InputError(p.place_of("reflectance"),

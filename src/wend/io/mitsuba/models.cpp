@@ -109,7 +109,9 @@ Model Models::dielectric(const Object& bsdf) {
 
 Model Models::conductor(const Object& bsdf) {
     Parameters p(bsdf.place());
-    require_one(bsdf, "specular_reflectance");
+    if (bsdf.has("specular_reflectance")) {
+        p.colour("tint", textures_.colour(bsdf, "specular_reflectance", Rgb(1.0f)));
+    }
     if (bsdf.has("eta") || bsdf.has("k")) {
         if (bsdf.has("material")) {
             throw InputError(bsdf.place_of("material"), "a conductor takes either a \"material\" or \"eta\" and \"k\"");

@@ -11,9 +11,7 @@ Rgb albedo(const LambertBsdf& b, const Vec3&) {
     return b.reflectance;
 }
 Rgb albedo(const ConductorBsdf& b, const Vec3& wo) {
-    const float cosine = std::abs(wo.z);
-    return {fresnel_conductor(cosine, b.eta.r, b.k.r), fresnel_conductor(cosine, b.eta.g, b.k.g),
-            fresnel_conductor(cosine, b.eta.b, b.k.b)};
+    return b.reflectance(std::abs(wo.z));
 }
 Rgb albedo(const DielectricBsdf& b, const Vec3& wo) {
     return b.transmittance + (b.reflectance - b.transmittance) * b.reflected_share(wo.z);

@@ -54,11 +54,14 @@ struct ConductorBsdf {
     float alpha_x = 0;
     float alpha_y = 0;
     FacetSlopes slopes = FacetSlopes::ggx;
+    Rgb tint{1.0f};  ///< multiplies what is reflected
 
     Rgb evaluate(const Vec3& wo, const Vec3& wi) const;
     float density(const Vec3& wo, const Vec3& wi) const;
     std::optional<BsdfSample> sample(const Vec3& wo, float u, const Vec2& u2) const;
     bool is_specular() const;
+    /// Of light that meets a facet at an angle of this cosine >= 0.
+    Rgb reflectance(float cosine) const;
 };
 
 /// Smooth or rough boundary between dielectrics (walter2007); `ior` is the index on the far side of the normal over

@@ -3,14 +3,11 @@
 #include <wend/scene/bsdf/bsdf.h>
 
 namespace wend {
-namespace {
 
-Rgb reflectance(const ConductorBsdf& b, float cosine) {
-    return {fresnel_conductor(cosine, b.eta.r, b.k.r), fresnel_conductor(cosine, b.eta.g, b.k.g),
-            fresnel_conductor(cosine, b.eta.b, b.k.b)};
+Rgb ConductorBsdf::reflectance(float cosine) const {
+    return tint * Rgb(fresnel_conductor(cosine, eta.r, k.r), fresnel_conductor(cosine, eta.g, k.g),
+                      fresnel_conductor(cosine, eta.b, k.b));
 }
-
-}  // namespace
 
 bool ConductorBsdf::is_specular() const {
     return Microfacets::is_smooth(alpha_x, alpha_y);
@@ -26,7 +23,7 @@ Rgb ConductorBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
     }
     const Vec3 m = normalize(sum);
     const Microfacets facets(alpha_x, alpha_y, slopes);
-    return reflectance(*this, abs_dot(wo, m)) * (facets.d(m) * facets.g(wo, wi) / (4 * std::abs(wo.z)));
+    return reflectance(abs_dot(wo, m)) * (facets.d(m) * facets.g(wo, wi) / (4 * std::abs(wo.z)));
 }
 
 float ConductorBsdf::density(const Vec3& wo, const Vec3& wi) const {
@@ -47,7 +44,7 @@ std::optional<BsdfSample> ConductorBsdf::sample(const Vec3& wo, float, const Vec
         return std::nullopt;
     }
     if (is_specular()) {
-        return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance(*this, std::abs(wo.z)), 1, true};
+        return BsdfSample{{-wo.x, -wo.y, wo.z}, reflectance(std::abs(wo.z)), 1, true};
     }
     const Microfacets facets(alpha_x, alpha_y, slopes);
     const Vec3 m = facets.sample_visible(wo, u2);
