@@ -3,8 +3,8 @@
 #include <wend/io/load/backdrops.h>
 #include <wend/io/load/boundaries.h>
 #include <wend/io/load/camera_film.h>
-#include <wend/io/load/curves.h>
 #include <wend/io/load/forced_diffuse.h>
+#include <wend/io/load/joined_curves.h>
 #include <wend/io/load/lights.h>
 #include <wend/io/load/loaded_parts.h>
 #include <wend/io/load/materials.h>
@@ -54,7 +54,8 @@ public:
           description_(description),
           sees_media_(sees_media),
           scene_(scene),
-          textures_(context, scene.textures) {}
+          textures_(context, scene.textures),
+          curves_(context, description) {}
 
     void build() {
         textures_.add(description_.textures);
@@ -84,7 +85,7 @@ public:
         for (std::size_t i = 0; i < description_.shapes.size(); ++i) {
             add_shape(i);
         }
-        finish_curves();
+        curves_.finish(scene_.surfaces);
         for (const Group& group : groups_.back()) {
             place(group.object, *group.motion, group.place);
         }
@@ -153,7 +154,7 @@ private:
         pbrt::ShapeEntity& entity = description_.shapes[index];
         const auto load = [&] { return LoadedShape{load_shape(context_, entity, as_mesh), as_mesh}; };
         if (entity.type == "curve") {
-            return load().shape;  // a part of what finish_curves() shares
+            return load().shape;  // a part of what the joined ones share
         }
         const pbrt::ParameterSet parameters = context_.parts ? entity.parameters : pbrt::ParameterSet();
         return load_part(
@@ -204,11 +205,11 @@ private:
         }
         context_.warnings.add_unused("Shape", entity);
         std::vector<int>& group = object ? scene_.objects[*object].surfaces : scene_.world_surfaces;
-        if (is_curve && !group.empty() && joins(group.back(), surface, index)) {
+        if (is_curve && !group.empty() && curves_.join(group.back(), scene_.surfaces, surface, index)) {
             return;
         }
         if (is_curve) {
-            curves_.try_emplace(static_cast<int>(scene_.surfaces.size()), Curves{std::get<CurveSet>(**shape), {index}});
+            curves_.begin(static_cast<int>(scene_.surfaces.size()), std::get<CurveSet>(**shape), index);
         }
         group.push_back(static_cast<int>(scene_.surfaces.size()));
         scene_.surfaces.push_back(std::move(surface));
@@ -227,57 +228,6 @@ private:
             scene_.names.texts.push_back(text);
         }
         return {found->second, has_name ? 0 : place.line};
-    }
-
-    /// Hairs are directives of their own: those alike become one surface. Whether the surface was added to the last
-    /// one.
-    bool joins(int last_index, const Surface& surface, std::size_t directive) {
-        const Surface& last = scene_.surfaces[static_cast<std::size_t>(last_index)];
-        const auto curves = curves_.find(last_index);
-        if (curves == curves_.end() || last.material != surface.material || last.interior != surface.interior ||
-            last.exterior != surface.exterior || last.flip_normal != surface.flip_normal ||
-            last.alpha != surface.alpha || last.view != surface.view ||
-            !merge(curves->second.set, std::get<CurveSet>(*surface.shape))) {
-            return false;
-        }
-        curves->second.directives.push_back(directive);
-        return true;
-    }
-
-    /// Gives surfaces all the curves that joined them; the earlier scene's, where they are the same.
-    void finish_curves() {
-        for (auto& [surface, curves] : curves_) {
-            SharedShape& shape = scene_.surfaces[static_cast<std::size_t>(surface)].shape;
-            if (const SharedShape* known = earlier_curves(curves.directives)) {
-                shape = *known;
-            } else {
-                shape = std::move(curves.set);
-            }
-            if (context_.parts) {
-                LoadedCurves loaded{std::move(curves.directives), {}, shape};
-                for (const std::size_t directive : loaded.directives) {
-                    loaded.parameters.push_back(description_.shapes[directive].parameters);
-                }
-                context_.parts->curves.emplace(loaded.directives.front(), std::move(loaded));
-            }
-        }
-        curves_.clear();
-    }
-
-    const SharedShape* earlier_curves(const std::vector<std::size_t>& directives) const {
-        if (!context_.earlier) {
-            return nullptr;
-        }
-        const auto found = context_.earlier->curves.find(directives.front());
-        if (found == context_.earlier->curves.end() || found->second.directives != directives) {
-            return nullptr;
-        }
-        const auto is_same = [&](const pbrt::ParameterSet& known, std::size_t directive) {
-            return known.is_same_as(description_.shapes[directive].parameters);
-        };
-        const LoadedCurves& known = found->second;
-        return std::equal(known.parameters.begin(), known.parameters.end(), directives.begin(), is_same) ? &known.shape
-                                                                                                         : nullptr;
     }
 
     /// How many shapes a shape is to pbrt where that is not one a triangle; 0 otherwise. Asked before the shape is
@@ -385,12 +335,7 @@ private:
     std::vector<Place> places_;  ///< of the scene's surfaces
     std::map<std::string, int> texts_;
     std::vector<Box3> object_boxes_;
-    /// Those of a surface that more may join.
-    struct Curves {
-        CurveSet set;
-        std::vector<std::size_t> directives;
-    };
-    std::map<int, Curves> curves_;            ///< by surface
+    JoinedCurves curves_;
     std::vector<std::vector<Group>> groups_;  ///< by the object of the file that they are in, those of the world last
     std::map<std::pair<std::size_t, const Motion*>, std::size_t> group_objects_;
 };

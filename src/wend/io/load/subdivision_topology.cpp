@@ -32,14 +32,14 @@ Sdc::SchemeType scheme_of(SubdivisionRules::Scheme scheme) {
 
 Sdc::Options options_of(const SubdivisionRules& rules) {
     using enum Sdc::Options::FVarLinearInterpolation;
-    static constexpr Sdc::Options::VtxBoundaryInterpolation boundaries[] = {Sdc::Options::VTX_BOUNDARY_NONE,
-                                                                            Sdc::Options::VTX_BOUNDARY_EDGE_ONLY,
-                                                                            Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER};
+    static constexpr Sdc::Options::VtxBoundaryInterpolation vertex_boundaries[] = {
+        Sdc::Options::VTX_BOUNDARY_NONE, Sdc::Options::VTX_BOUNDARY_EDGE_ONLY,
+        Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER};
     static constexpr Sdc::Options::FVarLinearInterpolation linear[] = {
         FVAR_LINEAR_NONE,          FVAR_LINEAR_CORNERS_ONLY, FVAR_LINEAR_CORNERS_PLUS1,
         FVAR_LINEAR_CORNERS_PLUS2, FVAR_LINEAR_BOUNDARIES,   FVAR_LINEAR_ALL};
     Sdc::Options options;
-    options.SetVtxBoundaryInterpolation(boundaries[static_cast<std::size_t>(rules.boundary)]);
+    options.SetVtxBoundaryInterpolation(vertex_boundaries[static_cast<std::size_t>(rules.boundary)]);
     options.SetFVarLinearInterpolation(linear[static_cast<std::size_t>(rules.face_varying)]);
     options.SetTriangleSubdivision(rules.triangles == SubdivisionRules::Triangles::smooth
                                        ? Sdc::Options::TRI_SUB_SMOOTH
