@@ -14,7 +14,7 @@
 namespace wend {
 namespace {
 
-constexpr std::uint8_t image_separator = 0x2c, extension = 0x21, graphic_control = 0xf9, trailer = 0x3b;
+constexpr std::uint8_t image_separator = 0x2c, extension_introducer = 0x21, graphic_control = 0xf9, trailer = 0x3b;
 
 std::uint32_t take_16(Bytes& bytes) {
     const std::uint32_t low = bytes.take<std::uint8_t>();
@@ -217,7 +217,7 @@ ImageWithOpacity read_gif(std::string_view file, const Place& place) {
             draw(bytes, colours, transparent, place, screen);
             return screen;
         }
-        if (kind != extension) {
+        if (kind != extension_introducer) {
             throw InputError(place, "the picture is damaged: it has an unknown block");
         }
         const bool is_control = bytes.take<std::uint8_t>() == graphic_control;
