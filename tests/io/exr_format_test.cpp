@@ -1,4 +1,5 @@
 // How OpenEXR files call their layers, what they keep as half floats, and what they have as numbers.
+#include <tests/io/errors.h>
 #include <tests/support/scratch_folder.h>
 #include <wend/core/error.h>
 #include <wend/io/gzip.h>
@@ -27,12 +28,12 @@
 namespace wend {
 namespace {
 
-constexpr int width = 5, height = 3;
-constexpr std::size_t pixels = std::size_t{width} * height;
+constexpr int picture_width = 5, picture_height = 3;
+constexpr std::size_t picture_pixels = std::size_t{picture_width} * picture_height;
 
 /// Values that no float of fewer bits holds.
 std::vector<float> values(std::size_t channels, float scale) {
-    std::vector<float> list(pixels * channels);
+    std::vector<float> list(picture_pixels * channels);
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = scale * (1 + static_cast<float>(i) / 7);
     }
@@ -42,17 +43,17 @@ std::vector<float> values(std::size_t channels, float scale) {
 /// What a render leaves.
 Picture picture() {
     Picture p;
-    p.image = Image(width, height);
-    p.full_size = {width, height};
+    p.image = Image(picture_width, picture_height);
+    p.full_size = {picture_width, picture_height};
     const std::vector<float> colours = values(3, 0.3f);
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < picture_pixels; ++i) {
         p.image.pixels[i] = {colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]};
     }
     p.layers = {{"albedo", {"R", "G", "B"}, values(3, 0.01f)},
                 {"normal", {"X", "Y", "Z"}, values(3, -0.1f)},
                 {"depth", {"Z"}, values(1, 123.4f)},
                 {"alpha", {"A"}, values(1, 0.1f)},
-                {"samples", {"N"}, std::vector<float>(pixels, 64)},
+                {"samples", {"N"}, std::vector<float>(picture_pixels, 64)},
                 {"variance", {"R", "G", "B"}, values(3, 1e-5f)},
                 {"scatter", {"P"}, values(1, 0.2f)}};
     p.metadata = {{"wend:version", "test"}, {"wend:spp", "64"}, {"wend:seed", "7"}};
@@ -128,7 +129,7 @@ TEST_F(ExrFormat, PbrtsVarianceIsThatOfOneSample) {
     const Picture before = picture();
     const std::string file = write(before, {LayerNames::pbrt});
     Imf::InputFile input(file.c_str());
-    std::vector<float> variance(pixels), relative(pixels);
+    std::vector<float> variance(picture_pixels), relative(picture_pixels);
     Imf::FrameBuffer frame;
     const auto insert = [&](const char* name, std::vector<float>& into) {
         frame.insert(name, Imf::Slice::Make(Imf::FLOAT, into.data(), input.header().dataWindow()));
@@ -136,8 +137,8 @@ TEST_F(ExrFormat, PbrtsVarianceIsThatOfOneSample) {
     insert("Variance.G", variance);
     insert("RelativeVariance.G", relative);
     input.setFrameBuffer(frame);
-    input.readPixels(0, height - 1);
-    for (std::size_t i = 0; i < pixels; ++i) {
+    input.readPixels(0, picture_height - 1);
+    for (std::size_t i = 0; i < picture_pixels; ++i) {
         const float of_mean = layer(before, "variance").values[3 * i + 1];
         EXPECT_EQ(variance[i], 64 * of_mean);
         EXPECT_FLOAT_EQ(relative[i], 64 * of_mean / before.image.pixels[i].g);
@@ -281,14 +282,8 @@ TEST_F(ExrFormat, PbrtsOwnFilesHaveLayersOfOurNames) {
     EXPECT_EQ(layer(p, "").channels, (std::vector<std::string>{"u", "v"}));
 }
 
-/// What reading a file says; empty where it can be read.
-std::string error_of(const std::string& file) {
-    try {
-        read_picture(file);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+std::string picture_error_of(const std::string& file) {
+    return test::message_of([&] { read_picture(file); });
 }
 
 /// A file of three parts, as bytes.
@@ -304,10 +299,11 @@ std::string three_parts(const std::string& file) {
 
 TEST_F(ExrFormat, TruncatedPartsAreRefused) {
     const std::string file = folder_.file("parts.exr"), whole = three_parts(file);
-    ASSERT_EQ(error_of(file), "");
+    ASSERT_EQ(picture_error_of(file), "no error");
     for (std::size_t size = 0; size < whole.size(); size += size < 16 ? 1 : 13) {
         std::ofstream(file, std::ios::binary) << whole.substr(0, size);
-        EXPECT_NE(error_of(file).find("parts.exr"), std::string::npos) << size << " of " << whole.size() << " bytes";
+        EXPECT_NE(picture_error_of(file).find("parts.exr"), std::string::npos)
+            << size << " of " << whole.size() << " bytes";
     }
 }
 
@@ -319,9 +315,9 @@ TEST_F(ExrFormat, DamagedPartsAreReadOrRefused) {
             std::string damaged = whole;
             damaged[place] = static_cast<char>(damaged[place] ^ flip);
             std::ofstream(file, std::ios::binary) << damaged;
-            const std::string error = error_of(file);
-            EXPECT_TRUE(error.empty() || error.find("parts.exr") != std::string::npos) << place << ": " << error;
-            refused += error.empty() ? 0 : 1;
+            const std::string error = picture_error_of(file);
+            EXPECT_TRUE(error == "no error" || error.find("parts.exr") != std::string::npos) << place << ": " << error;
+            refused += error == "no error" ? 0 : 1;
         }
     }
     EXPECT_GT(refused, 100) << "the magic number, types and sizes of channels, tables of offsets";

@@ -1,4 +1,5 @@
 #include "load_support.h"
+#include "near.h"
 #include "pbrt_support.h"
 
 #include <wend/io/spectrum/white_balance.h>
@@ -18,12 +19,9 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::expect_near;
 using test::load_text;
 using test::warnings_with;
-
-void expect_near(const Vec3& a, const Vec3& b) {
-    EXPECT_NEAR(length(a - b), 0, 1e-5f) << a << " and " << b;
-}
 
 /// The pixels of a picture of this size.
 Vec3 direction_at(const LoadedScene& loaded, float x, float y) {

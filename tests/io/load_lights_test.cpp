@@ -1,4 +1,5 @@
 #include "load_support.h"
+#include "near.h"
 #include "pbrt_support.h"
 
 #include <wend/io/image_file.h>
@@ -13,6 +14,7 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::expect_near_in_proportion;
 using test::load_text;
 using test::warnings_with;
 
@@ -21,12 +23,6 @@ Kind only_light(const std::string& world) {
     const LoadedScene loaded = load_text(world);
     EXPECT_EQ(loaded.scene.lights.size(), 1u) << world;
     return std::get<Kind>(loaded.scene.lights.at(0));
-}
-
-void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(a[c], b[c], tolerance * std::max(1.0f, std::abs(b[c])));
-    }
 }
 
 std::filesystem::path write_sky(const char* name, int width, int height, const Rgb& colour) {
@@ -45,21 +41,21 @@ TEST(LoadLights, PointLight) {
     const auto light = only_light<PointLight>(
         "Translate 1 2 3 LightSource \"point\" \"rgb I\" [ 1 2 3 ] \"float scale\" 2 \"point3 from\" [ 0 0 1 ]");
     EXPECT_EQ(light.position, Vec3(1, 2, 4));
-    expect_near(light.intensity, {2, 4, 6});
+    expect_near_in_proportion(light.intensity, {2, 4, 6});
     const auto powered = only_light<PointLight>("LightSource \"point\" \"float power\" 10");
-    expect_near(powered.intensity, Rgb(10 / (4 * pi)));
+    expect_near_in_proportion(powered.intensity, Rgb(10 / (4 * pi)));
 }
 
 TEST(LoadLights, DistantLightComesFromFrom) {
     const auto light = only_light<DistantLight>(
         "LightSource \"distant\" \"point3 from\" [ 0 5 0 ] \"point3 to\" [ 0 0 0 ] \"rgb L\" [ 1 2 3 ]");
     EXPECT_NEAR(length(light.direction - Vec3(0, 1, 0)), 0, 1e-6f);
-    expect_near(light.radiance, {1, 2, 3});
+    expect_near_in_proportion(light.radiance, {1, 2, 3});
     EXPECT_NEAR(only_light<DistantLight>("LightSource \"distant\"").direction.z, -1, 1e-6f);
     const auto turned =
         only_light<DistantLight>("Rotate 90 1 0 0 LightSource \"distant\" \"float illuminance\" 50 \"float scale\" 2");
     EXPECT_NEAR(turned.direction.y, 1, 1e-6f);
-    expect_near(turned.radiance, Rgb(100.0f));
+    expect_near_in_proportion(turned.radiance, Rgb(100.0f));
     // With an angle it is a disk, and what is given is its irradiance.
     const auto sun = only_light<SkyDiskLight>("LightSource \"distant\" \"float angle\" 60 \"rgb L\" [ 1 2 3 ]");
     EXPECT_NEAR(sun.radiance.g, 2 / (pi * 0.25f), 1e-5f);
@@ -76,16 +72,17 @@ TEST(LoadLights, SpectraHaveLuminanceOne) {
     EXPECT_GT(black_body.radiance.r, black_body.radiance.b);
     const auto equal_energy = only_light<DistantLight>("LightSource \"distant\" \"spectrum L\" [ 300 7 900 7 ]");
     EXPECT_NEAR(luminance(equal_energy.radiance), 1, 1e-3f);
-    expect_near(only_light<DistantLight>("LightSource \"distant\" \"spectrum L\" \"stdillum-D65\"").radiance, Rgb(1.0f),
-                0.01f);
+    expect_near_in_proportion(
+        only_light<DistantLight>("LightSource \"distant\" \"spectrum L\" \"stdillum-D65\"").radiance, Rgb(1.0f), 0.01f);
 }
 
 TEST(LoadLights, InfiniteLights) {
-    expect_near(
+    expect_near_in_proportion(
         only_light<UniformInfiniteLight>("LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2").radiance,
         {2, 4, 6});
-    expect_near(only_light<UniformInfiniteLight>("LightSource \"infinite\" \"float illuminance\" 3.14159265").radiance,
-                Rgb(1.0f));
+    expect_near_in_proportion(
+        only_light<UniformInfiniteLight>("LightSource \"infinite\" \"float illuminance\" 3.14159265").radiance,
+        Rgb(1.0f));
     EXPECT_TRUE(load_text("LightSource \"infinite\" \"rgb L\" [ 0 0 0 ]").scene.lights.empty());
 }
 
@@ -113,7 +110,7 @@ TEST(LoadLights, PortalsAreInTheWorld) {
     const auto turned = only_light<PortalInfiniteLight>(
         "Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 "
         "\"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1 0 1 ]");
-    expect_near(turned.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}), {2, 4, 6});
+    expect_near_in_proportion(turned.portal->radiance({0.5f, 0.5f, 0}, {0, 0, 1}), {2, 4, 6});
     EXPECT_TRUE(is_black(turned.portal->radiance({1.5f, 0.5f, 0}, {0, 0, 1})));
     // Spectra have their own luminance there: a half of what is even, and a black body's with a peak of 1.
     const auto through = [](const std::string& radiance) {
@@ -131,7 +128,7 @@ TEST(LoadLights, PortalsAreInTheWorld) {
     const LoadedScene skewed =
         load_text("LightSource \"infinite\" \"rgb L\" [1 2 3] \"point3 portal\" [ 0 0 1  0 1 1  1 1 1  1.1 0 1 ]");
     EXPECT_EQ(warnings_with(skewed, "not those of a rectangle"), 1);
-    expect_near(environment_radiance(skewed.scene.lights.at(0), {0.5f, 0.5f, 0}, {0, 0, 1}), {1, 2, 3});
+    expect_near_in_proportion(environment_radiance(skewed.scene.lights.at(0), {0.5f, 0.5f, 0}, {0, 0, 1}), {1, 2, 3});
     EXPECT_PRED2(contains, message("0 0 0  1 0 0  1 1 0"), "4 corners, not 3");
     EXPECT_PRED2(contains, message("0 0 0  1 0 0  2 0 0  1 0 0"), "rectangle");
     EXPECT_PRED2(contains, message("0 0 0  0 0 0  1 1 0  0 1 0"), "rectangle");
@@ -142,7 +139,7 @@ TEST(LoadLights, SkyPictures) {
     const auto wide = write_sky("wend_load_wide.exr", 16, 8, {1, 2, 3});
     const auto light = only_light<ImageInfiniteLight>("LightSource \"infinite\" \"string filename\" \"" +
                                                       square.string() + "\" \"float scale\" 2");
-    expect_near(light.mean_radiance(), {2, 4, 6});
+    expect_near_in_proportion(light.mean_radiance(), {2, 4, 6});
     const auto lit = only_light<ImageInfiniteLight>("LightSource \"infinite\" \"string filename\" \"" +
                                                     square.string() + "\" \"float illuminance\" 5");
     // A uniform sky of luminance L has illuminance pi L; pbrt counts half of that in pictures.
@@ -169,8 +166,8 @@ TEST(LoadLights, SpotsShineFromAPointToAPoint) {
         "Translate 0 0 5 LightSource \"spot\" \"rgb I\" [ 3 6 9 ] \"point3 from\" [ 1 0 0 ] \"point3 to\" [ 0 0 0 ] "
         "\"float coneangle\" 45 \"float conedeltaangle\" 15");
     EXPECT_EQ(spot.position, Vec3(1, 0, 5));
-    expect_near(shines(spot, {-1, 0, 0}), {3, 6, 9});
-    expect_near(shines(spot, {-1, 0.5f, 0}), {3, 6, 9});
+    expect_near_in_proportion(shines(spot, {-1, 0, 0}), {3, 6, 9});
+    expect_near_in_proportion(shines(spot, {-1, 0.5f, 0}), {3, 6, 9});
     EXPECT_TRUE(is_black(shines(spot, {-1, 1.01f, 0})));
     EXPECT_TRUE(is_black(shines(spot, {1, 0, 0})));
     const auto powered = only_light<SpotLight>("LightSource \"spot\" \"float power\" 7 \"float coneangle\" 60");
@@ -204,10 +201,10 @@ TEST(LoadLights, GoniometricLightsHaveTheirPoleAlongY) {
     const auto light =
         only_light<GoniometricLight>("Translate 1 2 3 " + text + " \"rgb I\" [ 2 1 0 ] \"float scale\" 5");
     EXPECT_EQ(light.position, Vec3(1, 2, 3));
-    expect_near(shines(light, {0, 1, 0}), {20, 10, 0});
+    expect_near_in_proportion(shines(light, {0, 1, 0}), {20, 10, 0});
     EXPECT_TRUE(is_black(shines(light, {0, -1, 0})));
     const auto coloured = only_light<GoniometricLight>(text + " \"rgb I\" [ 2 1 0 ] \"bool coloured\" true");
-    expect_near(shines(coloured, {0, 1, 0}), {2, 2, 0});
+    expect_near_in_proportion(shines(coloured, {0, 1, 0}), {2, 2, 0});
     EXPECT_NEAR(light_power(only_light<GoniometricLight>(text + " \"float power\" 3"), 0), 3, 1e-4f);
     EXPECT_PRED2(contains, message_of([] { load_text("LightSource \"goniometric\""); }), "filename");
 }
@@ -220,8 +217,8 @@ TEST(LoadLights, ProjectorsThrowTheirPictureUpright) {
     const std::string text = "LightSource \"projection\" \"string filename\" \"" + file.string() + "\"";
     const auto light = only_light<ProjectionLight>(text + " \"float scale\" 2");
     // 90 degrees of the shorter side: the window is from (-2, -1) to (2, 1), its first row on top.
-    expect_near(shines(light, {-1.9f, 0.9f, 1}), {16, 0, 0});
-    expect_near(shines(light, {1.9f, -0.9f, 1}), {0, 0, 16});
+    expect_near_in_proportion(shines(light, {-1.9f, 0.9f, 1}), {16, 0, 0});
+    expect_near_in_proportion(shines(light, {1.9f, -0.9f, 1}), {0, 0, 16});
     EXPECT_TRUE(is_black(shines(light, {-1.9f, -0.9f, 1})));
     EXPECT_TRUE(is_black(shines(light, {-1.9f, 1.1f, 1})));
     EXPECT_TRUE(is_black(shines(light, {1.9f, -0.9f, -1})));
@@ -245,7 +242,7 @@ TEST(LoadLights, EachTriangleIsALight) {
         const auto& t = std::get<TriangleLight>(light);
         EXPECT_FLOAT_EQ(t.area, 0.5f);
         EXPECT_FLOAT_EQ(t.normal.z, 1);
-        expect_near(t.radiance, {5, 6, 7});
+        expect_near_in_proportion(t.radiance, {5, 6, 7});
         EXPECT_FALSE(t.two_sided);
     }
 }
@@ -318,15 +315,15 @@ TEST(LoadLights, AreaLightsShineByTheirPicture) {
         load_text(text + "\"float scale\" 2 " + two_triangles + "\"point2 uv\" [ 0 0  1 0  1 1  0 1 ]");
     const Light& light = loaded.scene.lights.at(1);
     // The first row is where v is 1.
-    expect_near(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, 1}), Rgb(18.0f));
-    expect_near(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.1f}, {0, 0, 1}), Rgb(2.0f));
+    expect_near_in_proportion(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, 1}), Rgb(18.0f));
+    expect_near_in_proportion(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.1f}, {0, 0, 1}), Rgb(2.0f));
     EXPECT_TRUE(is_black(emitted_radiance(light, {0, 0, 1}, {0.1f, 0.9f}, {0, 0, -1})));
     Pcg32 random(1);
     for (int i = 0; i < 100; ++i) {
         const auto s = sample_light(light, {0.5f, 0.5f, 1}, random.uniform2(), random);
         ASSERT_TRUE(s);
         const Vec3 hit = Vec3(0.5f, 0.5f, 1) + s->direction * s->distance;
-        expect_near(Rgb(s->uv.x, s->uv.y, 0), Rgb(hit.x, hit.y, 0), 1e-4f);
+        expect_near_in_proportion(Rgb(s->uv.x, s->uv.y, 0), Rgb(hit.x, hit.y, 0), 1e-4f);
     }
     const LoadedScene disk = load_text(text + "\"float power\" 5 \"bool twosided\" true Shape \"disk\"");
     EXPECT_NEAR(light_power(disk.scene.lights.at(0), 0), 5, 1e-3f);

@@ -1,4 +1,5 @@
 #include "load_support.h"
+#include "near.h"
 #include "pbrt_support.h"
 
 #include <wend/io/image_file.h>
@@ -19,6 +20,7 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::expect_near;
 using test::load_text;
 using test::warnings_with;
 
@@ -45,12 +47,6 @@ struct Loaded {
         return value(as<DiffuseMaterial>().reflectance, uv, p);
     }
 };
-
-void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(a[c], b[c], tolerance);
-    }
-}
 
 TEST(LoadMaterials, Diffuse) {
     expect_near(Loaded("").reflectance(), Rgb(0.5f));

@@ -1,4 +1,5 @@
 #include "load_support.h"
+#include "near.h"
 #include "pbrt_support.h"
 
 #include <wend/io/load/cloud.h>
@@ -17,6 +18,7 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::expect_near_in_proportion;
 using test::load_text;
 using test::warnings_with;
 
@@ -35,32 +37,28 @@ float density_at(const GridMedium& medium, const Vec3& p) {
     return medium.majorants().box().intersects(q) ? medium.density().interpolate(q) : 0.0f;
 }
 
-void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(a[c], b[c], tolerance * std::max(1.0f, std::abs(b[c])));
-    }
-}
-
 TEST(LoadMedia, Homogeneous) {
     const auto plain = load_one<HomogeneousMedium>("homogeneous", "");
-    expect_near(plain.absorption, Rgb(1.0f));
-    expect_near(plain.scattering, Rgb(1.0f));
+    expect_near_in_proportion(plain.absorption, Rgb(1.0f));
+    expect_near_in_proportion(plain.scattering, Rgb(1.0f));
     EXPECT_TRUE(is_black(plain.emission));
     const auto full = load_one<HomogeneousMedium>("homogeneous",
                                                   "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 4 5 6 ] \"float scale\" "
                                                   "2 \"float g\" -0.5 \"rgb Le\" [ 1 1 2 ] \"float Lescale\" 3");
-    expect_near(full.absorption, {2, 4, 6});
-    expect_near(full.scattering, {8, 10, 12});
-    expect_near(full.emission, {6, 12, 36});
+    expect_near_in_proportion(full.absorption, {2, 4, 6});
+    expect_near_in_proportion(full.scattering, {8, 10, 12});
+    expect_near_in_proportion(full.emission, {6, 12, 36});
     EXPECT_FLOAT_EQ(full.phase.mean_cosine(), -0.5f);
-    expect_near(load_one<HomogeneousMedium>("homogeneous", "\"string preset\" \"Cream\" \"float scale\" 10").scattering,
-                {73.8f, 54.7f, 31.5f});
+    expect_near_in_proportion(
+        load_one<HomogeneousMedium>("homogeneous", "\"string preset\" \"Cream\" \"float scale\" 10").scattering,
+        {73.8f, 54.7f, 31.5f});
     const LoadedScene unknown =
         load_text(medium_text("homogeneous", "\"string preset\" \"Gravel\" \"rgb sigma_a\" [ 2 2 2 ]"));
-    expect_near(std::get<HomogeneousMedium>(unknown.scene.media.at(0)).absorption, Rgb(2.0f));
+    expect_near_in_proportion(std::get<HomogeneousMedium>(unknown.scene.media.at(0)).absorption, Rgb(2.0f));
     EXPECT_EQ(warnings_with(unknown, "the medium \"Gravel\" is unknown; known are Apple"), 1);
-    expect_near(load_one<HomogeneousMedium>("homogeneous", "\"spectrum sigma_s\" [ 200 7 900 7 ]").scattering,
-                Rgb(7.0f), 1e-3f);
+    expect_near_in_proportion(
+        load_one<HomogeneousMedium>("homogeneous", "\"spectrum sigma_s\" [ 200 7 900 7 ]").scattering, Rgb(7.0f),
+        1e-3f);
     // A spectrum as light has luminance 1.
     EXPECT_NEAR(
         luminance(load_one<HomogeneousMedium>("homogeneous", "\"blackbody Le\" 2000 \"float LeScale\" 5").emission), 5,
@@ -163,7 +161,7 @@ TEST(LoadMedia, UniformGridSamplesAreInTheMiddleOfTheirCells) {
         "uniformgrid",
         "\"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 3 \"point3 p0\" [ 2 0 0 ] \"point3 p1\" [ 0 1 6 ] "
         "\"float density\" [ 1 2  3 4  5 6 ] \"rgb sigma_a\" [ 0 0 0 ] \"float scale\" 3");
-    expect_near(medium.scattering(), Rgb(3.0f));
+    expect_near_in_proportion(medium.scattering(), Rgb(3.0f));
     EXPECT_NEAR(density_at(medium, {0.5f, 0.5f, 1}), 1, 1e-5f);
     EXPECT_NEAR(density_at(medium, {1.5f, 0.5f, 1}), 2, 1e-5f);
     EXPECT_NEAR(density_at(medium, {1.5f, 0.5f, 3}), 4, 1e-5f);
@@ -187,18 +185,18 @@ TEST(LoadMedia, GridEmission) {
     const auto scaled = load_one<GridMedium>(
         "uniformgrid", "\"integer nx\" 2 \"float density\" [ 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" [ 0 10 ]");
     ASSERT_TRUE(scaled.emission());
-    expect_near(scaled.emission()->at({0.75f, 0.5f, 0.5f}), {10, 20, 30});
-    expect_near(scaled.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
+    expect_near_in_proportion(scaled.emission()->at({0.75f, 0.5f, 0.5f}), {10, 20, 30});
+    expect_near_in_proportion(scaled.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
     const auto uniform =
         load_one<GridMedium>("uniformgrid", "\"float density\" 1 \"rgb Le\" [ 1 2 3 ] \"float LeScale\" 2");
-    expect_near(uniform.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
+    expect_near_in_proportion(uniform.emission()->at({0.5f, 0.5f, 0.5f}), {2, 4, 6});
     EXPECT_FALSE(load_one<GridMedium>("uniformgrid", "\"float density\" 1").emission());
     const auto hot =
         load_one<GridMedium>("uniformgrid",
                              "\"integer nx\" 2 \"float density\" [ 1 1 ] \"float temperature\" [ 5 25 ] \"float "
                              "temperatureoffset\" 5 \"float temperaturescale\" 100 \"float Lescale\" 2");
-    expect_near(hot.emission()->at({0.75f, 0.5f, 0.5f}), blackbody_emission(2000) * 2.0f, 1e-3f);
-    expect_near(hot.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
+    expect_near_in_proportion(hot.emission()->at({0.75f, 0.5f, 0.5f}), blackbody_emission(2000) * 2.0f, 1e-3f);
+    expect_near_in_proportion(hot.emission()->at({0.25f, 0.5f, 0.5f}), Rgb(0.0f));
 }
 
 /// Coefficients at a point of the world.
@@ -212,27 +210,27 @@ TEST(LoadMedia, RgbGridHasAColourAtEachVoxel) {
         "\"integer nx\" 2 \"rgb sigma_a\" [ 0 0 0  0 1 0 ] \"rgb sigma_s\" [ 1 2 3  3 2 1 ] \"float scale\" 2");
     ASSERT_TRUE(medium.voxels());
     const Vec3 first(0.25f, 0.5f, 0.5f), between(0.5f, 0.5f, 0.5f), face(1, 0.5f, 0.5f);
-    expect_near(look_up(medium.voxels()->scattering, medium, first), {2, 4, 6});
-    expect_near(look_up(medium.voxels()->scattering, medium, between), Rgb(4.0f));
-    expect_near(look_up(medium.voxels()->scattering, medium, face), {3, 2, 1});
-    expect_near(look_up(medium.voxels()->absorption, medium, between), {0, 1, 0});
+    expect_near_in_proportion(look_up(medium.voxels()->scattering, medium, first), {2, 4, 6});
+    expect_near_in_proportion(look_up(medium.voxels()->scattering, medium, between), Rgb(4.0f));
+    expect_near_in_proportion(look_up(medium.voxels()->scattering, medium, face), {3, 2, 1});
+    expect_near_in_proportion(look_up(medium.voxels()->absorption, medium, between), {0, 1, 0});
     EXPECT_EQ(density_at(medium, first), 6);
     EXPECT_GE(density_at(medium, between), 5);
-    expect_near(medium.scattering(), Rgb(4.0f));
-    expect_near(extinction_at(medium, between), {4, 5, 4});
+    expect_near_in_proportion(medium.scattering(), Rgb(4.0f));
+    expect_near_in_proportion(extinction_at(medium, between), {4, 5, 4});
 }
 
 TEST(LoadMedia, RgbGridsGlowWithoutAbsorption) {
     const auto medium = load_one<GridMedium>("rgbgrid", "\"rgb sigma_s\" [ 2 1 1 ] \"rgb glow\" [ 1 2 3 ]");
-    expect_near(medium.emitted_at({0.5f, 0.5f, 0.5f}), {1, 2, 3});
+    expect_near_in_proportion(medium.emitted_at({0.5f, 0.5f, 0.5f}), {1, 2, 3});
 }
 
 TEST(LoadMedia, RgbGridsEmissionIsNotNormalized) {
     const auto red = load_one<GridMedium>(
         "rgbgrid", "\"rgb sigma_a\" [ 1 0 0 ] \"rgb sigma_s\" [ 2 1 1 ] \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 2");
     const Vec3 middle(0.5f, 0.5f, 0.5f);
-    expect_near(red.emission()->at(middle), Rgb(1, 2, 3) * 213.71379f, 1e-2f);
-    expect_near(red.emitted_at(middle), {213.71379f, 0, 0}, 1e-2f);
+    expect_near_in_proportion(red.emission()->at(middle), Rgb(1, 2, 3) * 213.71379f, 1e-2f);
+    expect_near_in_proportion(red.emitted_at(middle), {213.71379f, 0, 0}, 1e-2f);
     const auto message = [](const std::string& parameters) {
         return message_of([&] { load_one<GridMedium>("rgbgrid", parameters); });
     };
@@ -243,8 +241,8 @@ TEST(LoadMedia, RgbGridsEmissionIsNotNormalized) {
 TEST(LoadMedia, RgbGridsMissingCoefficientIsOneUpToTheFaces) {
     const auto medium = load_one<GridMedium>("rgbgrid", "\"rgb sigma_s\" [ 2 2 2 ] \"float scale\" 3");
     const Vec3 face(1, 0.5f, 0.5f);
-    expect_near(look_up(medium.voxels()->absorption, medium, face), Rgb(3.0f));
-    expect_near(look_up(medium.voxels()->scattering, medium, face), Rgb(3.0f));
+    expect_near_in_proportion(look_up(medium.voxels()->absorption, medium, face), Rgb(3.0f));
+    expect_near_in_proportion(look_up(medium.voxels()->scattering, medium, face), Rgb(3.0f));
 }
 
 TEST(LoadMedia, TemperaturesWithoutAScaleGlowLessTowardsTheFaces) {
@@ -259,11 +257,11 @@ TEST(LoadMedia, TemperaturesWithoutAScaleGlowLessTowardsTheFaces) {
     const Vec3 middle(2.5f, 0.5f, 0.5f), quarter(1.75f, 0.5f, 0.5f);
     const Rgb full = grid(" \"float Lescale\" 1").emission()->at(middle);
     const auto falling = grid("");
-    expect_near(falling.emission()->at(middle), full);
-    expect_near(falling.emission()->at(quarter), full * 0.75f);
+    expect_near_in_proportion(falling.emission()->at(middle), full);
+    expect_near_in_proportion(falling.emission()->at(quarter), full * 0.75f);
     const auto scaled = grid(" \"float Lescale\" [ 0 4 0 ]");
-    expect_near(scaled.emission()->at(middle), full * 4.0f);
-    expect_near(scaled.emission()->at({2, 0.5f, 0.5f}), full * 2.0f);
+    expect_near_in_proportion(scaled.emission()->at(middle), full * 4.0f);
+    expect_near_in_proportion(scaled.emission()->at({2, 0.5f, 0.5f}), full * 2.0f);
 }
 
 TEST(LoadMedia, CloudFillsItsBoxFromBelow) {

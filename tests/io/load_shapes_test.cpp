@@ -17,7 +17,7 @@ using pbrt::message_of;
 using test::load_text;
 using test::warnings_with;
 
-const std::string triangle = "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ] ";
+const std::string one_triangle = "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ] ";
 
 /// The normal where a ray from `origin` along `direction` first meets the scene.
 Vec3 normal_seen(const std::string& world, const Vec3& origin, const Vec3& direction) {
@@ -29,19 +29,20 @@ Vec3 normal_seen(const std::string& world, const Vec3& origin, const Vec3& direc
 
 TEST(LoadShapes, MeshNormalsFollowTheOrderOfVertices) {
     const auto z = [](const std::string& before) {
-        return normal_seen(before + triangle + "\"integer indices\" [ 0 1 2 ]", {0.2f, 0.2f, 5}, {0, 0, -1}).z;
+        return normal_seen(before + one_triangle + "\"integer indices\" [ 0 1 2 ]", {0.2f, 0.2f, 5}, {0, 0, -1}).z;
     };
     EXPECT_NEAR(z(""), 1, 1e-6f);
     EXPECT_NEAR(z("ReverseOrientation "), -1, 1e-6f);
     // Mirrored in z, the normal is mirrored with the triangle, as a normal of the object's.
     EXPECT_NEAR(z("Scale 1 1 -1 "), -1, 1e-6f);
     EXPECT_NEAR(z("ReverseOrientation Scale 1 1 -1 "), 1, 1e-6f);
-    EXPECT_NEAR(normal_seen("Scale -1 1 1 " + triangle, {-0.2f, 0.2f, 5}, {0, 0, -1}).z, 1, 1e-6f);
+    EXPECT_NEAR(normal_seen("Scale -1 1 1 " + one_triangle, {-0.2f, 0.2f, 5}, {0, 0, -1}).z, 1, 1e-6f);
 }
 
 TEST(LoadShapes, GivenNormalsDecideTheSide) {
     const auto z = [](const std::string& before) {
-        return normal_seen(before + triangle + "\"normal N\" [ 0 0 -1  0 0 -1  0 0 -1 ]", {0.2f, 0.2f, 5}, {0, 0, -1})
+        return normal_seen(before + one_triangle + "\"normal N\" [ 0 0 -1  0 0 -1  0 0 -1 ]", {0.2f, 0.2f, 5},
+                           {0, 0, -1})
             .z;
     };
     EXPECT_NEAR(z(""), -1, 1e-6f);
@@ -50,26 +51,26 @@ TEST(LoadShapes, GivenNormalsDecideTheSide) {
 }
 
 TEST(LoadShapes, NormalsMapByTheInverseTranspose) {
-    const LoadedScene loaded = load_text("Scale 2 1 1 " + triangle + "\"normal N\" [ 1 0 1  1 0 1  1 0 1 ]");
+    const LoadedScene loaded = load_text("Scale 2 1 1 " + one_triangle + "\"normal N\" [ 1 0 1  1 0 1  1 0 1 ]");
     const auto& mesh = std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape);
     EXPECT_NEAR(length(mesh.normals[0] - normalize(Vec3(0.5f, 0, 1))), 0, 1e-6f);
 }
 
 TEST(LoadShapes, GivenTangentsDecideHowASurfaceIsBrushed) {
-    const std::string along_y = triangle + "\"vector S\" [ 0 1 0  0 1 0  0 1 0 ] ";
+    const std::string along_y = one_triangle + "\"vector S\" [ 0 1 0  0 1 0  0 1 0 ] ";
     const auto tangent = [](const std::string& world) {
         const Scene scene(load_text(world).scene);
         return scene.intersect({Vec3(0.2f, 0.2f, 5), Vec3(0, 0, -1)})->shading.s;
     };
-    EXPECT_NEAR(tangent(triangle + "\"point2 uv\" [ 0 0  1 0  0 1 ]").x, 1, 1e-6f);
+    EXPECT_NEAR(tangent(one_triangle + "\"point2 uv\" [ 0 0  1 0  0 1 ]").x, 1, 1e-6f);
     EXPECT_NEAR(tangent(along_y + "\"point2 uv\" [ 0 0  1 0  0 1 ]").y, 1, 1e-6f);
     EXPECT_NEAR(tangent("Rotate 90 0 0 1 Translate 0 -0.4 0 " + along_y).x, -1, 1e-6f);
-    EXPECT_EQ(warnings_with(load_text(triangle + "\"vector S\" [ 0 1 0 ]"), "\"S\" has not one value a vertex"), 1);
+    EXPECT_EQ(warnings_with(load_text(one_triangle + "\"vector S\" [ 0 1 0 ]"), "\"S\" has not one value a vertex"), 1);
 }
 
 TEST(LoadShapes, TheCameraSeesThemAsTheySay) {
     const auto view = [](const std::string& parameters) {
-        return load_text(triangle + parameters).scene.surfaces[0].view;
+        return load_text(one_triangle + parameters).scene.surfaces[0].view;
     };
     EXPECT_EQ(view(""), CameraView::shown);
     EXPECT_EQ(view("\"string cameraview\" \"hidden\""), CameraView::hidden);
@@ -77,7 +78,7 @@ TEST(LoadShapes, TheCameraSeesThemAsTheySay) {
     EXPECT_PRED2(contains, message_of([&] { view("\"string cameraview\" \"seen\""); }),
                  "known are shown, hidden, holdout");
     const std::string fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MediumInterface \"fog\" \"\" ";
-    EXPECT_EQ(warnings_with(load_text(fog + triangle + "\"string cameraview\" \"hidden\""),
+    EXPECT_EQ(warnings_with(load_text(fog + one_triangle + "\"string cameraview\" \"hidden\""),
                             "what bounds a medium is not hidden"),
               1);
 }
@@ -127,9 +128,9 @@ TEST(LoadShapes, RefusesBrokenMeshesWithTheirPlace) {
     const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
     EXPECT_PRED2(contains, message("Shape \"trianglemesh\""),
                  "test.pbrt:3:1: error: Shape \"trianglemesh\" needs the parameter \"point3 P\"");
-    EXPECT_PRED2(contains, message(triangle + "\"integer indices\" [ 0 1 3 ]"),
+    EXPECT_PRED2(contains, message(one_triangle + "\"integer indices\" [ 0 1 3 ]"),
                  "the index 3 is out of range: there are 3 vertices");
-    EXPECT_PRED2(contains, message(triangle + "\"integer indices\" [ 0 1 -1 ]"), "the index -1 is out of range");
+    EXPECT_PRED2(contains, message(one_triangle + "\"integer indices\" [ 0 1 -1 ]"), "the index -1 is out of range");
     EXPECT_PRED2(contains, message("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0  1 1 0 ]"), "indices");
     EXPECT_PRED2(contains, message("Scale 1e30 1 1 Shape \"trianglemesh\" \"point3 P\" [ 1e30 0 0  1 0 0  0 1 0 ]"),
                  "not finite");
@@ -139,7 +140,7 @@ TEST(LoadShapes, RefusesBrokenMeshesWithTheirPlace) {
 }
 
 TEST(LoadShapes, IndicesBeyondTheLastFaceAreLeftOut) {
-    const LoadedScene loaded = load_text(triangle + "\"integer indices\" [ 0 1 2 0 1 ]");
+    const LoadedScene loaded = load_text(one_triangle + "\"integer indices\" [ 0 1 2 0 1 ]");
     EXPECT_EQ(std::get<TriangleMesh>(*loaded.scene.surfaces[0].shape).triangle_count(), 1u);
     EXPECT_EQ(warnings_with(loaded, "no multiple of 3"), 1);
     const LoadedScene patches = load_text(
@@ -150,20 +151,20 @@ TEST(LoadShapes, IndicesBeyondTheLastFaceAreLeftOut) {
 
 TEST(LoadShapes, LongerNormalsCountMore) {
     const auto middle = [](const std::string& normals) {
-        const Scene scene(load_text(triangle + "\"normal N\" " + normals).scene);
+        const Scene scene(load_text(one_triangle + "\"normal N\" " + normals).scene);
         return scene.intersect({{0.5f, 0, 1}, {0, 0, -1}})->shading.n;
     };
     EXPECT_LT(length(middle("[ 0 1 1  0 0 3  0 0 1 ]") - normalize(Vec3(0, 1, 4))), 1e-5f);
     EXPECT_LT(length(middle("[ 0 2 2  0 0 6  0 0 0 ]") - normalize(Vec3(0, 1, 4))), 1e-5f);
     // Those of one length have it no longer.
-    const LoadedScene even = load_text(triangle + "\"normal N\" [ 0 0 5  0 5 0  5 0 0 ]");
+    const LoadedScene even = load_text(one_triangle + "\"normal N\" [ 0 0 5  0 5 0  5 0 0 ]");
     EXPECT_EQ(std::get<TriangleMesh>(*even.scene.surfaces[0].shape).normals[1], Vec3(0, 1, 0));
 }
 
 TEST(LoadShapes, MeshesMayChangeTheirShape) {
-    const std::string moving = triangle + "\"point3 P1\" [ 0 0 1  1 0 1  0 1 1 ] ";
+    const std::string moving = one_triangle + "\"point3 P1\" [ 0 0 1  1 0 1  0 1 1 ] ";
     const LoadedScene loaded =
-        load_text("Translate 0 0 7 " + moving + triangle + "ReverseOrientation Scale 2 2 1 " + moving +
+        load_text("Translate 0 0 7 " + moving + one_triangle + "ReverseOrientation Scale 2 2 1 " + moving +
                   "\"normal N\" [ 0 0 1  0 0 1  0 0 1 ] " + "\"normal N1\" [ 0 2 2  0 2 2  0 2 2 ]");
     const auto mesh = [&](std::size_t i) { return std::get<TriangleMesh>(*loaded.scene.surfaces[i].shape); };
     ASSERT_TRUE(mesh(0).is_moving());
@@ -175,10 +176,10 @@ TEST(LoadShapes, MeshesMayChangeTheirShape) {
     EXPECT_EQ(mesh(2).corner_normals(0, 0)[0], Vec3(0, 0, -1));
     EXPECT_LT(length(mesh(2).corner_normals(0, 1)[0] + normalize(Vec3(0, 0.5f, 1))), 1e-6f);
     const auto message = [](const std::string& shape) { return message_of([&] { load_text(shape); }); };
-    EXPECT_PRED2(contains, message(triangle + "\"point3 P1\" [ 0 0 1 ]"), "\"P1\" has 1 values for 3 vertices");
+    EXPECT_PRED2(contains, message(one_triangle + "\"point3 P1\" [ 0 0 1 ]"), "\"P1\" has 1 values for 3 vertices");
     EXPECT_PRED2(contains, message(moving + "\"normal N\" [ 0 0 1  0 0 1  0 0 1 ]"), "\"N1\" has 0 values");
-    EXPECT_PRED2(contains, message(triangle + "\"normal N1\" [ 0 0 1 ]"), "\"N1\" has 1 values");
-    EXPECT_PRED2(contains, message(triangle + "\"point3 P1\" [ 0 0 1e20  1 0 1  0 1 1 ]"), "must stay within");
+    EXPECT_PRED2(contains, message(one_triangle + "\"normal N1\" [ 0 0 1 ]"), "\"N1\" has 1 values");
+    EXPECT_PRED2(contains, message(one_triangle + "\"point3 P1\" [ 0 0 1e20  1 0 1  0 1 1 ]"), "must stay within");
 }
 
 TEST(LoadShapes, PlyMesh) {

@@ -1,5 +1,6 @@
 // Textures of pbrt files where pbrt is not what one would guess.
 #include "load_support.h"
+#include "near.h"
 #include "pbrt_support.h"
 
 #include <tests/support/scratch_folder.h>
@@ -14,13 +15,8 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::expect_near;
 using test::load_text;
-
-void expect_near(const Rgb& a, const Rgb& b, float tolerance = 1e-5f) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(a[c], b[c], tolerance);
-    }
-}
 
 /// A picture of one colour, .25, and an opacity of .75; and one without.
 class LoadedTextures : public testing::Test {

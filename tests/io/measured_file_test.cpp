@@ -1,3 +1,4 @@
+#include "tests/io/errors.h"
 #include "tests/io/load_support.h"
 #include "tests/support/measured_tables.h"
 
@@ -20,6 +21,8 @@
 
 namespace wend {
 namespace {
+
+using test::message_of;
 
 using Tensors = std::map<std::string, Tensor>;
 
@@ -76,15 +79,6 @@ Tensors tensors_of(const MeasuredData& data) {
         }
     }
     return tensors;
-}
-
-std::string message_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
 }
 
 bool holds(const std::string& message, const std::string& text) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t longest = 1600;
 
-std::string message_of(const std::string& world) {
+std::string message_of_line_2(const std::string& world) {
     try {
         load_scene(parse_scene("WorldBegin\n" + world, std::filesystem::temp_directory_path(), "test.pbrt"));
     } catch (const InputError& error) {
@@ -61,7 +61,7 @@ TEST(MessageLength, NamesOfAnyLengthGetReadableErrors) {
           "Texture \"a\" \"spectrum\" \"" + name + "\"", "MakeNamedMedium \"a\" \"string type\" \"" + name + "\"",
           "LightSource \"infinite\" \"spectrum L\" \"" + name + "\"",
           "Shape \"plymesh\" \"string filename\" \"" + name + "\""}) {
-        const std::string message = message_of(world);
+        const std::string message = message_of_line_2(world);
         EXPECT_TRUE(message.starts_with("test.pbrt:2:")) << world.substr(0, 60);
         EXPECT_LT(message.size(), longest) << world.substr(0, 60);
     }

@@ -1,3 +1,4 @@
+#include <tests/io/near.h>
 #include <tests/io/pbrt_support.h>
 #include <wend/io/pbrt/parser.h>
 
@@ -8,14 +9,7 @@
 namespace wend::pbrt {
 namespace {
 
-Description parse(const std::string& text) {
-    return parse_string(text, {}, "t.pbrt");
-}
-
-/// What follows WorldBegin, from line 2 on.
-Description parse_world(const std::string& text) {
-    return parse("WorldBegin\n" + text);
-}
+using test::expect_near;
 
 std::string error_of(const std::string& text) {
     return message_of([&] { parse(text); });
@@ -23,10 +17,6 @@ std::string error_of(const std::string& text) {
 
 std::string world_error_of(const std::string& text) {
     return error_of("WorldBegin\n" + text);
-}
-
-void expect_near(const Vec3& a, const Vec3& b) {
-    EXPECT_LT((a - b).length(), 1e-5f) << a << " and " << b;
 }
 
 TEST(PbrtParser, OptionsBeforeTheWorld) {

@@ -8,14 +8,6 @@
 namespace wend::pbrt {
 namespace {
 
-Description parse(const std::string& text) {
-    return parse_string(text, {}, "t.pbrt");
-}
-
-Description parse_world(const std::string& text) {
-    return parse("WorldBegin\n" + text);
-}
-
 bool warns(const Description& d, const std::string& text) {
     for (const std::string& warning : d.warnings) {
         if (contains(warning, "a part of pbrt-v3") && contains(warning, text)) {

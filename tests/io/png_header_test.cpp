@@ -1,3 +1,4 @@
+#include <tests/io/errors.h>
 #include <wend/io/png_check.h>
 
 #include <gtest/gtest.h>
@@ -26,22 +27,17 @@ std::string png(std::uint32_t width, std::uint32_t height, char depth, char kind
            chunk("IEND", "");
 }
 
-std::string message_of(std::string file) {
-    try {
-        prepare_png(file, Place{"a.png"});
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+std::string header_message_of(std::string file) {
+    return test::message_of([&] { prepare_png(file, Place{"a.png"}); });
 }
 
 TEST(PngHeader, WrongOnesAreNamed) {
-    EXPECT_EQ(message_of(png(2, 1, 8, 2)), "");
-    EXPECT_EQ(message_of(png(2, 1, 16, 6)), "");
-    EXPECT_NE(message_of(png(0, 1, 8, 2)).find("0 x 1"), std::string::npos);
-    EXPECT_NE(message_of(png(0x7fffffff, 0x7fffffff, 8, 2)).find("too large"), std::string::npos);
-    EXPECT_NE(message_of(png(2, 1, 7, 2)).find("7 bits"), std::string::npos);
-    EXPECT_NE(message_of(png(2, 1, 8, 5)).find("kind 5"), std::string::npos);
+    EXPECT_EQ(header_message_of(png(2, 1, 8, 2)), "no error");
+    EXPECT_EQ(header_message_of(png(2, 1, 16, 6)), "no error");
+    EXPECT_NE(header_message_of(png(0, 1, 8, 2)).find("0 x 1"), std::string::npos);
+    EXPECT_NE(header_message_of(png(0x7fffffff, 0x7fffffff, 8, 2)).find("too large"), std::string::npos);
+    EXPECT_NE(header_message_of(png(2, 1, 7, 2)).find("7 bits"), std::string::npos);
+    EXPECT_NE(header_message_of(png(2, 1, 8, 5)).find("kind 5"), std::string::npos);
 }
 
 }  // namespace

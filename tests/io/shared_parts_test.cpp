@@ -16,7 +16,7 @@
 namespace wend {
 namespace {
 
-const std::string square = "\"point3 P\" [ -1 -1 0  1 -1 0  1 1 0  -1 1 0 ] \"integer indices\" [ 0 1 2 0 2 3 ] ";
+const std::string one_square = "\"point3 P\" [ -1 -1 0  1 -1 0  1 1 0  -1 1 0 ] \"integer indices\" [ 0 1 2 0 2 3 ] ";
 const std::string hair = "Shape \"curve\" \"point3 P\" [ 0 0 0  0 1 0  0 2 0  0 3 0 ] ";
 const std::string world =
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" "
@@ -25,11 +25,11 @@ const std::string world =
     "MakeNamedMaterial \"wax\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ] "
     "MakeNamedMaterial \"air\" \"string type\" \"interface\" NamedMaterial \"wax\" "
     "Shape \"trianglemesh\" " +
-    square + "Shape \"sphere\" \"float radius\" 2 \"float spoke\" 1 Shape \"cylinder\" " + hair + hair +
+    one_square + "Shape \"sphere\" \"float radius\" 2 \"float spoke\" 1 Shape \"cylinder\" " + hair + hair +
     "AttributeBegin MediumInterface \"smoke\" \"\" NamedMaterial \"air\" Shape \"sphere\" \"float radius\" 9 "
     "AttributeEnd "
     "ObjectBegin \"tile\" Shape \"trianglemesh\" " +
-    square + "ObjectEnd Translate 0 0 5 ObjectInstance \"tile\" ";
+    one_square + "ObjectEnd Translate 0 0 5 ObjectInstance \"tile\" ";
 
 /// A scene, and others with some of its parameters changed.
 class Shared : public testing::Test {

@@ -1,3 +1,4 @@
+#include <tests/io/near.h>
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
 #include <wend/io/spectrum/blackbody.h>
@@ -16,11 +17,7 @@
 namespace wend {
 namespace {
 
-void expect_near(const Rgb& a, const Rgb& b, float tolerance) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(a[c], b[c], tolerance) << "channel " << c;
-    }
-}
+using test::expect_near;
 
 struct Chromaticity {
     double x, y;

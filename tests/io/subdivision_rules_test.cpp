@@ -1,8 +1,7 @@
 // Closed facts of Catmull and Clark's surfaces, creases, boundaries and texture coordinates.
-#include <wend/io/load/subdivision.h>
-
 #include "load_support.h"
 #include "pbrt_support.h"
+#include "subdivision_support.h"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +19,7 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::limit_of;
 using test::load_text;
 using test::warnings_with;
 
@@ -59,12 +59,6 @@ ControlMesh grid(std::uint32_t n) {
     }
     control.face_sizes.assign(std::size_t{n} * n, 4);
     return control;
-}
-
-TriangleMeshData limit_of(const ControlMesh& control, int levels, const Rules& rules = {}) {
-    const auto mesh = limit_surface(control, rules, levels);
-    EXPECT_TRUE(mesh);
-    return mesh.value_or(TriangleMeshData{});
 }
 
 bool has_point(const TriangleMeshData& mesh, const Vec3& point, float tolerance = 2e-6f) {

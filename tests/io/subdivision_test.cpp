@@ -1,7 +1,6 @@
-#include <wend/io/load/subdivision.h>
-
 #include "load_support.h"
 #include "pbrt_support.h"
+#include "subdivision_support.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +16,7 @@ namespace {
 
 using pbrt::contains;
 using pbrt::message_of;
+using test::limit_of;
 using test::load_text;
 using test::warnings_with;
 
@@ -36,12 +36,6 @@ const ControlMesh octahedron = triangles({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 
 /// What pbrt's "loopsubdiv" follows.
 const SubdivisionRules loop{SubdivisionRules::Scheme::loop, SubdivisionRules::Boundary::edge_only};
 
-TriangleMeshData limit_of(const ControlMesh& control, int levels, const SubdivisionRules& rules = loop) {
-    const auto mesh = limit_surface(control, rules, levels);
-    EXPECT_TRUE(mesh);
-    return mesh.value_or(TriangleMeshData{});
-}
-
 float distance_to_nearest(const TriangleMeshData& mesh, const Vec3& point) {
     float nearest = std::numeric_limits<float>::max();
     for (const Vec3& p : mesh.positions) {
@@ -56,12 +50,12 @@ TEST(Subdivision, VerticesLieOnTheLimitSurfaceAtEveryLevel) {
     const double beta = (0.625 - 0.375 * 0.375) / 4;
     const auto on_octahedron = static_cast<float>(1 - 4 / (4 + 3 / (8 * beta)));
     for (const int levels : {0, 1, 3}) {
-        const TriangleMeshData round = limit_of(tetrahedron, levels);
+        const TriangleMeshData round = limit_of(tetrahedron, levels, loop);
         EXPECT_EQ(round.indices.size(), 3u * 4u << 2 * levels);
         for (const Vec3& v : tetrahedron.positions) {
             EXPECT_LT(distance_to_nearest(round, v * 0.2f), 1e-6f);
         }
-        const TriangleMeshData rounder = limit_of(octahedron, levels);
+        const TriangleMeshData rounder = limit_of(octahedron, levels, loop);
         for (const Vec3& v : octahedron.positions) {
             EXPECT_LT(distance_to_nearest(rounder, v * on_octahedron), 1e-6f);
         }
@@ -69,7 +63,7 @@ TEST(Subdivision, VerticesLieOnTheLimitSurfaceAtEveryLevel) {
 }
 
 TEST(Subdivision, KeepsOrientationAndStaysClosed) {
-    const TriangleMeshData mesh = limit_of(octahedron, 3);
+    const TriangleMeshData mesh = limit_of(octahedron, 3, loop);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const std::uint32_t* corner = &mesh.indices[i];
@@ -94,7 +88,7 @@ TEST(Subdivision, KeepsOrientationAndStaysClosed) {
 TEST(Subdivision, BoundariesTendToSplines) {
     const ControlMesh triangle = triangles({{0, 0, 0}, {6, 0, 0}, {0, 6, 0}}, {0, 1, 2});
     for (const int levels : {0, 2}) {
-        const TriangleMeshData mesh = limit_of(triangle, levels);
+        const TriangleMeshData mesh = limit_of(triangle, levels, loop);
         EXPECT_EQ(mesh.indices.size(), 3u << 2 * levels);
         // 2/3 of the vertex, 1/6 of each neighbour on the boundary.
         EXPECT_LT(distance_to_nearest(mesh, {1, 1, 0}), 1e-5f);
@@ -117,7 +111,7 @@ TEST(Subdivision, TakesMeshesThatAreNoSurface) {
     }
     const ControlMesh fan = triangles(positions, corners);
     for (const int levels : {0, 2}) {
-        const TriangleMeshData mesh = limit_of(fan, levels);
+        const TriangleMeshData mesh = limit_of(fan, levels, loop);
         EXPECT_EQ(mesh.indices.size(), 3u * 6u << 2 * levels);
         for (const Vec3& p : mesh.positions) {
             EXPECT_TRUE(is_finite(p));

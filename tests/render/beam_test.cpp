@@ -16,14 +16,14 @@
 namespace wend {
 namespace {
 
-constexpr float extinction = 0.25f, scattering = 0.2f, mean_cosine = 0.4f;
-constexpr float across = 0.02f, height = 0.5f;  // where the camera's ray passes the lamp by
+constexpr float beam_extinction = 0.25f, beam_scattering = 0.2f, beam_mean_cosine = 0.4f;
+constexpr float across = 0.02f, beam_height = 0.5f;  // where the camera's ray passes the lamp by
 
 /// A lamp above the ray of a picture of one pixel, shining down across it and along it.
 SpotLight lamp() {
-    const Transform light_from_world = Transform::look_at({across, height, 3}, {across, -1, 3.6f}, {1, 0, 0});
+    const Transform light_from_world = Transform::look_at({across, beam_height, 3}, {across, -1, 3.6f}, {1, 0, 0});
     SpotLight spot;
-    spot.position = {across, height, 3};
+    spot.position = {across, beam_height, 3};
     spot.intensity = Rgb(3, 2, 1);
     spot.light_from_world = AffineMap(light_from_world);
     spot.cos_inner = std::cos(0.25f);
@@ -39,7 +39,7 @@ PointLight bright_lamp() {
 /// ∫ σs p I T / r² along the ray from (0, 0, 0) in the direction z, of a lamp at a place; `intensity_of` gives I.
 template <class Intensity>
 Rgb exact(const Vec3& lamp, const Intensity& intensity_of) {
-    const HenyeyGreenstein phase{mean_cosine};
+    const HenyeyGreenstein phase{beam_mean_cosine};
     Rgb sum(0.0f);
     constexpr int steps = 200000;
     constexpr float end = 20;
@@ -48,8 +48,8 @@ Rgb exact(const Vec3& lamp, const Intensity& intensity_of) {
         const Vec3 from_light = p - lamp;
         const float r = length(from_light);
         const Rgb intensity = intensity_of(from_light / r);
-        sum += intensity * (scattering * phase.evaluate(dot(Vec3(0, 0, 1), -from_light / r)) *
-                            std::exp(-extinction * (p.z + r)) / (r * r) * end / steps);
+        sum += intensity * (beam_scattering * phase.evaluate(dot(Vec3(0, 0, 1), -from_light / r)) *
+                            std::exp(-beam_extinction * (p.z + r)) / (r * r) * end / steps);
     }
     return sum;
 }
@@ -61,8 +61,8 @@ Rgb exact() {
 Moments rendered(const char* preset, int samples, int channel, bool has_wall = true,
                  const std::vector<Light>& others = {}) {
     SceneDescription s = test::scene_with_camera({0, 0, 0}, {0, 0, 1}, 0.001f, 1);
-    const Rgb absorbed(extinction - scattering);
-    s.camera_medium = test::add_homogeneous(s, absorbed, Rgb(scattering), mean_cosine);
+    const Rgb absorbed(beam_extinction - beam_scattering);
+    s.camera_medium = test::add_homogeneous(s, absorbed, Rgb(beam_scattering), beam_mean_cosine);
     const Vec3 corner(-50, -50, has_wall ? 20 : -20);
     test::add_parallelogram(s, corner, {100, 0, 0}, {0, 100, 0}, test::add_diffuse(s, Rgb(0.0f)));
     s.lights.push_back(lamp());

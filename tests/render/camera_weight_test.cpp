@@ -11,23 +11,23 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 8;
+constexpr int lens_resolution = 8;
 
 Camera camera_with_lenses() {
     // A wide opening, and a ring that takes light from the edge of the film.
     const std::vector<LensSurface> surfaces = {{0.1, 2e-3, 1.5, 0.03}, {-0.1, 0.03, 1, 0.02}, {1e4, 0.07, 1, 0.014}};
     const auto lenses = std::make_shared<const LensSystem>(surfaces, 2, 0.03);
-    return Camera(RealisticCamera{lenses, Vec2(0.03f * std::sqrt(2.0f))}, Transform::translate(0, 0, -2), resolution,
-                  resolution);
+    return Camera(RealisticCamera{lenses, Vec2(0.03f * std::sqrt(2.0f))}, Transform::translate(0, 0, -2),
+                  lens_resolution, lens_resolution);
 }
 
-Image picture_of(const Scene& scene, const char* preset, int samples, std::uint64_t seed) {
+Image picture_through_lenses(const Scene& scene, const char* preset, int samples, std::uint64_t seed) {
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.samples = samples;
     settings.max_depth = 20;
     settings.seed = seed;
-    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film film({lens_resolution, lens_resolution}, {{0, 0}, {lens_resolution, lens_resolution}});
     render(scene, film, settings);
     return film.beauty();
 }
@@ -35,7 +35,7 @@ Image picture_of(const Scene& scene, const char* preset, int samples, std::uint6
 test::ChannelMeans rendered(const Scene& scene, const char* preset, int samples, std::uint64_t renders) {
     test::ChannelMeans means;
     for (std::uint64_t seed = 1; seed <= renders; ++seed) {
-        means.add(picture_of(scene, preset, samples, seed));
+        means.add(picture_through_lenses(scene, preset, samples, seed));
     }
     return means;
 }
@@ -49,7 +49,7 @@ TEST(CameraWeight, AnEvenSkyIsAsBrightAsTheMeanOfTheWeights) {
     Moments weights;
     Pcg32 random(1);
     for (int i = 0; i < 1'000'000; ++i) {
-        const Vec2 film = random.uniform2() * static_cast<float>(resolution);
+        const Vec2 film = random.uniform2() * static_cast<float>(lens_resolution);
         weights.add(double{scene.camera().ray(film, random.uniform2()).weight});
     }
     for (int c = 0; c < 3; ++c) {
@@ -71,9 +71,10 @@ TEST(SlowCameraWeight, GuidedFogAgrees) {
     const Scene scene(std::move(description));
     const auto expected =
         test::kept_means("camera_weight", [&] { return rendered(scene, "classical", 2048, 16).known(); });
-    test::expect_known(test::means_until_seen(0.03, expected, 16,
-                                              [&](std::uint64_t seed) { return picture_of(scene, "full", 256, seed); }),
-                       expected, 0.03);
+    test::expect_known(
+        test::means_until_seen(0.03, expected, 16,
+                               [&](std::uint64_t seed) { return picture_through_lenses(scene, "full", 256, seed); }),
+        expected, 0.03);
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace wend {
 namespace {
 
-constexpr int side = 48;
+constexpr int lit_floor_side = 48;
 
 /// A floor under a lamp that is seen, a thousand times as bright as the floor.
 SceneDescription lamp_over_floor() {
-    SceneDescription s = test::scene_with_camera({0, 9, 0.5f}, {0, 0, 0}, 40, side);
+    SceneDescription s = test::scene_with_camera({0, 9, 0.5f}, {0, 0, 0}, 40, lit_floor_side);
     test::add_box(s, Box3(Vec3(-9, -1, -9), Vec3(9, 0, 9)), test::add_diffuse(s, Rgb(0.5f)));
     test::add_lamp(s, {-0.5f, 3, -0.5f}, 1, Rgb(100.0f), test::add_diffuse(s, Rgb(0.0f)));
     return s;
@@ -24,7 +24,7 @@ TEST(ChosenKinds, WhatIsAsGoodIsCalledSoWhereALampIsSeen) {
     const Scene scene(lamp_over_floor());
     for (const char* preset : {"full", "full+uniform"}) {
         for (const int samples : {15, 63}) {
-            Film film({side, side}, {{0, 0}, {side, side}});
+            Film film({lit_floor_side, lit_floor_side}, {{0, 0}, {lit_floor_side, lit_floor_side}});
             RenderSettings settings;
             settings.samples = samples;
             settings.preset = parse_preset(preset);

@@ -14,8 +14,8 @@ namespace {
 
 using test::Measured;
 
-constexpr float absorption = 1.5f;
-constexpr float emitter = 2.0f;
+constexpr float flame_absorption = 1.5f;
+constexpr float flame_radiance = 2.0f;
 const Box3 flame(Vec3(0.6f, -0.3f, 0.5f), Vec3(1.1f, 0.4f, 1.6f));
 
 MediumId add_glowing_grid(SceneDescription& s, const Box3& box) {
@@ -28,8 +28,8 @@ MediumId add_glowing_grid(SceneDescription& s, const Box3& box) {
                                        Transform::scale((n - 3) / size.x, (n - 3) / size.y, (n - 3) / size.z) *
                                        Transform::translate(-box.min.x, -box.min.y, -box.min.z);
     auto emission = std::make_shared<GridEmission>();
-    emission->radiance = Rgb(emitter);
-    s.media.push_back(GridMedium(grid, index_from_world, Box3(Vec3(1), Vec3(n - 2)), Rgb(absorption), Rgb(0.0f),
+    emission->radiance = Rgb(flame_radiance);
+    s.media.push_back(GridMedium(grid, index_from_world, Box3(Vec3(1), Vec3(n - 2)), Rgb(flame_absorption), Rgb(0.0f),
                                  PhaseFunction(), emission));
     return static_cast<MediumId>(s.media.size()) - 1;
 }
@@ -47,7 +47,7 @@ Chord through_flame(const Ray& ray) {
 }
 
 float glowing(float length) {
-    return emitter * -std::expm1(-absorption * length);
+    return flame_radiance * -std::expm1(-flame_absorption * length);
 }
 
 /// ∫ L(ω) f(ω) dω over all directions from a point of what a shape sends there; f is to be smooth.
@@ -135,7 +135,7 @@ TEST(EmissionSampler, SurroundsTheFloor) {
         return clip_to_box(room, ray.origin, ray.direction, t0, t1) ? Chord{t1, 0} : Chord{};
     };
     const Measured m = test::measure_radiance(scene, {p + Vec3(0, 0, 0.8f), {0, 0, -1}}, {120000, 0.0023}, 1);
-    expect_agrees(m, static_cast<double>(glowing(0.8f)) + std::exp(-absorption * 0.8f) * reflected(p, around));
+    expect_agrees(m, static_cast<double>(glowing(0.8f)) + std::exp(-flame_absorption * 0.8f) * reflected(p, around));
 }
 
 TEST(EmissionSampler, LightsFog) {
@@ -182,7 +182,7 @@ TEST(EmissionSampler, IsALightOfTheSceneWhereItIsUsed) {
     EXPECT_EQ(scene.medium_light(glow), 1);
     EXPECT_EQ(scene.description().lights.size(), 1u);
     EXPECT_NEAR(light_power(scene.lights()[1], 1),
-                4 * pi * absorption * emitter * flame.size().x * flame.size().y * flame.size().z, 1e-2);
+                4 * pi * flame_absorption * flame_radiance * flame.size().x * flame.size().y * flame.size().z, 1e-2);
 }
 
 }  // namespace

@@ -18,18 +18,20 @@
 namespace wend {
 namespace {
 
-constexpr float albedos[] = {1, 0.99f, 0.9f, 0.5f};
-constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
-constexpr float sizes[] = {1, 10, 30};  // in mean free paths
 enum class Inside { nothing, lamp, other_medium, glass, other_medium_in_glass };
-constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "auto"};
-constexpr const char* samplings[] = {"classical", "direction", "splitting", "full"};
-constexpr int passes[] = {4, 16, 64};  // samples per pixel
 
 constexpr float ior = 1.4f;
 constexpr float ior_inside = 1.2f;
 
 struct Equilibrium {
+    static constexpr float albedos[] = {1, 0.99f, 0.9f, 0.5f};
+    static constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
+    static constexpr float sizes[] = {1, 10, 30};  // in mean free paths
+    static constexpr const char* subsurfaces[] = {"classical", "dwivedi", "incident", "auto"};
+    static constexpr const char* samplings[] = {"classical", "direction", "splitting", "full"};
+    static constexpr int passes[] = {4, 16, 64};  // samples per pixel
+    static constexpr int samples_of_render = 1 << 10;
+
     float albedo, g, size;
     bool refracts, is_cube, coloured, camera_inside;
     Inside inside;
@@ -123,15 +125,13 @@ Scene scene_of(const Equilibrium& e, int resolution) {
     return Scene(std::move(s));
 }
 
-constexpr int samples_of_render = 1 << 10;
-
 class Equilibria : public testing::TestWithParam<Equilibrium> {};
 
 TEST_P(Equilibria, AreAsBrightAsTheSky) {
     const Equilibrium& e = GetParam();
     const double right = e.camera_inside && e.refracts ? static_cast<double>(sqr(ior)) : 1;
-    const int resolution =
-        std::max(e.least_resolution, static_cast<int>(std::lround(std::sqrt(samples_of_render / e.samples))));
+    const int resolution = std::max(
+        e.least_resolution, static_cast<int>(std::lround(std::sqrt(Equilibrium::samples_of_render / e.samples))));
     const Scene scene = scene_of(e, resolution);
     RenderSettings settings;
     settings.preset = parse_preset(e.sampling);

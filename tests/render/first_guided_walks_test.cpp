@@ -13,7 +13,7 @@ namespace wend {
 namespace {
 
 /// Of a picture of so many pixels that a few guided walks come before the trial.
-constexpr int large = 80;
+constexpr int tried_side = 80;
 
 /// A room full of coloured fog that scatters back, with a lamp, and a screen before it.
 Scene foggy_room(int side) {
@@ -57,11 +57,11 @@ TEST(FirstGuidedWalks, ComeAfterClassicalOnesInFogWhereARenderIsTooShortForThem)
 
 TEST(FirstGuidedWalksSlow, LeaveTheMeanAsItIs) {
     const auto expected = test::kept_means("first_guided_walks", [&] {
-        const Scene scene = foggy_room(large);
+        const Scene scene = foggy_room(tried_side);
         test::ChannelMeans means;
         for (std::uint64_t seed = 1000; seed < 1012; ++seed) {
             Image picture;
-            render_once(scene, large, "classical", 64, seed, picture);
+            render_once(scene, tried_side, "classical", 64, seed, picture);
             means.add(picture);
         }
         return means.known();
@@ -69,8 +69,8 @@ TEST(FirstGuidedWalksSlow, LeaveTheMeanAsItIs) {
     struct Budget {
         int samples, seeds, side;
     };
-    for (const Budget budget :
-         {Budget{4, 48, large}, Budget{7, 32, large}, Budget{16, 24, large}, Budget{64, 24, large / 2}}) {
+    for (const Budget budget : {Budget{4, 48, tried_side}, Budget{7, 32, tried_side}, Budget{16, 24, tried_side},
+                                Budget{64, 24, tried_side / 2}}) {
         SCOPED_TRACE(budget.samples);
         const Scene scene = foggy_room(budget.side);
         RenderStatistics last;

@@ -12,23 +12,23 @@
 namespace wend {
 namespace {
 
-constexpr int side = 8;
-constexpr float height = 2, reflectance = 0.6f;
+constexpr int spot_side = 8;
+constexpr float fog_height = 2, floor_reflectance = 0.6f;
 const Vec3 sun = normalize(Vec3(0.3f, 4, 0.8f));
 
 enum class First { fog, floor };
 
 /// Seen along (0, 5, -6) + `above` the origin; the floor is at y = 0, the fog begins at `gap`.
 Scene fog_on_floor(First first, float gap, const Rgb& absorption, const Rgb& scattering, float fov, float above = 0) {
-    SceneDescription s = test::scene_with_camera({0, 5 + above, -6}, {0, above, 0}, fov, side);
+    SceneDescription s = test::scene_with_camera({0, 5 + above, -6}, {0, above, 0}, fov, spot_side);
     const MediumId fog = test::add_homogeneous(s, absorption, scattering);
     const auto add_fog = [&] {
-        test::add_box(s, Box3(Vec3(-1.5f, gap, -3), Vec3(1.5f, gap + height, 3)), test::add_interface(s), fog);
+        test::add_box(s, Box3(Vec3(-1.5f, gap, -3), Vec3(1.5f, gap + fog_height, 3)), test::add_interface(s), fog);
     };
     if (first == First::fog) {
         add_fog();
     }
-    test::add_parallelogram(s, {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, test::add_diffuse(s, Rgb(reflectance)));
+    test::add_parallelogram(s, {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, test::add_diffuse(s, Rgb(floor_reflectance)));
     if (first == First::floor) {
         add_fog();
     }
@@ -39,7 +39,7 @@ Scene fog_on_floor(First first, float gap, const Rgb& absorption, const Rgb& sca
 Moments mean_of(const Scene& scene, const char* preset, int samples) {
     Moments result;
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
-        Film film({side, side}, {{0, 0}, {side, side}});
+        Film film({spot_side, spot_side}, {{0, 0}, {spot_side, spot_side}});
         RenderSettings settings;
         settings.samples = samples;
         settings.preset = parse_preset(preset);
@@ -49,7 +49,7 @@ Moments mean_of(const Scene& scene, const char* preset, int samples) {
         for (const Rgb& pixel : film.beauty().pixels) {
             sum += static_cast<double>(pixel.r);
         }
-        result.add(sum / (side * side));
+        result.add(sum / (spot_side * spot_side));
     }
     return result;
 }
@@ -57,9 +57,9 @@ Moments mean_of(const Scene& scene, const char* preset, int samples) {
 // Down to a spot of 0.1 mm, if the box is 2 m high, around the origin.
 TEST(FogOnFloor, AbsorbsOnTheWayToTheFloorAndBack) {
     constexpr float absorption = 0.7f;
-    const float towards = height / normalize(Vec3(0, 5, -6)).y, away = height / sun.y;
+    const float towards = fog_height / normalize(Vec3(0, 5, -6)).y, away = fog_height / sun.y;
     const double expected =
-        static_cast<double>(3 * reflectance / pi * sun.y * std::exp(-absorption * (towards + away)));
+        static_cast<double>(3 * floor_reflectance / pi * sun.y * std::exp(-absorption * (towards + away)));
     for (const First first : {First::fog, First::floor}) {
         for (const float gap : {0.0f, 1e-6f, 1e-3f, -1e-3f}) {
             for (const float fov : {0.5f, 0.05f, 0.0007f}) {

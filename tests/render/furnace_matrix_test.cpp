@@ -28,17 +28,21 @@
 namespace wend {
 namespace {
 
-constexpr float albedos[] = {1, 0.999f, 0.99f, 0.9f};
-constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
-constexpr float sizes[] = {0.3f, 3, 10, 100};  // in mean free paths
 enum class Boundary { matched, smooth, rough };
 enum class Body { ball, thin_slab, cube, two_boxes };
-// Two of them twice: the references are those of the pairs of seven, of which some have become dispensable.
-constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident", "closest", "auto", "auto"};
-constexpr const char* samplings[] = {"classical", "scatter", "distance", "direction", "roulette", "splitting", "full"};
-constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
 
 struct Furnace {
+    static constexpr float albedos[] = {1, 0.999f, 0.99f, 0.9f};
+    static constexpr float mean_cosines[] = {-0.5f, 0, 0.5f, 0.9f};
+    static constexpr float sizes[] = {0.3f, 3, 10, 100};  // in mean free paths
+    // Two of them twice: the references are those of the pairs of seven, of which some have become dispensable.
+    static constexpr const char* subsurfaces[] = {"classical", "dwivedi", "closest", "incident",
+                                                  "closest",   "auto",    "auto"};
+    static constexpr const char* samplings[] = {"classical", "scatter",   "distance", "direction",
+                                                "roulette",  "splitting", "full"};
+    static constexpr int passes[] = {4, 16, 64, 256};  // samples per pixel
+    static constexpr int samples_of_render = 1 << 12;
+
     float albedo, g, size;
     Boundary boundary;
     Body body;
@@ -86,8 +90,9 @@ std::vector<std::vector<int>> furnace_rows() {
     const auto rows = test::covering_array(Furnace::levels());
     auto told_apart = rows;
     for (auto& row : told_apart) {
-        const std::string_view name = subsurfaces[row[7]];
-        row[7] = static_cast<int>(std::find(std::begin(subsurfaces), std::end(subsurfaces), name) - subsurfaces);
+        const std::string_view name = Furnace::subsurfaces[row[7]];
+        row[7] = static_cast<int>(std::find(std::begin(Furnace::subsurfaces), std::end(Furnace::subsurfaces), name) -
+                                  Furnace::subsurfaces);
     }
     const auto needed = test::needed_rows(told_apart);
     std::vector<std::vector<int>> result;
@@ -172,11 +177,9 @@ struct Effort {
     int most_renders;
 };
 
-constexpr int samples_of_render = 1 << 12;
-
 test::ChannelMeans measure(const Furnace& f, const Effort& effort) {
-    const int resolution =
-        std::max(f.least_resolution, static_cast<int>(std::lround(std::sqrt(samples_of_render / effort.samples))));
+    const int resolution = std::max(
+        f.least_resolution, static_cast<int>(std::lround(std::sqrt(Furnace::samples_of_render / effort.samples))));
     RenderSettings settings;
     settings.preset = parse_preset(effort.sampling);
     settings.subsurface = parse_subsurface(effort.subsurface);

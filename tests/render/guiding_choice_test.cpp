@@ -12,8 +12,8 @@
 namespace wend {
 namespace {
 
-constexpr std::size_t classical = 0, survival = 1, directions = 2;
-constexpr double many = GuidingChoice::fewest_pixels;
+constexpr std::size_t classical_kind = 0, survival = 1, directions = 2;
+constexpr double many_pixels = GuidingChoice::fewest_pixels;
 
 /// Walks that each brought the pixel's value but for an error of this variance; and, gone the same ways unguided, of
 /// another, where that is known.
@@ -25,7 +25,9 @@ WalkTally walks(double count, double variance, double work, double unguided = 0)
 std::vector<WalkTallies> agreeing(std::vector<WalkTallies> tiles) {
     for (WalkTallies& tile : tiles) {
         for (WalkTally& kind : tile) {
-            kind.unguided = tile[classical].walks > 0 ? kind.walks * tile[classical].square / tile[classical].walks : 0;
+            kind.unguided = tile[classical_kind].walks > 0
+                                ? kind.walks * tile[classical_kind].square / tile[classical_kind].walks
+                                : 0;
         }
     }
     return tiles;
@@ -33,7 +35,7 @@ std::vector<WalkTallies> agreeing(std::vector<WalkTallies> tiles) {
 
 /// Of a scene without fog, taught by classical walks, with every kind about to be tried.
 GuidingChoice untried(std::size_t tiles) {
-    GuidingChoice choice(parse_preset("full"), {}, false, tiles, many);
+    GuidingChoice choice(parse_preset("full"), {}, false, tiles, many_pixels);
     const std::vector<WalkTallies> nothing(tiles);
     choice.learn(nothing, 1, true);
     choice.learn(nothing, warm_up_samples, true);
@@ -49,7 +51,7 @@ GuidingChoice tried(std::size_t tiles, const std::vector<WalkTallies>& shown) {
 
 TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
     for (const char* name : {"classical", "direction", "distance+direction+roulette+splitting"}) {
-        GuidingChoice choice(parse_preset(name), {.flights = true, .dense_media = true}, false, 3, many);
+        GuidingChoice choice(parse_preset(name), {.flights = true, .dense_media = true}, false, 3, many_pixels);
         ASSERT_EQ(choice.kinds().size(), 1u) << name;
         EXPECT_EQ(choice.kinds()[0], (WalkKind{parse_preset(name), true}));
         const std::vector<WalkTallies> shown(3, {walks(1000, 1, 1)});
@@ -61,21 +63,21 @@ TEST(GuidingChoice, APresetThatIsNamedInFullIsNotChosenFrom) {
 }
 
 TEST(GuidingChoice, FewPixelsAreGuidedInAllWays) {
-    const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many - 1);
+    const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many_pixels - 1);
     ASSERT_EQ(choice.kinds().size(), 1u);
     EXPECT_EQ(choice.kinds()[0], (WalkKind{parse_preset("distance+direction+roulette+splitting"), true}));
 }
 
 TEST(GuidingChoice, FlightsAreGuidedInFogAlone) {
-    EXPECT_EQ(GuidingChoice(parse_preset("full"), {}, false, 1, many).kinds().size(), 3u);
-    const GuidingChoice in_fog(parse_preset("full"), {.flights = true}, false, 1, many);
+    EXPECT_EQ(GuidingChoice(parse_preset("full"), {}, false, 1, many_pixels).kinds().size(), 3u);
+    const GuidingChoice in_fog(parse_preset("full"), {.flights = true}, false, 1, many_pixels);
     ASSERT_EQ(in_fog.kinds().size(), 4u);
-    EXPECT_TRUE(in_fog.kinds()[classical].is_classical());
+    EXPECT_TRUE(in_fog.kinds()[classical_kind].is_classical());
     EXPECT_EQ(in_fog.kinds()[3], (WalkKind{parse_preset("distance+direction+roulette+splitting"), false}));
 }
 
 TEST(GuidingChoice, GuidesOfDenseMediaAreAskedFromTheStart) {
-    const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many);
+    const GuidingChoice choice(parse_preset("full"), {.dense_media = true}, false, 1, many_pixels);
     ASSERT_EQ(choice.kinds().size(), 3u);
     EXPECT_EQ(choice.kinds()[0], (WalkKind{Preset(), true}));
     EXPECT_EQ(choice.kinds()[2], (WalkKind{parse_preset("direction+roulette+splitting"), true}));
@@ -84,7 +86,7 @@ TEST(GuidingChoice, GuidesOfDenseMediaAreAskedFromTheStart) {
 }
 
 TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
-    GuidingChoice choice(parse_preset("full"), {}, false, 2, many);
+    GuidingChoice choice(parse_preset("full"), {}, false, 2, many_pixels);
     const std::vector<WalkTallies> nothing(2);
     EXPECT_FALSE(choice.guides(8));
     EXPECT_EQ(choice.shares(1, 8), WalkShares{1});
@@ -92,7 +94,7 @@ TEST(GuidingChoice, BeginsWithClassicalWalksAndThenTriesAll) {
     EXPECT_FALSE(choice.learn(nothing, warm_up_samples - 1, true));
     EXPECT_TRUE(choice.learn(nothing, warm_up_samples, true));
     EXPECT_TRUE(choice.is_trial());
-    for (const std::size_t kind : {classical, survival, directions}) {
+    for (const std::size_t kind : {classical_kind, survival, directions}) {
         EXPECT_FLOAT_EQ(choice.shares(1, 8)[kind], 1.0f / 3);
     }
     // Too short to try all: that pass shows nothing of the others, and the trial is still to come.
@@ -116,7 +118,7 @@ TEST(GuidingChoice, AFewWalksOfOtherKindsComeBeforeTheTrial) {
         return shares[directions];
     };
     constexpr double small = 160 * 90, large = 1920 * 1080;
-    EXPECT_EQ(probed(many, 4), 0) << "too few to show anything";
+    EXPECT_EQ(probed(many_pixels, 4), 0) << "too few to show anything";
     EXPECT_EQ(probed(small, 2), 0) << "or too dear";
     EXPECT_NEAR(probed(small, 4), 1.0 / 12, 1e-6);
     // While all of the render may be a few samples, fewer.
@@ -126,7 +128,7 @@ TEST(GuidingChoice, AFewWalksOfOtherKindsComeBeforeTheTrial) {
 
 TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlone) {
     const auto trial_after = [](double classical_variance) {
-        GuidingChoice choice(parse_preset("full"), {}, false, 1, many);
+        GuidingChoice choice(parse_preset("full"), {}, false, 1, many_pixels);
         choice.learn(std::vector<WalkTallies>(1), 1, true);
         choice.learn(agreeing({{walks(1000, classical_variance, 1), walks(100, 1, 1), walks(100, 2, 1)}}),
                      warm_up_samples, true);
@@ -134,11 +136,11 @@ TEST(GuidingChoice, WhereClassicalWalksAreFarBehindAtFirstDirectionsAreTriedAlon
         return choice.shares(0, 8);
     };
     EXPECT_EQ(trial_after(10), (WalkShares{0, 0, 1}));
-    EXPECT_FLOAT_EQ(trial_after(2)[classical], 1.0f / 3);
+    EXPECT_FLOAT_EQ(trial_after(2)[classical_kind], 1.0f / 3);
 }
 
 TEST(GuidingChoice, StartsGuidedWhereThereIsAFieldFromTheStart) {
-    const GuidingChoice choice(parse_preset("full"), {}, true, 1, many);
+    const GuidingChoice choice(parse_preset("full"), {}, true, 1, many_pixels);
     EXPECT_TRUE(choice.guides(1));
     EXPECT_EQ(choice.shares(0, 1)[directions], 1);
 }
@@ -149,7 +151,7 @@ TEST(GuidingChoice, TakesTheLeastSquaredErrorTimesWork) {
     EXPECT_EQ(guided.shares(0, 8), (WalkShares{0, 0, 1}));
     // A little lower at twice the work.
     GuidingChoice unguided = tried(1, {{walks(1000, 1, 3), walks(1000, 0.99, 8), walks(1000, 0.9, 9)}});
-    EXPECT_GT(unguided.shares(0, 8)[classical], 0.98f);
+    EXPECT_GT(unguided.shares(0, 8)[classical_kind], 0.98f);
     EXPECT_EQ(unguided.shares(0, 8)[directions], 0);
 }
 
@@ -158,7 +160,7 @@ TEST(GuidingChoice, ClassicalWalksThatHaveMissedWhatGuidedOnesMeetAreNotTakenToB
     const std::vector<WalkTallies> shown = {{walks(1000, 1, 1), walks(1000, 2, 1, 30), walks(1000, 3, 5, 50)}};
     GuidingChoice choice = untried(1);
     choice.learn(shown, 15, false);
-    EXPECT_EQ(choice.shares(0, 8)[classical], 0);
+    EXPECT_EQ(choice.shares(0, 8)[classical_kind], 0);
     EXPECT_GT(choice.shares(0, 8)[survival], 0.9f) << "each kind is judged by its own walks";
     // What guided walks show of a tile counts there more than what they show elsewhere.
     const WalkTallies easy = {walks(1e5, 1, 1), walks(1e5, 1, 1, 1), walks(1e5, 2, 5, 1)};
@@ -174,7 +176,7 @@ TEST(GuidingChoice, TriesOnWhatIsCloseWhereItsNoiseIsNotSeen) {
     const WalkShares shares = choice.shares(0, 32);
     EXPECT_FLOAT_EQ(shares[directions], 1.0f / 16);
     // 3 times the squared error: a share s adds 2 s to that of the pixel.
-    EXPECT_NEAR(shares[classical], 0.02 / 2, 1e-6);
+    EXPECT_NEAR(shares[classical_kind], 0.02 / 2, 1e-6);
     EXPECT_FLOAT_EQ(std::accumulate(shares.begin(), shares.end(), 0.0f), 1);
 }
 
@@ -200,7 +202,7 @@ TEST(GuidingChoice, DirectionsThatAreBeingLearnedAreTakenToGetBetter) {
     learning.learn(shown, 15, true);
     taught.learn(shown, 15, false);
     EXPECT_GT(learning.shares(0, 8)[directions], 0.9f);
-    EXPECT_GT(taught.shares(0, 8)[classical], 0.9f);
+    EXPECT_GT(taught.shares(0, 8)[classical_kind], 0.9f);
 }
 
 TEST(GuidingChoice, TheBestGuidedKindIsWatched) {
@@ -224,7 +226,7 @@ TEST(GuidingChoice, KindsAreComparedInTheSameTiles) {
     EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
     EXPECT_GT(choice.shares(1, 8)[directions], 0.9f);
     const auto means = choice.means();
-    EXPECT_NEAR(means[classical].square / means[directions].square, 4, 1e-3);
+    EXPECT_NEAR(means[classical_kind].square / means[directions].square, 4, 1e-3);
     EXPECT_NEAR(means[survival].work / means[directions].work, 2, 1e-3);
 }
 
@@ -237,7 +239,7 @@ TEST(GuidingChoice, WhatHasFoundNothingIsNotTakenToBeExact) {
     // What lacks no more than a few bright walks may bring keeps its variance.
     WalkTally dim = walks(1000, 1, 1);
     dim.value = 850;
-    EXPECT_GT(tried(1, {{dim, walks(1000, 5, 8), walks(1000, 5, 8)}}).shares(0, 8)[classical], 0.8f);
+    EXPECT_GT(tried(1, {{dim, walks(1000, 5, 8), walks(1000, 5, 8)}}).shares(0, 8)[classical_kind], 0.8f);
 }
 
 TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
@@ -245,7 +247,7 @@ TEST(GuidingChoice, TilesDifferWhereTheyHaveShownEnough) {
     const WalkTallies unguided = {walks(1e5, 1, 3), walks(1e5, 9, 3), walks(1e5, 10, 3)};
     const GuidingChoice choice = tried(3, {guided, unguided, {}});
     EXPECT_GT(choice.shares(0, 8)[directions], 0.9f);
-    EXPECT_GT(choice.shares(1, 8)[classical], 0.9f);
+    EXPECT_GT(choice.shares(1, 8)[classical_kind], 0.9f);
     // Where nothing has been shown the picture counts: there both are alike.
     EXPECT_LT(choice.shares(2, 8)[survival], 0.07f);
 }

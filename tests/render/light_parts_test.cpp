@@ -16,7 +16,7 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 12;
+constexpr int parts_resolution = 12;
 
 enum Part { emission, background, direct, indirect, volume };
 
@@ -33,12 +33,12 @@ PartsPlan all_parts(const Scene& scene) {
     return plan;
 }
 
-Film new_film(const PartsPlan& plan = {}, bool halves = false) {
-    return Film({resolution, resolution}, {{0, 0}, {resolution, resolution}},
+Film film_of_parts(const PartsPlan& plan = {}, bool halves = false) {
+    return Film({parts_resolution, parts_resolution}, {{0, 0}, {parts_resolution, parts_resolution}},
                 {std::vector<std::string>(static_cast<std::size_t>(plan.count), "part"), halves, false});
 }
 
-RenderSettings settings_of(const char* preset, int samples) {
+RenderSettings settings_of_parts(const char* preset, int samples) {
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.samples = samples;
@@ -91,7 +91,7 @@ struct Rendered {
 
 Rendered rendered(const Scene& scene, RenderSettings settings) {
     settings.parts = all_parts(scene);
-    Film film = new_film(settings.parts);
+    Film film = film_of_parts(settings.parts);
     render(scene, film, settings);
     Rendered result{film.picture(), {}};
     result.parts = parts_of(result.picture);
@@ -99,8 +99,8 @@ Rendered rendered(const Scene& scene, RenderSettings settings) {
 }
 
 /// Fog that glows, a dense block, a mirror ball, a lamp and a sky: light comes in all ways.
-SceneDescription table_top() {
-    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 40, resolution);
+SceneDescription glowing_table_top() {
+    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 40, parts_resolution);
     HomogeneousMedium fog;
     fog.absorption = Rgb(0.02f);
     fog.scattering = Rgb(0.1f);
@@ -121,8 +121,8 @@ SceneDescription table_top() {
 class LightPartsOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(LightPartsOf, APictureAddUpToItAndLeaveItAsItIs) {
-    const Scene scene(table_top());
-    const RenderSettings settings = settings_of(GetParam(), 31);
+    const Scene scene(glowing_table_top());
+    const RenderSettings settings = settings_of_parts(GetParam(), 31);
     const Rendered all = rendered(scene, settings);
     ASSERT_EQ(all.parts.size(), path_parts + scene.lights().size() + 1);
     for (std::size_t part = 0; part < path_parts; ++part) {
@@ -139,7 +139,7 @@ TEST_P(LightPartsOf, APictureAddUpToItAndLeaveItAsItIs) {
         ASSERT_NEAR(by_path, beauty, contributions * 0x1p-25 * beauty) << i;
         ASSERT_NEAR(by_light, beauty, contributions * 0x1p-25 * beauty) << i;
     }
-    Film plain = new_film();
+    Film plain = film_of_parts();
     render(scene, plain, settings);
     EXPECT_EQ(all.picture.image.pixels, plain.beauty().pixels);
 }
@@ -148,45 +148,45 @@ INSTANTIATE_TEST_SUITE_P(PresetsSlow, LightPartsOf, testing::Values("classical",
 
 TEST(LightParts, AreByWhatPathsDid) {
     // The sky alone, behind what absorbs.
-    SceneDescription sky = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 30, resolution);
+    SceneDescription sky = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 30, parts_resolution);
     test::add_box(sky, Box3(Vec3(-9, -9, 0), Vec3(9, 9, 1)), test::add_interface(sky),
                   test::add_homogeneous(sky, Rgb(0.5f), Rgb(0.0f)));
     test::add_environment(sky, Rgb(1.0f));
-    const Rendered seen = rendered(Scene(sky), settings_of("classical", 4));
+    const Rendered seen = rendered(Scene(sky), settings_of_parts("classical", 4));
     EXPECT_FLOAT_EQ(static_cast<float>(seen.mean(background)), static_cast<float>(seen.mean()));
     EXPECT_EQ(seen.mean(emission) + seen.mean(direct) + seen.mean(indirect) + seen.mean(volume), 0);
 
     // A wall under a point light: nothing comes back twice.
-    SceneDescription wall = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 30, resolution);
+    SceneDescription wall = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 30, parts_resolution);
     test::add_parallelogram(wall, {-9, -9, 0}, {0, 18, 0}, {18, 0, 0}, test::add_diffuse(wall, Rgb(0.5f)));
     wall.lights.push_back(PointLight{{0, 0, -4}, Rgb(1.0f)});
-    const Rendered lit = rendered(Scene(wall), settings_of("classical", 4));
+    const Rendered lit = rendered(Scene(wall), settings_of_parts("classical", 4));
     EXPECT_FLOAT_EQ(static_cast<float>(lit.mean(direct)), static_cast<float>(lit.mean()));
     EXPECT_EQ(lit.mean(emission) + lit.mean(background) + lit.mean(indirect) + lit.mean(volume), 0);
     // Two of them, face to face, with the light between: the rest is indirect.
     test::add_parallelogram(wall, {-9, -9, -6}, {18, 0, 0}, {0, 18, 0}, 0);
-    const Rendered twice = rendered(Scene(wall), settings_of("classical", 16));
+    const Rendered twice = rendered(Scene(wall), settings_of_parts("classical", 16));
     EXPECT_GT(twice.mean(indirect), 0.1 * twice.mean(direct));
     EXPECT_EQ(twice.mean(volume), 0);
 
     // Fog under a lamp: whatever its paths do afterwards.
-    SceneDescription fog = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 10, resolution);
+    SceneDescription fog = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 10, parts_resolution);
     test::add_box(fog, Box3(Vec3(-9, -9, 0), Vec3(9, 9, 1)), test::add_interface(fog),
                   test::add_homogeneous(fog, Rgb(0.0f), Rgb(3.0f)));
     fog.lights.push_back(PointLight{{0, 0, -4}, Rgb(1.0f)});
-    const Rendered foggy = rendered(Scene(fog), settings_of("classical", 4));
+    const Rendered foggy = rendered(Scene(fog), settings_of_parts("classical", 4));
     EXPECT_GT(foggy.mean(), 0);
     EXPECT_FLOAT_EQ(static_cast<float>(foggy.mean(volume)), static_cast<float>(foggy.mean()));
 }
 
 TEST(LightParts, AreByWhereLightComesFrom) {
     // Without each of the lights the picture is dimmer by its part. 64 samples tell means to 1 %.
-    const SceneDescription all = table_top();
-    const Rendered with = rendered(Scene(all), settings_of("classical", 64));
+    const SceneDescription all = glowing_table_top();
+    const Rendered with = rendered(Scene(all), settings_of_parts("classical", 64));
     for (const std::size_t light : {all.lights.size() - 2, all.lights.size() - 1}) {
         SceneDescription without = all;
         without.lights.erase(without.lights.begin() + static_cast<std::ptrdiff_t>(light));
-        RenderSettings settings = settings_of("classical", 64);
+        RenderSettings settings = settings_of_parts("classical", 64);
         settings.seed = 4;
         const Rendered dark = rendered(Scene(without), settings);
         const double part = with.mean(path_parts + light);
@@ -199,10 +199,10 @@ TEST(LightParts, AreByWhereLightComesFrom) {
 /// Mean over pixels of a quarter of the squared difference of the halves, against that of the variance, both with their
 /// spread.
 std::pair<Moments, Moments> noise_by_halves(SamplerKind sampler, int samples, double* worst_mean) {
-    SceneDescription s = table_top();
-    RenderSettings settings = settings_of("classical", samples);
+    SceneDescription s = glowing_table_top();
+    RenderSettings settings = settings_of_parts("classical", samples);
     settings.sampler = sampler;
-    Film film = new_film({}, true);
+    Film film = film_of_parts({}, true);
     render(Scene(s), film, settings);
     const Picture picture = film.picture();
     const auto layer = [&](const char* name) {

@@ -15,7 +15,7 @@ namespace wend {
 namespace {
 
 /// Of the pictures: in the second one all kinds of walks are tried.
-constexpr int small = 16, large = 36;
+constexpr int small_side = 16, large_side = 36;
 
 /// Thin fog over a floor under a lamp that is far off: rare bright samples would hide a difference.
 Scene foggy_floor(int side) {
@@ -126,7 +126,7 @@ struct Comparison {
 };
 
 TEST(MergedRendersSlow, AreAsGoodAsOneOfAsManySamples) {
-    Comparison(World(small), 300, [](int samples, std::uint64_t seed) {
+    Comparison(World(small_side), 300, [](int samples, std::uint64_t seed) {
         return settings_of("classical", samples, seed);
     }).expect_alike();
 }
@@ -144,11 +144,11 @@ void expect_alike_with_a_shared_field(int side, int repetitions) {
 }
 
 TEST(MergedRendersSlow, AreAsGoodWithAFieldThatTheyShare) {
-    expect_alike_with_a_shared_field(small, 170);
+    expect_alike_with_a_shared_field(small_side, 170);
 }
 
 TEST(MergedRendersSlow, AreAsGoodWithAFieldThatTheyShareWhereItIsChosenHowToWalk) {
-    expect_alike_with_a_shared_field(large, 45);
+    expect_alike_with_a_shared_field(large_side, 45);
 }
 
 }  // namespace

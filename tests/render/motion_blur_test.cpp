@@ -24,8 +24,8 @@ LoadedScene load(const std::string& text) {
 
 /// Shows each of `count` pictures, with seeds from `seed` on, to `take`.
 template <class Take>
-void render_each(const std::string& text, const char* preset, int samples, int count, std::uint64_t seed,
-                 const Take& take, SamplerKind sampler = SamplerKind::independent) {
+void render_each_moving(const std::string& text, const char* preset, int samples, int count, std::uint64_t seed,
+                        const Take& take, SamplerKind sampler = SamplerKind::independent) {
     LoadedScene loaded = load(text);
     RenderSettings settings = test::settings_of(loaded, preset, samples);
     settings.subsurface = parse_subsurface(settings.preset.is_classical() ? "classical" : "auto");
@@ -42,7 +42,7 @@ void render_each(const std::string& text, const char* preset, int samples, int c
 std::vector<Moments> pixel_means(const std::string& text, const char* preset, int samples, int count,
                                  std::uint64_t seed = 1) {
     std::vector<Moments> means;
-    render_each(text, preset, samples, count, seed, [&](const Image& image) {
+    render_each_moving(text, preset, samples, count, seed, [&](const Image& image) {
         means.resize(image.pixels.size());
         for (std::size_t i = 0; i < means.size(); ++i) {
             means[i].add(static_cast<double>(mean(image.pixels[i])));
@@ -261,7 +261,7 @@ void expect_guided_agrees(const char* name, const std::string& scene, int sample
     SCOPED_TRACE(name);
     const auto means = [&](const char* preset, int count, std::uint64_t seed) {
         test::ChannelMeans found;
-        render_each(
+        render_each_moving(
             scene, preset, samples, count, seed, [&](const Image& image) { found.add(image); }, SamplerKind::sobol);
         return found;
     };
@@ -269,7 +269,7 @@ void expect_guided_agrees(const char* name, const std::string& scene, int sample
     constexpr double bias = 0.03;
     const auto guided = test::means_until_seen(bias, expected, 24, [&](std::uint64_t seed) {
         Image picture;
-        render_each(
+        render_each_moving(
             scene, "full", samples, 1, seed, [&](const Image& image) { picture = image; }, SamplerKind::sobol);
         return picture;
     });
@@ -301,15 +301,15 @@ AttributeEnd
 )";
 }
 
-const std::string passing =
+const std::string passing_by =
     "ActiveTransform StartTime\nTranslate -1.5 0 .2\nActiveTransform EndTime\n"
     "Translate 1.5 0 .8\nActiveTransform All\n";
 
 /// Each pixel's mean and standard error.
-struct Picture {
+struct MeanPicture {
     std::vector<double> means, errors;
 
-    Picture(const std::string& scene, int samples, int count, std::uint64_t seed) {
+    MeanPicture(const std::string& scene, int samples, int count, std::uint64_t seed) {
         for (const Moments& pixel : pixel_means(scene, "classical", samples, count, seed)) {
             means.push_back(pixel.mean());
             errors.push_back(pixel.standard_error());
@@ -317,7 +317,7 @@ struct Picture {
     }
 
     /// In how many pixels they differ by more than chance has it in one of 10^5.
-    int differences(const Picture& other) const {
+    int differences(const MeanPicture& other) const {
         int count = 0;
         for (std::size_t i = 0; i < means.size(); ++i) {
             count += std::abs(means[i] - other.means[i]) > 4.4 * std::hypot(errors[i], other.errors[i]) ? 1 : 0;
@@ -328,16 +328,16 @@ struct Picture {
 
 TEST(SlowMotionBlur, FogInAMovingBallIsTheMeanOfStandingOnes) {
     const auto standing_at = [](double t, int samples, int count, std::uint64_t seed) {
-        return Picture(foggy + ball_of_fog(fmt::format("Translate {} 0 {}\n", -1.5 + 3 * t, .2 + .6 * t),
-                                           "Material \"interface\""),
-                       samples, count, seed);
+        return MeanPicture(foggy + ball_of_fog(fmt::format("Translate {} 0 {}\n", -1.5 + 3 * t, .2 + .6 * t),
+                                               "Material \"interface\""),
+                           samples, count, seed);
     };
-    const Picture moving(foggy + ball_of_fog(passing, "Material \"interface\""), 256, 16, 1);
+    const MeanPicture moving(foggy + ball_of_fog(passing_by, "Material \"interface\""), 256, 16, 1);
     // The middles of equal times have next to no error where so much is smooth. Their walks must differ.
     constexpr int times = 40;
-    Picture mean = standing_at(0.5 / times, 32, 6, 1000);
+    MeanPicture mean = standing_at(0.5 / times, 32, 6, 1000);
     for (int i = 1; i < times; ++i) {
-        const Picture at = standing_at((i + 0.5) / times, 32, 6, static_cast<std::uint64_t>(1000 + 6 * i));
+        const MeanPicture at = standing_at((i + 0.5) / times, 32, 6, static_cast<std::uint64_t>(1000 + 6 * i));
         for (std::size_t k = 0; k < mean.means.size(); ++k) {
             mean.means[k] += at.means[k];
             mean.errors[k] = std::hypot(mean.errors[k], at.errors[k]);
@@ -356,13 +356,13 @@ TEST(SlowMotionBlur, FogInAMovingBallIsTheMeanOfStandingOnes) {
 }
 
 TEST(SlowMotionBlur, GuidedFogAgrees) {
-    const std::string scene = foggy + ball_of_fog(passing, "Material \"interface\"");
+    const std::string scene = foggy + ball_of_fog(passing_by, "Material \"interface\"");
     expect_guided_agrees("moving_fog", scene, 256);
 }
 
 // The ball passes through another, so that regions are told apart at each time.
 TEST(SlowMotionBlur, GuidedFogInGlassAgrees) {
-    const std::string scene = foggy + ball_of_fog(passing, "Material \"dielectric\" \"float eta\" 1.3") +
+    const std::string scene = foggy + ball_of_fog(passing_by, "Material \"dielectric\" \"float eta\" 1.3") +
                               "AttributeBegin\nTranslate 0 1.5 0\n" + ball_of_fog("", "Material \"interface\"") +
                               "AttributeEnd\n";
     expect_guided_agrees("moving_fog_in_glass", scene, 768);
@@ -375,7 +375,7 @@ TEST(SlowMotionBlur, GuidedWalksInAMovingDenseBodyAgree) {
             foggy +
             R"(MakeNamedMedium "wax" "string type" "homogeneous" "rgb sigma_s" [25 20 15] "rgb sigma_a" [.2 .3 .5]
 AttributeBegin
-)" + passing +
+)" + passing_by +
             R"(MediumInterface "wax" ""
 Material "dielectric" "float eta" 1.3 "float roughness" )" +
             roughness + R"(

@@ -9,11 +9,11 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 4;
+constexpr int equilibrium_resolution = 4;
 
 /// Within a ball of a medium that shines as much as it absorbs, under a sky as bright: every ray brings 1.
 Scene equilibrium() {
-    SceneDescription s = test::scene_with_camera({0.2f, -0.3f, -0.4f}, {0, 0, 0}, 60, resolution);
+    SceneDescription s = test::scene_with_camera({0.2f, -0.3f, -0.4f}, {0, 0, 0}, 60, equilibrium_resolution);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.3f), Rgb(2.0f), 0.5f);
     std::get<HomogeneousMedium>(s.media.back()).emission = Rgb(0.3f);
     s.camera_medium = fog;
@@ -33,11 +33,12 @@ double squared_error(const Scene& scene, const char* preset, int samples) {
         settings.samples = samples;
         settings.seed = static_cast<std::uint64_t>(i);
         settings.max_depth = 100000;
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        Film film({equilibrium_resolution, equilibrium_resolution},
+                  {{0, 0}, {equilibrium_resolution, equilibrium_resolution}});
         render(scene, film, settings);
         for (const Rgb& pixel : film.beauty().pixels) {
             const double off = static_cast<double>(mean_value(pixel)) - 1;
-            sum += off * off / (pictures * resolution * resolution);
+            sum += off * off / (pictures * equilibrium_resolution * equilibrium_resolution);
         }
     }
     return sum;

@@ -109,7 +109,7 @@ TEST(SampleBudget, GivesNoMoreThanThereMayBe) {
 }
 
 /// Samples of each pixel of the next pass; none at all ends a picture.
-using Budget = std::function<std::vector<std::uint32_t>(const Film&, std::uint64_t seed)>;
+using BudgetOfFilm = std::function<std::vector<std::uint32_t>(const Film&, std::uint64_t seed)>;
 
 struct Pictures {
     int side = 0, count = 0;
@@ -118,7 +118,7 @@ struct Pictures {
 };
 
 /// A picture whose pixels are 1 in the mean, in passes until the budget ends it.
-Film picture_of(const Pictures& pictures, const Budget& budget, std::uint64_t seed) {
+Film picture_of(const Pictures& pictures, const BudgetOfFilm& budget, std::uint64_t seed) {
     const int side = pictures.side;
     Film film({side, side}, {{0, 0}, {side, side}});
     Pcg32 random(hash_of(seed));
@@ -139,7 +139,7 @@ Film picture_of(const Pictures& pictures, const Budget& budget, std::uint64_t se
     return film;
 }
 
-Moments means_of(const Pictures& pictures, const Budget& budget) {
+Moments means_of(const Pictures& pictures, const BudgetOfFilm& budget) {
     Moments means;
     for (int i = 0; i < pictures.count; ++i) {
         const Image image = picture_of(pictures, budget, static_cast<std::uint64_t>(i)).beauty();

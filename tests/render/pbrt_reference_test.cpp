@@ -20,7 +20,7 @@ struct Case {
 };
 
 /// Luminance of a part of a picture.
-struct Measured {
+struct MeasuredPart {
     double mean = 0;
     double variance = 0;  ///< of the mean
 };
@@ -32,8 +32,8 @@ struct NoisyPicture {
     std::vector<double> luminance;
     std::vector<double> variance;
 
-    Measured measure(const PixelRect& part) const {
-        Measured result;
+    MeasuredPart measure(const PixelRect& part) const {
+        MeasuredPart result;
         for (int y = part.min.y; y < part.max.y; ++y) {
             for (int x = part.min.x; x < part.max.x; ++x) {
                 const auto i = static_cast<std::size_t>(y * width + x);
@@ -73,7 +73,7 @@ NoisyPicture with_noise(const Picture& picture) {
     return result;
 }
 
-bool agree(const Measured& ours, const Measured& theirs, double standard_errors, double slack) {
+bool agree(const MeasuredPart& ours, const MeasuredPart& theirs, double standard_errors, double slack) {
     return std::abs(ours.mean - theirs.mean) <=
            standard_errors * std::sqrt(ours.variance + theirs.variance) + slack * theirs.mean;
 }
@@ -88,8 +88,8 @@ struct Disagreement {
 Disagreement compare(const NoisyPicture& ours, const NoisyPicture& theirs, double factor = 1) {
     constexpr int side = 12;
     const auto scaled = [&](const PixelRect& part) {
-        const Measured m = ours.measure(part);
-        return Measured{m.mean * factor, m.variance * factor * factor};
+        const MeasuredPart m = ours.measure(part);
+        return MeasuredPart{m.mean * factor, m.variance * factor * factor};
     };
     Disagreement result;
     for (int y = 0; y < ours.height; y += side) {

@@ -12,11 +12,11 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 24;
+constexpr int room_resolution = 24;
 
 /// A foggy room with a small light behind a screen: surfaces and a volume, much indirect light.
 SceneDescription foggy_room(bool grid = false) {
-    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, resolution);
+    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, room_resolution);
     const Box3 room(Vec3(-1), Vec3(1));
     const Rgb absorption(0.05f, 0.1f, 0.15f);
     const Rgb scattering(0.6f, 0.5f, 0.4f);
@@ -45,7 +45,7 @@ SceneDescription foggy_room(bool grid = false) {
 
 Image render_image(const Scene& scene, const char* preset, int samples, std::uint64_t seed, int threads = 0,
                    RenderStatistics* statistics = nullptr) {
-    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film film({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.samples = samples;
@@ -85,7 +85,7 @@ TEST_P(Repeated, TheListOfPassesRepeatsARunThatWasStopped) {
     RenderSettings settings;
     settings.preset = parse_preset(std::get<0>(GetParam()));
     settings.seconds = 1e9;
-    Film stopped({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film stopped({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
     int samples = 0;
     const RenderStatistics first = render(scene, stopped, settings, [&](const RenderProgress& progress) {
         samples = progress.samples;
@@ -95,7 +95,7 @@ TEST_P(Repeated, TheListOfPassesRepeatsARunThatWasStopped) {
     EXPECT_EQ(first.samples, samples) << "no pass begins after the stop";
     settings.passes = first.passes;
     settings.seconds = 0;
-    Film repeated({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film repeated({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
     render(scene, repeated, settings);
     EXPECT_EQ(stopped.beauty().pixels, repeated.beauty().pixels);
 }
@@ -116,16 +116,16 @@ const test::BlockReference foggy_room_reference = {{0.41331798, 0.00041678},
                                                     {0.0594603, 0.0005031},
                                                     {0.0537126, 0.0004925}}};
 
-struct Comparison {
+struct PresetInFog {
     const char* preset;
     bool grid;
 };
 
-void PrintTo(const Comparison& comparison, std::ostream* out) {
+void PrintTo(const PresetInFog& comparison, std::ostream* out) {
     *out << comparison.preset << (comparison.grid ? ", grid" : "");
 }
 
-class Guided : public testing::TestWithParam<Comparison> {};
+class Guided : public testing::TestWithParam<PresetInFog> {};
 
 TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
     RenderSettings settings;
@@ -135,7 +135,7 @@ TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
     settings.seed = 2000;
     const test::BlockReference& reference = foggy_room_reference;
     const test::BlockMeans means = test::render_until(Scene(foggy_room(GetParam().grid)), settings,
-                                                      {resolution, resolution}, 8, reference, 0.0032, 64);
+                                                      {room_resolution, room_resolution}, 8, reference, 0.0032, 64);
     const double error = means.error(reference);
     EXPECT_LT(3 * error, 0.01 * reference.whole.mean) << "too few samples to see a bias of 1 %";
     EXPECT_TRUE(agrees(means.whole().mean() - reference.whole.mean, error, 0, 3.5))
@@ -144,8 +144,8 @@ TEST_P(Guided, GivesTheSamePictureAsClassicalSampling) {
     EXPECT_LT(means.p_value(reference, 1.03), 1e-4) << "the test could not see a bias of 3 %";
 }
 
-std::vector<Comparison> comparisons() {
-    std::vector<Comparison> all;
+std::vector<PresetInFog> comparisons() {
+    std::vector<PresetInFog> all;
     for (const char* preset :
          {"scatter", "distance", "distance+direction", "direction", "full", "roulette+splitting"}) {
         all.push_back({preset, false});
@@ -164,7 +164,7 @@ TEST(Render, CountsItsWork) {
     RenderStatistics statistics;
     render_image(scene, "direction", 5, 1, 0, &statistics);
     EXPECT_EQ(statistics.samples, 5);
-    EXPECT_EQ(statistics.counts.paths, 5u * resolution * resolution);
+    EXPECT_EQ(statistics.counts.paths, 5u * room_resolution * room_resolution);
     EXPECT_GT(statistics.counts.segments, statistics.counts.paths);
     EXPECT_EQ(statistics.counts.rejected, 0u);
     EXPECT_GT(statistics.field_bytes, 0u);
@@ -184,7 +184,7 @@ TEST(Render, FollowsAGivenFieldWithoutTeachingItWhereToldSo) {
         settings.training_samples = training_samples;
         int told = 0;
         settings.on_records = [&](std::span<const guide::PathRecords>) { ++told; };
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        Film film({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
         const RenderStatistics statistics = render(scene, film, settings);
         EXPECT_EQ(told > 0, training_samples > 0);
         return statistics.fields->volume.find(Vec3(0, 0, 0))->fluence();
@@ -221,7 +221,7 @@ TEST(Render, TellsNoMoreThanItsBudget) {
             }
             told.records.push_back(count);
         };
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        Film film({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
         render(scene, film, settings);
         told.picture = film.beauty();
         return told;
@@ -241,7 +241,7 @@ TEST(Render, TellsNoMoreThanItsBudget) {
 
 TEST(Render, StopsBetweenPassesWhenAsked) {
     const Scene scene(foggy_room());
-    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film film({room_resolution, room_resolution}, {{0, 0}, {room_resolution, room_resolution}});
     RenderSettings settings;
     settings.samples = 1000;
     int calls = 0;

@@ -1,4 +1,5 @@
 // A render that is divided into steps, saved and resumed gives the picture of one that never stopped, bit for bit.
+#include <tests/support/film_bytes.h>
 #include <tests/support/scenes.h>
 #include <tests/support/thread_ranks.h>
 
@@ -22,12 +23,14 @@
 namespace wend {
 namespace {
 
+using test::bytes_of;
+
 // Large enough for all kinds of walks to be tried.
-constexpr int resolution = 40;
+constexpr int resumed_resolution = 40;
 
 /// Fog around a ball of smooth glass, a dense block and two lamps: all that learns has something to learn.
 SceneDescription table_top() {
-    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 32, resolution);
+    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 32, resumed_resolution);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.01f), Rgb(0.1f), 0.4f);
     const MediumId wax = test::add_homogeneous(s, {0.2f, 0.5f, 1.5f}, {15, 14, 12}, 0.3f);
     test::add_box(s, Box3(Vec3(-2, -1, -1.5f), Vec3(2, 1.5f, 1.5f)), test::add_interface(s), fog);
@@ -41,11 +44,12 @@ SceneDescription table_top() {
 }
 
 /// With all that a film may hold.
-Film new_film() {
-    return Film({resolution, resolution}, {{0, 0}, {resolution, resolution}}, {{"direct", "indirect"}, true, true});
+Film full_film() {
+    return Film({resumed_resolution, resumed_resolution}, {{0, 0}, {resumed_resolution, resumed_resolution}},
+                {{"direct", "indirect"}, true, true});
 }
 
-RenderSettings settings_of(const char* preset, int threads) {
+RenderSettings resumed_settings(const char* preset, int threads) {
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.subsurface = parse_subsurface("auto");
@@ -61,13 +65,6 @@ RenderSettings settings_of(const char* preset, int threads) {
     return settings;
 }
 
-/// The whole film, as it would be saved.
-std::string bytes_of(const Film& film) {
-    ArchiveWriter bytes;
-    bytes(film);
-    return bytes.take();
-}
-
 std::string saved(const Render& render) {
     ArchiveWriter bytes;
     render.save(bytes);
@@ -75,7 +72,7 @@ std::string saved(const Render& render) {
 }
 
 std::string uninterrupted(const Scene& scene, const RenderSettings& settings) {
-    Film film = new_film();
+    Film film = full_film();
     render(scene, film, settings);
     return bytes_of(film);
 }
@@ -85,7 +82,7 @@ const std::string& uninterrupted(const char* preset) {
     static std::map<std::string, std::string> known;
     std::string& film = known[preset];
     if (film.empty()) {
-        film = uninterrupted(Scene(table_top()), settings_of(preset, 1));
+        film = uninterrupted(Scene(table_top()), resumed_settings(preset, 1));
     }
     return film;
 }
@@ -100,15 +97,15 @@ TEST_P(Resumed, IsTheRenderThatNeverStopped) {
     for (const int threads : {1, 2, 5}) {
         // Ever more of them, so that a slow machine stops hardly more often than a fast one.
         int steps = 0, next_stop = 12;
-        auto film = std::make_unique<Film>(new_film());
-        auto render = std::make_unique<Render>(scene, *film, settings_of(GetParam(), threads));
+        auto film = std::make_unique<Film>(full_film());
+        auto render = std::make_unique<Render>(scene, *film, resumed_settings(GetParam(), threads));
         while (render->step(step_seconds)) {
             if (++steps == next_stop) {
                 next_stop += next_stop / 4;
                 within += render->is_within_pass() ? 1 : 0;
                 const std::string state = saved(*render);
-                film = std::make_unique<Film>(new_film());
-                render = std::make_unique<Render>(scene, *film, settings_of(GetParam(), 1 + resumed++ % 3));
+                film = std::make_unique<Film>(full_film());
+                render = std::make_unique<Render>(scene, *film, resumed_settings(GetParam(), 1 + resumed++ % 3));
                 ArchiveReader bytes(state);
                 render->restore(bytes);
                 EXPECT_EQ(saved(*render).size(), state.size());
@@ -125,9 +122,9 @@ TEST_P(Resumed, WalksThatWereDroppedAreWalkedAgain) {
     const Scene scene(table_top());
     const std::string& expected = uninterrupted(GetParam());
     std::atomic<bool> stop = false;
-    RenderSettings settings = settings_of(GetParam(), 2);
+    RenderSettings settings = resumed_settings(GetParam(), 2);
     settings.stop = &stop;
-    Film film = new_film();
+    Film film = full_film();
     Render render(scene, film, settings);
     int stops = 0;
     for (bool goes_on = true; goes_on;) {
@@ -154,7 +151,7 @@ std::vector<std::string> by_ranks(int count, const Scene& scene, const RenderSet
     test::by_thread_ranks(count, [&](Ranks& ranks) {
         RenderSettings own = settings;
         own.ranks = &ranks;
-        Film film = new_film();
+        Film film = full_film();
         Render render(scene, film, own);
         work(render, ranks);
         films[static_cast<std::size_t>(ranks.rank())] = bytes_of(film);
@@ -166,7 +163,7 @@ TEST_P(Resumed, AnyNumberOfRanksHasTheSameFilm) {
     const Scene scene(table_top());
     const std::string& expected = uninterrupted(GetParam());
     for (const int count : {2, 3, 5}) {
-        const auto films = by_ranks(count, scene, settings_of(GetParam(), 1), [](Render& render, const Ranks&) {
+        const auto films = by_ranks(count, scene, resumed_settings(GetParam(), 1), [](Render& render, const Ranks&) {
             while (render.step(0.02)) {
             }
         });
@@ -181,7 +178,7 @@ TEST_P(Resumed, RanksStopTogetherAndAnyNumberGoesOn) {
     const std::string& expected = uninterrupted(GetParam());
     std::string state;
     std::atomic<bool> stop = false;
-    RenderSettings settings = settings_of(GetParam(), 1);
+    RenderSettings settings = resumed_settings(GetParam(), 1);
     settings.stop = &stop;
     by_ranks(3, scene, settings, [&](Render& render, const Ranks& ranks) {
         for (int step = 0; !render.is_stopped() && render.step(0.02); ++step) {
@@ -194,7 +191,7 @@ TEST_P(Resumed, RanksStopTogetherAndAnyNumberGoesOn) {
         }
     });
     for (const int count : {1, 2}) {
-        const auto films = by_ranks(count, scene, settings_of(GetParam(), 1), [&](Render& render, const Ranks&) {
+        const auto films = by_ranks(count, scene, resumed_settings(GetParam(), 1), [&](Render& render, const Ranks&) {
             ArchiveReader bytes(state);
             render.restore(bytes);
             while (render.step(0.05)) {
@@ -206,7 +203,7 @@ TEST_P(Resumed, RanksStopTogetherAndAnyNumberGoesOn) {
 
 TEST(SlowRanksOfARender, LearnTheSameAndShowAllRecordsToWhoAsks) {
     const Scene scene(table_top());
-    RenderSettings settings = settings_of("full", 1);
+    RenderSettings settings = resumed_settings("full", 1);
     settings.keeps_fields = true;
     // Notes of techniques inside dense media have bytes between their members that mean nothing.
     settings.subsurface = parse_subsurface("classical");
@@ -219,7 +216,7 @@ TEST(SlowRanksOfARender, LearnTheSameAndShowAllRecordsToWhoAsks) {
         };
     };
     settings.on_records = count_into(expected_records);
-    Film alone = new_film();
+    Film alone = full_film();
     const RenderStatistics expected = render(scene, alone, settings);
     std::vector<guide::Fields> learned(3, *expected.fields);
     std::size_t records = 0;
@@ -230,7 +227,7 @@ TEST(SlowRanksOfARender, LearnTheSameAndShowAllRecordsToWhoAsks) {
         if (ranks.rank() == 1) {
             own.on_records = count_into(records);
         }
-        Film film = new_film();
+        Film film = full_film();
         const RenderStatistics statistics = render(scene, film, own);
         learned[static_cast<std::size_t>(ranks.rank())] = *statistics.fields;
     });
@@ -258,15 +255,15 @@ TEST(Ranks, GetSharesOfLikeWork) {
 
 TEST(Render, ForeignBytesAreRefused) {
     const Scene scene(table_top());
-    Film film = new_film();
-    Render render(scene, film, settings_of("full", 1));
+    Film film = full_film();
+    Render render(scene, film, resumed_settings("full", 1));
     for (int pass = 0; pass < 4; ++pass) {
         render.step();
     }
     const std::string state = saved(render);
     const auto restored = [&](const std::string& bytes) {
-        Film other = new_film();
-        Render again(scene, other, settings_of("full", 1));
+        Film other = full_film();
+        Render again(scene, other, resumed_settings("full", 1));
         ArchiveReader reader(bytes);
         again.restore(reader);
     };
@@ -275,16 +272,16 @@ TEST(Render, ForeignBytesAreRefused) {
     for (std::size_t size = 0; size < state.size(); size += 1 + state.size() / 12) {
         EXPECT_THROW(restored(state.substr(0, size)), InputError) << size;
     }
-    Film larger({resolution + 1, resolution}, {{0, 0}, {resolution + 1, resolution}});
-    Render other(scene, larger, settings_of("full", 1));
+    Film larger({resumed_resolution + 1, resumed_resolution}, {{0, 0}, {resumed_resolution + 1, resumed_resolution}});
+    Render other(scene, larger, resumed_settings("full", 1));
     ArchiveReader reader(state);
     EXPECT_THROW(other.restore(reader), InputError);
 }
 
 TEST(Render, PassesToBeRepeatedAreThoseThatItHasHad) {
     const Scene scene(table_top());
-    const RenderSettings settings = settings_of("classical", 1);
-    Film film = new_film();
+    const RenderSettings settings = resumed_settings("classical", 1);
+    Film film = full_film();
     Render render(scene, film, settings);
     for (int pass = 0; pass < 3; ++pass) {
         render.step();
@@ -292,7 +289,7 @@ TEST(Render, PassesToBeRepeatedAreThoseThatItHasHad) {
     const auto go_on = [&](const std::string& state, std::vector<int> passes) {
         RenderSettings repeated = settings;
         repeated.passes = std::move(passes);
-        Film other = new_film();
+        Film other = full_film();
         Render again(scene, other, repeated);
         ArchiveReader reader(state);
         again.restore(reader);
@@ -314,8 +311,8 @@ TEST(Render, PassesToBeRepeatedAreThoseThatItHasHad) {
 
 TEST(Render, KeepsToItsTime) {
     const Scene scene(table_top());
-    Film film = new_film();
-    RenderSettings settings = settings_of("full", 1);
+    Film film = full_film();
+    RenderSettings settings = resumed_settings("full", 1);
     settings.seconds = 0.3;
     Render render(scene, film, settings);
     int steps = 0;
@@ -329,7 +326,7 @@ TEST(Render, KeepsToItsTime) {
 }
 
 RenderSettings settings_by_noise(const char* preset) {
-    RenderSettings settings = settings_of(preset, 2);
+    RenderSettings settings = resumed_settings(preset, 2);
     settings.samples = 1000;
     settings.noise = 0.5;
     return settings;
@@ -339,7 +336,7 @@ TEST(EndedByNoiseSlow, OnceEverySquareIsQuietEnough) {
     const Scene scene(table_top());
     int samples[2] = {0, 0};
     for (const bool is_adaptive : {false, true}) {
-        Film film = new_film();
+        Film film = full_film();
         const RenderSettings settings = settings_by_noise(is_adaptive ? "full" : "full+uniform");
         Render render(scene, film, settings);
         double before = 1, fraction = 0;
@@ -366,14 +363,14 @@ TEST(EndedByNoiseSlow, EvenIfItWasNotAskedForBefore) {
     RenderSettings settings = settings_by_noise("full");
     settings.noise = 0;
     settings.samples = 15;
-    Film film = new_film();
+    Film film = full_film();
     Render render(scene, film, settings);
     while (render.step()) {
     }
     const std::string state = saved(render);
     ArchiveReader bytes(state);
     const RenderSettings quieter = settings_by_noise("full");
-    Film other = new_film();
+    Film other = full_film();
     Render again(scene, other, quieter);
     again.restore(bytes);
     EXPECT_GT(again.progress().relative_noise, quieter.noise);
@@ -388,13 +385,13 @@ TEST(EndedByNoiseSlow, IsTheSameInOneGoResumedAndByRanks) {
     const Scene scene(table_top());
     const RenderSettings settings = settings_by_noise("full");
     const std::string expected = uninterrupted(scene, settings);
-    auto film = std::make_unique<Film>(new_film());
+    auto film = std::make_unique<Film>(full_film());
     auto render = std::make_unique<Render>(scene, *film, settings);
     int steps = 0, resumed = 0;
     while (render->step(0.01)) {
         if (++steps % 8 == 0) {
             const std::string state = saved(*render);
-            film = std::make_unique<Film>(new_film());
+            film = std::make_unique<Film>(full_film());
             render = std::make_unique<Render>(scene, *film, settings);
             ArchiveReader bytes(state);
             render->restore(bytes);

@@ -11,11 +11,11 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 12;
+constexpr int training_resolution = 12;
 
 /// A block of wax and a rough ball of honey in a box of thin fog on a grey floor, under a sky and a wide lamp.
-SceneDescription table_top() {
-    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 26, resolution);
+SceneDescription wax_and_honey() {
+    SceneDescription s = test::scene_with_camera({0, 1.2f, -5}, {0, -0.2f, 0}, 26, training_resolution);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.01f), Rgb(0.05f));
     const MediumId wax = test::add_homogeneous(s, {0.2f, 0.5f, 1.5f}, {15, 14, 12}, 0.3f);
     const MediumId honey = test::add_homogeneous(s, {0.3f, 0.8f, 2}, Rgb(10.0f), 0.6f);
@@ -39,7 +39,7 @@ Moments render_means(const Scene& scene, const char* sampling, const char* subsu
                      std::uint64_t replicas) {
     Moments means;
     for (std::uint64_t i = 0; i < replicas; ++i) {
-        Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+        Film film({training_resolution, training_resolution}, {{0, 0}, {training_resolution, training_resolution}});
         RenderSettings settings;
         settings.preset = parse_preset(sampling);
         settings.subsurface = parse_subsurface(subsurface);
@@ -51,14 +51,14 @@ Moments render_means(const Scene& scene, const char* sampling, const char* subsu
         for (const Rgb& pixel : film.beauty().pixels) {
             sum += luminance(pixel);
         }
-        means.add(sum / (resolution * resolution));
+        means.add(sum / (training_resolution * training_resolution));
     }
     return means;
 }
 
 // Two ways, 20 renders of 12 x 12 pixels by 24 samples each: 140 thousand samples of long walks.
 TEST(SlowSubsurfaceTraining, GivesTheSamePictureAsClassicalSampling) {
-    const Scene scene(table_top());
+    const Scene scene(wax_and_honey());
     const test::KnownMean classical = test::kept_means("subsurface_training", [&] {
                                           const Moments means =
                                               render_means(scene, "classical", "classical", 1000, 120);

@@ -9,7 +9,7 @@
 namespace wend {
 namespace {
 
-constexpr int side = 8;
+constexpr int sum_side = 8;
 
 int add_sum(SceneDescription& s, int first, int second, float amount) {
     s.materials.push_back(MixMaterial{first, second, s.textures.add_constant(Rgb(amount)), true});
@@ -18,7 +18,7 @@ int add_sum(SceneDescription& s, int first, int second, float amount) {
 
 Rgb mean_radiance(const SceneDescription& description, const char* preset) {
     const Scene scene(description);
-    Film film({side, side}, {{0, 0}, {side, side}});
+    Film film({sum_side, sum_side}, {{0, 0}, {sum_side, sum_side}});
     RenderSettings settings;
     settings.samples = 256;
     settings.preset = parse_preset(preset);
@@ -26,16 +26,16 @@ Rgb mean_radiance(const SceneDescription& description, const char* preset) {
     render(scene, film, settings);
     const Image picture = film.beauty();
     Rgb sum(0.0f);
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            sum += picture.at(x, y) / float{side * side};
+    for (int y = 0; y < sum_side; ++y) {
+        for (int x = 0; x < sum_side; ++x) {
+            sum += picture.at(x, y) / float{sum_side * sum_side};
         }
     }
     return sum;
 }
 
 TEST(SumOfMaterials, ABallReflectsWhatBothDo) {
-    SceneDescription s = test::scene_with_camera({0, 5, 0}, {0, 0, 0}, 5, side);
+    SceneDescription s = test::scene_with_camera({0, 5, 0}, {0, 0, 0}, 5, sum_side);
     const int first = test::add_diffuse(s, Rgb(0.9f, 0.3f, 0.1f)), second = test::add_diffuse(s, Rgb(0.6f));
     test::add_box(s, Box3(Vec3(-9, -1, -9), Vec3(9, 0, 9)), add_sum(s, first, second, 0.3f));
     test::add_environment(s, Rgb(1.0f));
@@ -49,7 +49,7 @@ TEST(SumOfMaterials, ABallReflectsWhatBothDo) {
 
 // Of a sum within a sum all three are there, and what is a mirror as well.
 TEST(SumOfMaterials, MirrorsAndSumsAreParts) {
-    SceneDescription s = test::scene_with_camera({0, 5, 0}, {0, 0, 0}, 5, side);
+    SceneDescription s = test::scene_with_camera({0, 5, 0}, {0, 0, 0}, 5, sum_side);
     ConductorMaterial mirror;
     mirror.reflectance = s.textures.add_constant(Rgb(0.4f));
     mirror.roughness.u = mirror.roughness.v = s.textures.add_constant(Rgb(0.0f));

@@ -1,4 +1,5 @@
 // Renders that begin with what another has learned: its fields and its notes.
+#include <tests/support/film_bytes.h>
 #include <tests/support/scenes.h>
 
 #include <wend/core/archive.h>
@@ -13,6 +14,8 @@
 
 namespace wend {
 namespace {
+
+using test::bytes_of;
 
 /// Fog around a dense block, under two lamps.
 Scene foggy_block(float lamp = 2) {
@@ -29,10 +32,10 @@ Scene foggy_block(float lamp = 2) {
 }
 
 // Large enough for all kinds of walks to be tried.
-constexpr int side = 40;
+constexpr int taught_side = 40;
 
-Film new_film(int width = side) {
-    return Film({width, side}, {{0, 0}, {width, side}});
+Film taught_film(int width = taught_side) {
+    return Film({width, taught_side}, {{0, 0}, {width, taught_side}});
 }
 
 RenderSettings settings_of(int samples, std::uint64_t seed, std::shared_ptr<const guide::Fields> fields = nullptr) {
@@ -46,14 +49,8 @@ RenderSettings settings_of(int samples, std::uint64_t seed, std::shared_ptr<cons
     return settings;
 }
 
-std::string bytes_of(const Film& film) {
-    ArchiveWriter bytes;
-    bytes(film);
-    return bytes.take();
-}
-
-std::string rendered(const Scene& scene, const RenderSettings& settings, int width = side) {
-    Film film = new_film(width);
+std::string rendered_bytes(const Scene& scene, const RenderSettings& settings, int width = taught_side) {
+    Film film = taught_film(width);
     render(scene, film, settings);
     return bytes_of(film);
 }
@@ -63,7 +60,7 @@ TEST(Taught, NoFieldIsFilledBySoFewSamplesThatNoneFollowsIt) {
     const auto is_filled = [&](int samples, bool keeps_fields) {
         RenderSettings settings = settings_of(samples, 1);
         settings.keeps_fields = keeps_fields;
-        Film film = new_film();
+        Film film = taught_film();
         return render(scene, film, settings).fields->volume.is_trained();
     };
     EXPECT_FALSE(is_filled(4, false));
@@ -76,7 +73,7 @@ protected:
     static void SetUpTestSuite() {
         RenderSettings settings = settings_of(31, 1);
         settings.keeps_fields = true;
-        Film film = new_film();
+        Film film = taught_film();
         fields_ = render(scene_, film, settings).fields;
     }
     static void TearDownTestSuite() { fields_ = nullptr; }
@@ -97,40 +94,41 @@ protected:
 
 TEST_F(SlowTaught, BeginsWhereTheOtherHadFoundGuidingToPay) {
     ASSERT_FALSE(fields_->notes.empty());
-    Film film = new_film(), other = new_film();
+    Film film = taught_film(), other = taught_film();
     EXPECT_GT(kinds_walked(render(scene_, film, settings_of(7, 2, fields_))), 1);
     EXPECT_EQ(kinds_walked(render(scene_, other, settings_of(7, 2, without_notes()))), 1);
 }
 
 TEST_F(SlowTaught, NotesOfAnotherSceneOrPictureSayNothing) {
     // Another size of the picture: lights and techniques are as they were learned, where guiding pays is not known.
-    Film wide = new_film(side + 1);
+    Film wide = taught_film(taught_side + 1);
     EXPECT_EQ(kinds_walked(render(scene_, wide, settings_of(7, 2, fields_))), 1);
     // Another place of a lamp, which makes the scene larger.
     const Scene other = foggy_block(3);
-    EXPECT_TRUE(rendered(other, settings_of(9, 2, fields_)) == rendered(other, settings_of(9, 2, without_notes())));
+    EXPECT_TRUE(rendered_bytes(other, settings_of(9, 2, fields_)) ==
+                rendered_bytes(other, settings_of(9, 2, without_notes())));
     // Another sampling.
     RenderSettings direction = settings_of(9, 2, fields_), unnoted = settings_of(9, 2, without_notes());
     direction.preset = unnoted.preset = parse_preset("direction");
     direction.subsurface = unnoted.subsurface = parse_subsurface("classical");
-    EXPECT_TRUE(rendered(scene_, direction) == rendered(scene_, unnoted));
+    EXPECT_TRUE(rendered_bytes(scene_, direction) == rendered_bytes(scene_, unnoted));
 }
 
 TEST_F(SlowTaught, ForeignNotesAreRefused) {
     auto fields = std::make_shared<guide::Fields>(*fields_);
     for (std::size_t size = 1; size < fields_->notes.size(); size += 1 + fields_->notes.size() / 6) {
         fields->notes = fields_->notes.substr(0, size);
-        EXPECT_THROW(rendered(scene_, settings_of(1, 2, fields)), InputError) << size;
+        EXPECT_THROW(rendered_bytes(scene_, settings_of(1, 2, fields)), InputError) << size;
     }
     fields->notes = fields_->notes + "x";
-    EXPECT_THROW(rendered(scene_, settings_of(1, 2, fields)), InputError);
+    EXPECT_THROW(rendered_bytes(scene_, settings_of(1, 2, fields)), InputError);
 }
 
 TEST_F(SlowTaught, IsResumedWithoutTheFields) {
-    const std::string expected = rendered(scene_, settings_of(16, 2, fields_));
+    const std::string expected = rendered_bytes(scene_, settings_of(16, 2, fields_));
     std::string state;
     {
-        Film film = new_film();
+        Film film = taught_film();
         Render render(scene_, film, settings_of(16, 2, fields_));
         for (int pass = 0; pass < 2; ++pass) {
             render.step();
@@ -139,7 +137,7 @@ TEST_F(SlowTaught, IsResumedWithoutTheFields) {
         render.save(bytes);
         state = bytes.take();
     }
-    Film film = new_film();
+    Film film = taught_film();
     Render render(scene_, film, settings_of(16, 2));
     ArchiveReader bytes(state);
     render.restore(bytes);

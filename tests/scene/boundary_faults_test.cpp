@@ -10,7 +10,8 @@ namespace {
 
 using Kind = BoundaryFault::Kind;
 
-constexpr int opaque = 0, interface = 1;
+using test::interface;
+using test::opaque;
 
 /// An empty scene with one medium.
 SceneDescription one_medium() {

@@ -11,7 +11,7 @@
 namespace wend {
 namespace {
 
-constexpr int interface = 1;
+using test::interface;
 
 std::vector<BoundaryPoint> points_of(Shape shape, bool medium_is_outside = false) {
     SceneDescription scene = test::two_materials();

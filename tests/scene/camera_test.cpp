@@ -11,12 +11,12 @@
 namespace wend {
 namespace {
 
-constexpr int width = 40, height = 20;
-const Vec2 middle(width / 2.0f, height / 2.0f), any_lens(0.3f, 0.8f);
-const Vec3 eye(1, 2, 3), target(4, 3, -2);
+constexpr int picture_width = 40, picture_height = 20;
+const Vec2 picture_middle(picture_width / 2.0f, picture_height / 2.0f), any_lens(0.3f, 0.8f);
+const Vec3 eye(1, 2, 3), seen_place(4, 3, -2);
 
 Transform world_from_camera() {
-    return Transform::look_at(Imath::V3d(eye), Imath::V3d(target), {0, 1, 0}).inverse();
+    return Transform::look_at(Imath::V3d(eye), Imath::V3d(seen_place), {0, 1, 0}).inverse();
 }
 
 /// 60 degrees from left to right.
@@ -26,13 +26,13 @@ PerspectiveCamera perspective() {
 }
 
 Camera camera(const Camera::Kind& kind) {
-    return Camera(kind, world_from_camera(), width, height);
+    return Camera(kind, world_from_camera(), picture_width, picture_height);
 }
 
 TEST(PerspectiveCamera, LooksAtItsTarget) {
-    const Ray ray = camera(perspective()).ray(middle, any_lens);
+    const Ray ray = camera(perspective()).ray(picture_middle, any_lens);
     EXPECT_LT(length(ray.origin - eye), 1e-6f);
-    EXPECT_LT(length(ray.direction - normalize(target - eye)), 1e-6f);
+    EXPECT_LT(length(ray.direction - normalize(seen_place - eye)), 1e-6f);
 }
 
 TEST(PerspectiveCamera, EdgesSpanTheFieldOfView) {
@@ -40,13 +40,14 @@ TEST(PerspectiveCamera, EdgesSpanTheFieldOfView) {
     const auto angle = [&](const Vec2& a, const Vec2& b) {
         return std::acos(dot(c.ray(a, any_lens).direction, c.ray(b, any_lens).direction));
     };
-    EXPECT_NEAR(angle({0, middle.y}, {width, middle.y}), pi / 3, 1e-5f);
-    EXPECT_NEAR(angle({middle.x, 0}, {middle.x, height}), 2 * std::atan(std::tan(pi / 6) / 2), 1e-5f);
+    EXPECT_NEAR(angle({0, picture_middle.y}, {picture_width, picture_middle.y}), pi / 3, 1e-5f);
+    EXPECT_NEAR(angle({picture_middle.x, 0}, {picture_middle.x, picture_height}), 2 * std::atan(std::tan(pi / 6) / 2),
+                1e-5f);
 }
 
 TEST(PerspectiveCamera, TheFirstPixelIsUpAndLeft) {
     // Looking along +z with y up in a left-handed space, x is on the right.
-    const Camera c(perspective(), Transform(), width, height);
+    const Camera c(perspective(), Transform(), picture_width, picture_height);
     const Vec3 corner = c.ray({0, 0}, any_lens).direction;
     EXPECT_LT(corner.x, 0);
     EXPECT_GT(corner.y, 0);
@@ -58,11 +59,11 @@ TEST(PerspectiveCamera, RaysOfOneFilmPointMeetInTheFocalPlane) {
     lens.lens_radius = 0.2f;
     lens.focal_distance = 5;
     const Camera c = camera(lens), pinhole = camera(perspective());
-    const Vec3 forward = normalize(target - eye);
+    const Vec3 forward = normalize(seen_place - eye);
     Pcg32 random(1);
     test::Uniformity radii;
     for (int i = 0; i < 10000; ++i) {
-        const Vec2 film(width * random.uniform(), height * random.uniform());
+        const Vec2 film(picture_width * random.uniform(), picture_height * random.uniform());
         const Ray ray = c.ray(film, random.uniform2()), central = pinhole.ray(film, any_lens);
         const Vec3 focus = central.at(5 / dot(central.direction, forward));
         EXPECT_LT(length(ray.at(dot(focus - ray.origin, ray.direction)) - focus), 1e-5f);
@@ -74,15 +75,15 @@ TEST(PerspectiveCamera, RaysOfOneFilmPointMeetInTheFocalPlane) {
 }
 
 TEST(OrthographicCamera, RaysAreParallelAndSpreadOverTheScreen) {
-    const Camera c(OrthographicCamera{{-4, 4, -2, 2}}, Transform(), width, height);
-    const Ray corner = c.ray({0, 0}, any_lens), centre = c.ray(middle, any_lens);
+    const Camera c(OrthographicCamera{{-4, 4, -2, 2}}, Transform(), picture_width, picture_height);
+    const Ray corner = c.ray({0, 0}, any_lens), centre = c.ray(picture_middle, any_lens);
     EXPECT_EQ(corner.direction, Vec3(0, 0, 1));
     EXPECT_EQ(corner.origin, Vec3(-4, 2, 0));
     EXPECT_EQ(centre.origin, Vec3(0, 0, 0));
 }
 
 TEST(OrthographicCamera, RaysThroughALensMeetInTheFocalPlane) {
-    const Camera c(OrthographicCamera{{-4, 4, -2, 2}, 0.1f, 3}, Transform(), width, height);
+    const Camera c(OrthographicCamera{{-4, 4, -2, 2}, 0.1f, 3}, Transform(), picture_width, picture_height);
     Pcg32 random(2);
     for (int i = 0; i < 100; ++i) {
         const Ray ray = c.ray({10, 5}, random.uniform2());
@@ -91,10 +92,10 @@ TEST(OrthographicCamera, RaysThroughALensMeetInTheFocalPlane) {
 }
 
 test::SphereTest sphere_test(SphericalCamera::Mapping mapping, const test::DirectionDensity& density) {
-    const Camera c(SphericalCamera{mapping}, Transform(), width, height);
+    const Camera c(SphericalCamera{mapping}, Transform(), picture_width, picture_height);
     return test::chi_square_sphere(
         [&](Vec2 u) {
-            return c.ray({u.x * width, u.y * height}, any_lens).direction;
+            return c.ray({u.x * picture_width, u.y * picture_height}, any_lens).direction;
         },
         density);
 }
@@ -118,11 +119,11 @@ TEST(ViewMatrices, LeadPointsOfRaysBackToTheirPlaceOnTheFilm) {
         const Camera c = camera(kind);
         const auto view = c.view_matrices();
         ASSERT_TRUE(view);
-        for (const Vec2& film : {Vec2(0, 0), Vec2(width, height), Vec2(7, 15)}) {
+        for (const Vec2& film : {Vec2(0, 0), Vec2(picture_width, picture_height), Vec2(7, 15)}) {
             const Vec3 p = c.ray(film, {0.5f, 0.5f}).at(3);
             const Vec3 there = times(p, view->ndc_from_world);
-            EXPECT_NEAR(there.x, film.x / width, 1e-4f);
-            EXPECT_NEAR(there.y, film.y / height, 1e-4f);
+            EXPECT_NEAR(there.x, film.x / picture_width, 1e-4f);
+            EXPECT_NEAR(there.y, film.y / picture_height, 1e-4f);
             EXPECT_LT(length(times(p, view->camera_from_world) - world_from_camera().inverse().point(p)), 1e-4f);
         }
     }
@@ -150,11 +151,12 @@ TEST(SphericalCamera, EqualAreaIsContinuousOverItsEdges) {
 }
 
 TEST(SphericalCamera, EquirectangularIsLongitudeAndLatitude) {
-    const Camera c(SphericalCamera{SphericalCamera::Mapping::equirectangular}, Transform(), width, height);
+    const Camera c(SphericalCamera{SphericalCamera::Mapping::equirectangular}, Transform(), picture_width,
+                   picture_height);
     Pcg32 random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec2 u = random.uniform2();
-        const Vec3 w = c.ray({u.x * width, u.y * height}, any_lens).direction;
+        const Vec3 w = c.ray({u.x * picture_width, u.y * picture_height}, any_lens).direction;
         EXPECT_NEAR(length(w), 1, 1e-5f);
         EXPECT_NEAR(w.y, std::cos(pi * u.y), 1e-5f);
         EXPECT_NEAR(w.x, std::sin(pi * u.y) * std::cos(2 * pi * u.x), 1e-5f);

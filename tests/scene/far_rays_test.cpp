@@ -10,7 +10,7 @@
 namespace wend {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 /// Whether a ray finds anything, and whether a connection is blocked: the same for what has left the scene.
 void expect_met(const Scene& scene, const Ray& ray, bool met) {
@@ -23,12 +23,12 @@ TEST(FarRays, LeaveTheScene) {
     test::add(description, test::square());
     const Scene scene(std::move(description));
     expect_met(scene, {{0, 0, 1e6f}, {0, 0, -1}}, true);
-    for (const float far : {2e18f, 3e38f, infinity, nan}) {
+    for (const float far : {2e18f, 3e38f, infinity, not_a_number}) {
         expect_met(scene, {{0, 0, far}, {0, 0, -1}}, false);
         expect_met(scene, {{0, 0, 1}, {0, 0, -far}}, false);
     }
-    expect_met(scene, {{0, 0, 1}, {0, nan, -1}}, false);
-    EXPECT_FALSE(scene.find(Ray{{0, 0, 1}, {0, 0, -1}}, nan));
+    expect_met(scene, {{0, 0, 1}, {0, not_a_number, -1}}, false);
+    EXPECT_FALSE(scene.find(Ray{{0, 0, 1}, {0, 0, -1}}, not_a_number));
 }
 
 TEST(FarRays, LeaveTheSceneOfATinyInstance) {

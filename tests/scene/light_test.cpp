@@ -1,3 +1,5 @@
+#include "small_lights.h"
+
 #include <tests/sampling/verdicts.h>
 #include <tests/scene/small_scene.h>
 #include <tests/support/chi_square_sphere.h>
@@ -14,12 +16,8 @@
 namespace wend {
 namespace {
 
-const Rgb radiance(2, 3, 5);
-
-Light quadric_light(std::variant<Sphere, Disk> shape, const Transform& place, bool two_sided = false,
-                    bool flip = false) {
-    return make_quadric_light(std::make_shared<Quadric>(std::move(shape), place), place, flip, radiance, two_sided);
-}
+using test::quadric_light;
+using test::radiance;
 
 /// A place without any symmetry: three different scales and a turn.
 Transform awkward_place() {

@@ -11,7 +11,7 @@
 namespace wend {
 namespace {
 
-constexpr MediumId a = 0, b = 1, c = 2;
+constexpr MediumId mist = 0, wax = 1, glass = 2;
 
 Shape box(const Box3& bounds) {
     TriangleMesh mesh;
@@ -54,12 +54,12 @@ void PrintTo(const Arrangement& arrangement, std::ostream* out) {
     *out << arrangement.name;
 }
 
-const Box3 left(Vec3(-1), Vec3(0, 1, 1)), right(Vec3(0, -1, -1), Vec3(1)), middle(Vec3(-0.5f), Vec3(0.5f));
+const Box3 left_box(Vec3(-1), Vec3(0, 1, 1)), right_box(Vec3(0, -1, -1), Vec3(1)), middle_box(Vec3(-0.5f), Vec3(0.5f));
 
 /// The faces of both boxes, each a shape of its own; the one between them is there once.
 void add_cells(SceneDescription& scene) {
     for (const bool is_left : {true, false}) {
-        const auto whole = std::get<TriangleMesh>(box(is_left ? left : right));
+        const auto whole = std::get<TriangleMesh>(box(is_left ? left_box : right_box));
         for (std::size_t i = 0; i < whole.indices.size(); i += 3) {
             TriangleMesh face;
             bool is_between = true;
@@ -69,94 +69,97 @@ void add_cells(SceneDescription& scene) {
             }
             face.indices = {0, 1, 2};
             if (is_left || !is_between) {
-                add(scene, std::move(face), is_left ? a : b, is_between ? b : vacuum);
+                add(scene, std::move(face), is_left ? mist : wax, is_between ? wax : vacuum);
             }
         }
     }
 }
 
 MediumId in_cells(const Vec3& p) {
-    return is_in(left, p) ? a : is_in(right, p) ? b : vacuum;
+    return is_in(left_box, p) ? mist : is_in(right_box, p) ? wax : vacuum;
 }
 
 std::vector<Arrangement> arrangements() {
-    const auto either = [](const Vec3& p) { return is_in(left, p) || is_in(right, p); };
+    const auto either = [](const Vec3& p) { return is_in(left_box, p) || is_in(right_box, p); };
     return {
         {"TwoBoxesThatTouch",
          [](auto& s) {
-             add(s, box(left), a);
-             add(s, box(right), a);
+             add(s, box(left_box), mist);
+             add(s, box(right_box), mist);
          },
-         [=](const Vec3& p) { return either(p) ? a : vacuum; }},
+         [=](const Vec3& p) { return either(p) ? mist : vacuum; }},
         {"TwoMediaThatTouch",
          [](auto& s) {
-             add(s, box(left), a);
-             add(s, box(right), b);
+             add(s, box(left_box), mist);
+             add(s, box(right_box), wax);
          },
-         [](const Vec3& p) { return is_in(left, p)    ? a
-                                    : is_in(right, p) ? b
-                                                      : vacuum; }},
+         [](const Vec3& p) { return is_in(left_box, p)    ? mist
+                                    : is_in(right_box, p) ? wax
+                                                          : vacuum; }},
         {"OverlapOfOneMedium",
          [](auto& s) {
-             add(s, ball({-0.3f, 0, 0}, 0.7f), a);
-             add(s, ball({0.3f, 0, 0}, 0.6f), a);
+             add(s, ball({-0.3f, 0, 0}, 0.7f), mist);
+             add(s, ball({0.3f, 0, 0}, 0.6f), mist);
          },
          [](const Vec3& p) {
-             return is_in_ball({-0.3f, 0, 0}, 0.7f, p) || is_in_ball({0.3f, 0, 0}, 0.6f, p) ? a : vacuum;
+             return is_in_ball({-0.3f, 0, 0}, 0.7f, p) || is_in_ball({0.3f, 0, 0}, 0.6f, p) ? mist : vacuum;
          }},
         {"OverlapOfTwoMedia",
          [](auto& s) {
-             add(s, ball({0.3f, 0, 0}, 0.6f), b);
-             add(s, ball({-0.3f, 0, 0}, 0.7f), a);
+             add(s, ball({0.3f, 0, 0}, 0.6f), wax);
+             add(s, ball({-0.3f, 0, 0}, 0.7f), mist);
          },
          [](const Vec3& p) {
-             return is_in_ball({0.3f, 0, 0}, 0.6f, p) ? b : is_in_ball({-0.3f, 0, 0}, 0.7f, p) ? a : vacuum;
+             return is_in_ball({0.3f, 0, 0}, 0.6f, p) ? wax : is_in_ball({-0.3f, 0, 0}, 0.7f, p) ? mist : vacuum;
          }},
         {"NestedAndSaid",
          [](auto& s) {
-             add(s, box(middle), b, a);
-             add(s, ball({0, 0, 0}, 1), a);
+             add(s, box(middle_box), wax, mist);
+             add(s, ball({0, 0, 0}, 1), mist);
          },
          [](const Vec3& p) {
-             return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+             return is_in(middle_box, p) ? wax : is_in_ball({0, 0, 0}, 1, p) ? mist : vacuum;
          },
          false},
         {"NestedAndNotSaid",
          [](auto& s) {
-             add(s, ball({0, 0, 0}, 1), a);
-             add(s, box(middle), b);
+             add(s, ball({0, 0, 0}, 1), mist);
+             add(s, box(middle_box), wax);
          },
          [](const Vec3& p) {
-             return is_in(middle, p) ? b : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+             return is_in(middle_box, p) ? wax : is_in_ball({0, 0, 0}, 1, p) ? mist : vacuum;
          }},
         {"ABubble",
          [](auto& s) {
-             add(s, ball({0, 0, 0}, 1), a);
-             add(s, box(middle), vacuum, a);
+             add(s, ball({0, 0, 0}, 1), mist);
+             add(s, box(middle_box), vacuum, mist);
          },
          [](const Vec3& p) {
-             return is_in(middle, p) ? vacuum : is_in_ball({0, 0, 0}, 1, p) ? a : vacuum;
+             return is_in(middle_box, p) ? vacuum : is_in_ball({0, 0, 0}, 1, p) ? mist : vacuum;
          },
          false},
         {"TwoThatTouchInAThird",
          [](auto& s) {
-             add(s, ball({0, 0, 0}, 3), c);
-             add(s, box(left), a, c);
-             add(s, box(right), b, c);
+             add(s, ball({0, 0, 0}, 3), glass);
+             add(s, box(left_box), mist, glass);
+             add(s, box(right_box), wax, glass);
          },
          [](const Vec3& p) {
-             return is_in(left, p) ? a : is_in(right, p) ? b : is_in_ball({0, 0, 0}, 3, p) ? c : vacuum;
+             return is_in(left_box, p)            ? mist
+                    : is_in(right_box, p)         ? wax
+                    : is_in_ball({0, 0, 0}, 3, p) ? glass
+                                                  : vacuum;
          }},
         // A wall with a medium on either side, among other faces; and the same beside two balls that overlap.
         {"FacesThatAreShapes", add_cells, in_cells, false},
         {"FacesThatAreShapesBesideAnOverlap",
          [](auto& s) {
              add_cells(s);
-             add(s, ball({0, 3, 0}, 1), c);
-             add(s, ball({0, 3.5f, 0}, 1), c);
+             add(s, ball({0, 3, 0}, 1), glass);
+             add(s, ball({0, 3.5f, 0}, 1), glass);
          },
          [](const Vec3& p) {
-             return is_in_ball({0, 3, 0}, 1, p) || is_in_ball({0, 3.5f, 0}, 1, p) ? c : in_cells(p);
+             return is_in_ball({0, 3, 0}, 1, p) || is_in_ball({0, 3.5f, 0}, 1, p) ? glass : in_cells(p);
          }},
     };
 }
@@ -197,10 +200,10 @@ INSTANTIATE_TEST_SUITE_P(Arrangements, MediaAt, testing::ValuesIn(arrangements()
 TEST(MediaAt, AWalkMayBeginInSeveralRegions) {
     auto description = test::two_materials();
     description.media.assign(3, HomogeneousMedium{Rgb(1), Rgb(1), Rgb(0), PhaseFunction()});
-    add(description, ball({-0.3f, 0, 0}, 0.7f), a);
-    add(description, ball({0.3f, 0, 0}, 0.6f), b);
+    add(description, ball({-0.3f, 0, 0}, 0.7f), mist);
+    add(description, ball({0.3f, 0, 0}, 0.6f), wax);
     description.camera = Camera(PerspectiveCamera{}, Transform(), 2, 2);
-    description.camera_medium = b;
+    description.camera_medium = wax;
     const Scene scene(std::move(description));
     Pcg32 random(1);
     for (int i = 0; i < 1000; ++i) {
@@ -208,7 +211,7 @@ TEST(MediaAt, AWalkMayBeginInSeveralRegions) {
         MediumState state = scene.camera_medium();
         while (const auto hit = scene.intersect(ray)) {
             const Vec3 p = ray.at(0.5f * hit->distance);
-            ASSERT_EQ(state.id, is_in_ball({0.3f, 0, 0}, 0.6f, p) ? b : a);
+            ASSERT_EQ(state.id, is_in_ball({0.3f, 0, 0}, 0.6f, p) ? wax : mist);
             state = scene.medium_beyond(*hit, ray.direction, state);
             ray.pass(*hit);
         }
@@ -220,15 +223,15 @@ TEST(MediaAt, AWalkMayBeginInSeveralRegions) {
 TEST(MediaAt, OpenSurfacesAreBelieved) {
     auto description = test::two_materials();
     description.media.assign(3, HomogeneousMedium{Rgb(1), Rgb(1), Rgb(0), PhaseFunction()});
-    add(description, test::square(0), a, b);
-    add(description, ball({0, 0, 0}, 0.5f), c);
-    add(description, ball({0.3f, 0, 0}, 0.5f), c);
+    add(description, test::square(0), mist, wax);
+    add(description, ball({0, 0, 0}, 0.5f), glass);
+    add(description, ball({0.3f, 0, 0}, 0.5f), glass);
     const Scene scene(std::move(description));
     const TracedRay ray = Ray{{0.9f, -0.9f, 2}, {0, 0, -1}};
     const auto hit = scene.intersect(ray);
     ASSERT_TRUE(hit);
-    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, {}).id, a);
-    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, {}).id, b);
+    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, -1}, {}).id, mist);
+    EXPECT_EQ(scene.medium_beyond(*hit, {0, 0, 1}, {}).id, wax);
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 // Area lights that move, held to lights that stand where these are at a time.
+#include "small_lights.h"
+#include "transform_of.h"
+
 #include <tests/scene/small_scene.h>
 #include <wend/scene/light.h>
 #include <wend/scene/moving_light.h>
@@ -14,22 +17,9 @@
 namespace wend {
 namespace {
 
-const Rgb radiance(2, 3, 5);
-
-Light quadric_light(std::variant<Sphere, Disk> shape, const Transform& place) {
-    return make_quadric_light(std::make_shared<Quadric>(std::move(shape), place), place, false, radiance, false);
-}
-
-/// A map of single precision as a transform.
-Transform transform_of(const AffineMap& map) {
-    Transform::Matrix m = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            m[row][column] = double{map.element(row, column)};
-        }
-    }
-    return Transform(m);
-}
+using test::quadric_light;
+using test::radiance;
+using test::transform_of;
 
 /// By coordinate.
 Vec3 max_of(const Vec3& a, const Vec3& b) {

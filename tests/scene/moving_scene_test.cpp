@@ -1,4 +1,6 @@
 // What rays of a time find in scenes that move.
+#include "transform_of.h"
+
 #include <tests/scene/small_scene.h>
 #include <wend/sampling/warp.h>
 
@@ -12,8 +14,10 @@
 namespace wend {
 namespace {
 
+using test::transform_of;
+
 /// What surfaces can be.
-std::vector<Shape> shapes() {
+std::vector<Shape> unit_shapes() {
     TriangleMesh smooth = test::square(0.2f);
     smooth.normals = {normalize(Vec3(-1, -1, 3)), normalize(Vec3(1, -1, 3)), normalize(Vec3(1, 1, 3)),
                       normalize(Vec3(-1, 1, 3))};
@@ -31,17 +35,6 @@ SceneDescription placed(const Shape& shape, const Motion& motion) {
     return scene;
 }
 
-/// A map of single precision as a transform.
-Transform transform_of(const AffineMap& map) {
-    Transform::Matrix m = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            m[row][column] = double{map.element(row, column)};
-        }
-    }
-    return Transform(m);
-}
-
 const std::vector<std::pair<const char*, Motion>>& motions() {
     static const std::vector<std::pair<const char*, Motion>> all = {
         {"shift", {Transform::translate(-1, 0, 0), Transform::translate(1, 0.5, 0)}},
@@ -57,7 +50,7 @@ const std::vector<std::pair<const char*, Motion>>& motions() {
 // Twin: a scene that stands still where the motion is at that time.
 TEST(MovingScene, AtEachTimeItIsAsIfItStoodThere) {
     Pcg32 random(3);
-    for (const Shape& shape : shapes()) {
+    for (const Shape& shape : unit_shapes()) {
         for (const auto& [name, motion] : motions()) {
             SCOPED_TRACE(name);
             const Scene moving(placed(shape, motion));

@@ -49,18 +49,18 @@ std::vector<double> crossings(const Disk& s, const Vec3& o, const Vec3& d) {
     return {(static_cast<double>(s.height) - o.z) / d.z};
 }
 
-const Shape3 shapes[] = {Sphere{},
-                         Sphere{2, -0.5f, 1.2f, 4},
-                         Sphere{0.01f, -0.01f, 0.004f},
-                         Sphere{1, -1, 1, 1.5f},
-                         Disk{0.5f, 1.5f},
-                         Disk{-1, 2, 0.7f, 5},
-                         Disk{0, 100, 20}};
+const Shape3 parts_of_quadrics[] = {Sphere{},
+                                    Sphere{2, -0.5f, 1.2f, 4},
+                                    Sphere{0.01f, -0.01f, 0.004f},
+                                    Sphere{1, -1, 1, 1.5f},
+                                    Disk{0.5f, 1.5f},
+                                    Disk{-1, 2, 0.7f, 5},
+                                    Disk{0, 100, 20}};
 
 TEST(Quadric, HitsAgreeWithDoublePrecision) {
     Pcg32 random(1);
     int hits = 0;
-    for (const Shape3& shape : shapes) {
+    for (const Shape3& shape : parts_of_quadrics) {
         const Quadric quadric(shape, Transform());
         const float size = std::visit([](const auto& s) { return s.radius; }, shape);
         for (int i = 0; i < 20000; ++i) {

@@ -16,6 +16,9 @@ inline SceneDescription two_materials() {
     return scene;
 }
 
+/// The materials of two_materials().
+constexpr int opaque = 0, interface = 1;
+
 /// Adds a surface to the world; it can be changed until the scene is built.
 inline Surface& add(SceneDescription& scene, Shape shape, int material = 0) {
     scene.world_surfaces.push_back(static_cast<int>(scene.surfaces.size()));

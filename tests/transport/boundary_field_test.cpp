@@ -12,16 +12,16 @@
 namespace wend {
 namespace {
 
-constexpr MediumId medium = 0;
+constexpr MediumId ball_medium = 0;
 constexpr int points = 400;
-constexpr float ior = 1.5f;
+constexpr float ball_ior = 1.5f;
 const Vec3 lamp_at(3, 4, 0);
 
 /// A ball of radius 1 under one small lamp.
 SceneDescription lit_ball() {
     SceneDescription s;
-    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), medium);
-    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, ior), medium);
+    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), ball_medium);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, ball_ior), ball_medium);
     const Vec3 to_ball = normalize(-lamp_at);
     const Frame frame = Frame::from_z(to_ball);
     const Vec3 a = frame.s * 0.1f, b = frame.t * 0.1f;
@@ -35,13 +35,13 @@ SceneDescription lit_ball() {
 
 std::vector<LitPoint> lit(const Scene& scene, const BoundarySurface& boundary) {
     Pcg32 random(1);
-    return lit_points(scene, boundary_points(scene.description(), medium, points, 1), boundary, 64, random);
+    return lit_points(scene, boundary_points(scene.description(), ball_medium, points, 1), boundary, 64, random);
 }
 
 TEST(LitPoints, SeeLampsThroughTheBoundary) {
     const Scene scene(lit_ball());
     int seen = 0;
-    for (const LitPoint& p : lit(scene, {ior, 0})) {
+    for (const LitPoint& p : lit(scene, {ball_ior, 0})) {
         const Vec3 way = lamp_at - p.point.position;
         const Vec3 towards = normalize(way);
         const float cosine = dot(towards, p.point.normal);
@@ -53,11 +53,11 @@ TEST(LitPoints, SeeLampsThroughTheBoundary) {
         ASSERT_EQ(p.emitter_count, 1);
         const BoundaryEmitter& lamp = p.lamps[0];
         // Snell's law, and the lamp's light through the boundary.
-        const float inside = safe_sqrt(1 - (1 - sqr(cosine)) / sqr(ior));
+        const float inside = safe_sqrt(1 - (1 - sqr(cosine)) / sqr(ball_ior));
         EXPECT_NEAR(lamp.cosine, inside, 0.02f);
         EXPECT_GT(dot(cross(towards, p.point.normal), cross(lamp.lobe.mean, p.point.normal)), -1e-3f);
         const float irradiance = 100 * 0.005f * cosine / length_squared(way);
-        const float expected = irradiance * (1 - fresnel_dielectric(cosine, ior)) / inside;
+        const float expected = irradiance * (1 - fresnel_dielectric(cosine, ball_ior)) / inside;
         // A fifth, for what lies behind is certain (boundary_light.cpp).
         EXPECT_NEAR(lamp.fluence, 0.2f * expected, 0.15f * 0.2f * expected);
         EXPECT_GT(lamp.lobe.kappa, 100);
@@ -70,8 +70,8 @@ TEST(LitPoints, SeeLampsThroughTheBoundary) {
 /// A ball high above the floor, if there is one, in sunlight.
 SceneDescription ball_in_the_sun(float reflectance) {
     SceneDescription s;
-    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), medium);
-    test::add_sphere(s, {0, 0, 0}, 1, test::add_interface(s), medium);
+    EXPECT_EQ(test::add_homogeneous(s, Rgb(1.0f), Rgb(10.0f)), ball_medium);
+    test::add_sphere(s, {0, 0, 0}, 1, test::add_interface(s), ball_medium);
     s.lights.push_back(DistantLight{normalize(Vec3(1, 1, 0)), Rgb(2.0f)});
     if (reflectance > 0) {
         test::add_parallelogram(s, {-1e4f, -20, -1e4f}, {0, 0, 2e4f}, {2e4f, 0, 0},
@@ -118,7 +118,7 @@ TEST(LitPoints, ExpectNextToNothingWhereNoLightCanCome) {
 
 TEST(LitPoints, BlurLampsByTheRoughnessOfTheBoundary) {
     const Scene scene(lit_ball());
-    const std::vector<LitPoint> smooth = lit(scene, {ior, 0}), rough = lit(scene, {ior, 0.4f});
+    const std::vector<LitPoint> smooth = lit(scene, {ball_ior, 0}), rough = lit(scene, {ball_ior, 0.4f});
     for (std::size_t i = 0; i < smooth.size(); ++i) {
         if (smooth[i].emitter_count > 0 && rough[i].emitter_count > 0) {
             EXPECT_LT(rough[i].lamps[0].lobe.kappa, 0.5f * smooth[i].lamps[0].lobe.kappa);
@@ -130,7 +130,7 @@ TEST(LitPoints, BlurGrazingLampsMost) {
     const Scene scene(lit_ball());
     double straight = 0, grazing = 0;
     int straight_count = 0, grazing_count = 0;
-    for (const LitPoint& p : lit(scene, {ior, 0.3f})) {
+    for (const LitPoint& p : lit(scene, {ball_ior, 0.3f})) {
         const float cosine = dot(normalize(lamp_at - p.point.position), p.point.normal);
         if (cosine > 0.9f) {
             straight += p.lamps[0].lobe.kappa;
@@ -156,7 +156,7 @@ BoundaryField field_of(const std::vector<LitPoint>& all, float decay = 5) {
 
 TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
     const Scene scene(lit_ball());
-    const BoundaryField field = field_of(lit(scene, {ior, 0}));
+    const BoundaryField field = field_of(lit(scene, {ball_ior, 0}));
     for (const Vec3& direction : {Vec3(1, 0, 0), normalize(Vec3(1, 1, 1)), normalize(lamp_at), normalize(-lamp_at)}) {
         const BoundaryField::View view = field.at(direction * 0.9f);
         EXPECT_GT(dot(view.closest().normal, direction), 0.97f);
@@ -177,7 +177,7 @@ TEST(BoundaryField, TellsTheClosestBoundaryAndWhereLightComesFrom) {
 
 TEST(BoundaryField, KnowsTheNearestOfAllPoints) {
     const Scene scene(lit_ball());
-    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const std::vector<LitPoint> all = lit(scene, {ball_ior, 0});
     const BoundaryField field = field_of(all);
     Pcg32 random(5);
     for (int k = 0; k < 200; ++k) {
@@ -194,7 +194,7 @@ TEST(BoundaryField, KnowsTheNearestOfAllPoints) {
 
 TEST(BoundaryField, TellsTheSameInAnyUnit) {
     const Scene scene(lit_ball());
-    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const std::vector<LitPoint> all = lit(scene, {ball_ior, 0});
     const BoundaryField field = field_of(all);
     for (const auto& [unit, brightness] : {std::pair(1e6f, 1e-24f), std::pair(1e-6f, 1e20f)}) {
         std::vector<LitPoint> other = all;
@@ -215,7 +215,7 @@ TEST(BoundaryField, TellsTheSameInAnyUnit) {
 
 TEST(BoundaryField, TellsTheSameWhoeverAsksFirst) {
     const Scene scene(lit_ball());
-    const std::vector<LitPoint> all = lit(scene, {ior, 0});
+    const std::vector<LitPoint> all = lit(scene, {ball_ior, 0});
     const BoundaryField by_many = field_of(all), by_one = field_of(all);
     constexpr std::size_t places = 4000;
     std::vector<InteriorAim> aims(places);

@@ -12,7 +12,7 @@
 namespace wend {
 namespace {
 
-constexpr int resolution = 16;
+constexpr int slab_resolution = 16;
 
 FilmFeatures seen(const SceneDescription& description) {
     const Scene scene(description);
@@ -22,7 +22,7 @@ FilmFeatures seen(const SceneDescription& description) {
 
 /// A camera in front of a slab of unit thickness at z = 0, in the light of an even sky.
 SceneDescription slab(bool grid = false) {
-    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, slab_resolution);
     const Box3 box(Vec3(-100, -100, 0), Vec3(100, 100, 1));
     const MediumId medium =
         grid ? test::add_uniform_grid(s, box, Rgb(0.1f), Rgb(0.7f), 0) : test::add_homogeneous(s, Rgb(0.1f), Rgb(0.7f));
@@ -98,10 +98,10 @@ TEST(FirstSurface, WhatIsHeldOutIsAHoleAndWhatIsHiddenIsNotThere) {
 }
 
 TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
-    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    SceneDescription s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, slab_resolution);
     add_wall(s, -100, test::add_diffuse(s, Rgb(0.5f)));
     EXPECT_EQ(seen(s).alpha, 0) << "there is nothing before the camera";
-    s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, resolution);
+    s = test::scene_with_camera({0, 0, -5}, {0, 0, 0}, 0.1f, slab_resolution);
     ConductorMaterial mirror;
     mirror.reflectance = s.textures.add_constant(Rgb(0.9f, 0.6f, 0.3f));
     mirror.roughness.u = mirror.roughness.v = s.textures.add_constant(Rgb(0.0f));
@@ -120,7 +120,7 @@ TEST(FirstSurface, MirrorsAndGlassShowWhatIsSeenInThem) {
 
 /// A foggy room with a mirror ball, which presets sample in very different ways.
 SceneDescription room() {
-    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, resolution);
+    SceneDescription s = test::scene_with_camera({0, 0, -3.5f}, {0, 0, 0}, 40, slab_resolution);
     const MediumId fog = test::add_homogeneous(s, Rgb(0.05f), Rgb(0.5f));
     test::add_box(s, Box3(Vec3(-1), Vec3(1)), test::add_interface(s), fog);
     test::add_parallelogram(s, {-1, -1, 0.9f}, {2, 0, 0}, {0, 2, 0}, test::add_diffuse(s, {0.7f, 0.3f, 0.1f}));
@@ -130,7 +130,7 @@ SceneDescription room() {
 }
 
 Picture rendered(const Scene& scene, const char* preset, std::uint64_t seed) {
-    Film film({resolution, resolution}, {{0, 0}, {resolution, resolution}});
+    Film film({slab_resolution, slab_resolution}, {{0, 0}, {slab_resolution, slab_resolution}});
     RenderSettings settings;
     settings.preset = parse_preset(preset);
     settings.samples = 20;

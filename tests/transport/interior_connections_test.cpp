@@ -12,7 +12,7 @@ namespace {
 
 using test::Measured;
 
-constexpr const char* guided[] = {"dwivedi", "auto"};
+constexpr const char* connected_strategies[] = {"dwivedi", "auto"};
 
 /// A dense slab under a white sky that shines on it from above only.
 SceneDescription slab(float albedo) {
@@ -38,7 +38,7 @@ TEST(SlowInteriorConnections, GoOnBehindBoundariesThatTheirMediumGoesOnBehind) {
     const Scene scene(std::move(s));
     // Once scattered: albedo / 2 times the integral of mu / (1 + mu) over the directions in.
     const double expected = double{albedo} / 2 * (1 - std::log(2.0));
-    for (const char* strategy : guided) {
+    for (const char* strategy : connected_strategies) {
         const Measured m = test::measure_radiance(scene, {{0.3f, 0.1f, -2}, {0, 0, 1}}, {8000000, 0.0012}, 1, 1,
                                                   parse_subsurface(strategy));
         EXPECT_TRUE(agrees(m.mean, m.standard_error, expected, 4, 1e-5))
@@ -68,7 +68,7 @@ TEST(InteriorConnections, LeaveLampsThatArePartlyThereAsTheyAreBehindGlass) {
     const Ray ray{{0.1f, -0.2f, -4}, {0, 0, 1}};
     const Measured all = test::measure_radiance(under_lamp(1), ray, {500000, 0.008});
     const Scene scene = under_lamp(presence);
-    for (const char* strategy : guided) {
+    for (const char* strategy : connected_strategies) {
         const Measured partly =
             test::measure_radiance(scene, ray, {500000, 0.008}, 100000, 2, parse_subsurface(strategy));
         const double expected = all.mean * sqr(double{presence});

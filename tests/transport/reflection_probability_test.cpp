@@ -16,47 +16,48 @@
 namespace wend {
 namespace {
 
-const Box3 room(Vec3(-1), Vec3(1));
-const LightReceiver here{{0.5f, 0.5f, 0.5f}, {0, 0, 1}}, there{{0.5f, 0.5f, 0.5f}, {0, 0, -1}};
+const Box3 room_bounds(Vec3(-1), Vec3(1));
+const LightReceiver facing_up{{0.5f, 0.5f, 0.5f}, {0, 0, 1}}, facing_down{{0.5f, 0.5f, 0.5f}, {0, 0, -1}};
 
 TEST(ReflectionProbability, AreFresnelsUntilSomethingIsKnown) {
-    ReflectionProbability choices(room);
-    EXPECT_EQ(choices.odds(here), 1);
+    ReflectionProbability choices(room_bounds);
+    EXPECT_EQ(choices.odds(facing_up), 1);
     choices.learn();
-    EXPECT_EQ(choices.odds(here), 1);
-    const std::vector<ReflectionRecord> dark(100, choices.record(here, true, 0));
+    EXPECT_EQ(choices.odds(facing_up), 1);
+    const std::vector<ReflectionRecord> dark(100, choices.record(facing_up, true, 0));
     choices.add(dark);
     choices.learn();
-    EXPECT_EQ(choices.odds(here), 1);
+    EXPECT_EQ(choices.odds(facing_up), 1);
 }
 
 TEST(ReflectionProbability, FollowTheRatioOfWhatWasBrought) {
-    ReflectionProbability choices(room);
+    ReflectionProbability choices(room_bounds);
     std::vector<ReflectionRecord> records;
     for (int i = 0; i < 10000; ++i) {
         // Five on the one way, one on the other, as means.
-        records.push_back(choices.record(here, i % 4 == 0, i % 4 == 0 ? 5 : i % 2 == 0 ? 3.0f : 0.0f));
-        records.push_back(choices.record(there, i % 4 == 0, i % 4 == 0 ? 0.0f : 1));
+        records.push_back(choices.record(facing_up, i % 4 == 0, i % 4 == 0 ? 5 : i % 2 == 0 ? 3.0f : 0.0f));
+        records.push_back(choices.record(facing_down, i % 4 == 0, i % 4 == 0 ? 0.0f : 1));
     }
-    records.push_back(choices.record(here, true, std::numeric_limits<float>::infinity()));
-    records.push_back(choices.record(here, true, std::numeric_limits<float>::quiet_NaN()));
+    records.push_back(choices.record(facing_up, true, std::numeric_limits<float>::infinity()));
+    records.push_back(choices.record(facing_up, true, std::numeric_limits<float>::quiet_NaN()));
     choices.add(records);
-    EXPECT_EQ(choices.odds(here), 1) << "before the lesson";
+    EXPECT_EQ(choices.odds(facing_up), 1) << "before the lesson";
     choices.learn();
-    EXPECT_NEAR(choices.odds(here), 5, 0.1f);
+    EXPECT_NEAR(choices.odds(facing_up), 5, 0.1f);
     // No way is ruled out.
-    EXPECT_GT(choices.odds(there), 1.0f / 65);
-    EXPECT_LT(choices.odds(there), 1.0f / 60);
+    EXPECT_GT(choices.odds(facing_down), 1.0f / 65);
+    EXPECT_LT(choices.odds(facing_down), 1.0f / 60);
     EXPECT_EQ(choices.odds({{-0.5f, 0.5f, 0.5f}, {0, 0, 1}}), 1) << "elsewhere";
 }
 
 TEST(ReflectionProbability, FewRecordsSayLittle) {
-    ReflectionProbability choices(room);
-    const std::vector<ReflectionRecord> records = {choices.record(here, true, 100), choices.record(here, false, 1)};
+    ReflectionProbability choices(room_bounds);
+    const std::vector<ReflectionRecord> records = {choices.record(facing_up, true, 100),
+                                                   choices.record(facing_up, false, 1)};
     choices.add(records);
     choices.learn();
-    EXPECT_GT(choices.odds(here), 1);
-    EXPECT_LT(choices.odds(here), 1.5f);
+    EXPECT_GT(choices.odds(facing_up), 1);
+    EXPECT_LT(choices.odds(facing_up), 1.5f);
 }
 
 TEST(ReflectionProbability, NoneMakesAWalkTooHeavy) {
@@ -76,13 +77,13 @@ TEST(ReflectionProbability, NoneMakesAWalkTooHeavy) {
 }
 
 TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
-    const ReflectionProbability choices(room);
+    const ReflectionProbability choices(room_bounds);
     ReflectionLog log;
     log.start();
-    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 0.5f);
+    const int first = log.note(ReflectionLog::none, choices.record(facing_up, true, 0), 0.5f);
     log.bring(first, 1);
-    const int left = log.note(first, choices.record(here, false, 0), 0.25f);
-    const int right = log.note(first, choices.record(there, true, 0), 2);
+    const int left = log.note(first, choices.record(facing_up, false, 0), 0.25f);
+    const int right = log.note(first, choices.record(facing_down, true, 0), 2);
     log.bring(left, 3);
     log.bring(right, 8);
     log.bring(ReflectionLog::none, 100);
@@ -99,21 +100,21 @@ TEST(ReflectionLog, TellsEveryBoundaryOfATree) {
 }
 
 TEST(ReflectionLog, KeepsWhatIsFoundAfterItIsFull) {
-    const ReflectionProbability choices(room);
+    const ReflectionProbability choices(room_bounds);
     ReflectionLog log;
     log.start();
-    const int first = log.note(ReflectionLog::none, choices.record(here, true, 0), 1);
+    const int first = log.note(ReflectionLog::none, choices.record(facing_up, true, 0), 1);
     for (std::size_t i = 1; i < ReflectionLog::most; ++i) {
-        log.note(first, choices.record(here, false, 0), 1);
+        log.note(first, choices.record(facing_up, false, 0), 1);
     }
-    log.bring(log.note(first, choices.record(there, false, 0), 1), 5);
+    log.bring(log.note(first, choices.record(facing_down, false, 0), 1), 5);
     std::vector<ReflectionRecord> records;
     log.finish(records);
     ASSERT_EQ(records.size(), ReflectionLog::most);
     EXPECT_EQ(records.back().brought, 5) << "the first boundary's";
 }
 
-constexpr int resolution = 6;
+constexpr int glass_resolution = 6;
 
 struct Glass {
     float roughness;
@@ -131,7 +132,7 @@ class DarkGlass : public testing::TestWithParam<Glass> {};
 // samples. The guided means have standard errors of 0.15 % at most, the known ones of 0.06 %.
 TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     // Murky glass under a bright sky: a few per cent that are reflected are a third of what is seen.
-    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, resolution);
+    SceneDescription s = test::scene_with_camera({0, 0, -4}, {0, 0, 0}, 20, glass_resolution);
     const MediumId murk = test::add_homogeneous(s, Rgb(6.0f), Rgb(10.0f), 0.3f);
     test::add_sphere(s, {0, 0, 0}, 1, test::add_dielectric(s, 1.5f, GetParam().roughness), murk);
     test::add_environment(s, Rgb(1.0f));
@@ -143,13 +144,13 @@ TEST_P(DarkGlass, LooksTheSameWithLessNoise) {
     settings.sampler = SamplerKind::independent;
     settings.seed = 1000;
     // Its noise alone: its mean is known.
-    const test::RepeatedRenders classical(scene, settings, resolution, {8, 8});
+    const test::RepeatedRenders classical(scene, settings, glass_resolution, {8, 8});
     settings.seed = 2000;
     for (const auto& [sampling, subsurface] : {std::pair("direction", "classical"), {"full", "auto"}}) {
         SCOPED_TRACE(testing::Message() << sampling << ", " << subsurface);
         settings.preset = parse_preset(sampling);
         settings.subsurface = parse_subsurface(subsurface);
-        const test::RepeatedRenders guided(scene, settings, resolution);
+        const test::RepeatedRenders guided(scene, settings, glass_resolution);
         test::expect_mean(guided, GetParam().mean);
         EXPECT_LT(guided.noise, 0.7 * classical.noise) << classical.noise;
     }

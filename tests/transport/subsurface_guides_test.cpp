@@ -34,7 +34,7 @@ KnownMean kept_radiance(const std::string& name, const Scene& scene, const Ray& 
         .front();
 }
 
-constexpr const char* guided[] = {"dwivedi", "closest", "incident", "auto"};
+constexpr const char* guided_strategies[] = {"dwivedi", "closest", "incident", "auto"};
 
 struct Block {
     const char* name;
@@ -70,7 +70,7 @@ class GuidedSlab : public testing::TestWithParam<Block> {};
 
 TEST_P(GuidedSlab, MatchesKnownReflectance) {
     const Block& k = GetParam();
-    for (const char* strategy : guided) {
+    for (const char* strategy : guided_strategies) {
         SCOPED_TRACE(strategy);
         const Measured m = reflected(k, strategy, {600000, 0.0024});
         EXPECT_TRUE(agrees(m.mean, m.standard_error, k.value, 4, 1e-5))
@@ -189,7 +189,7 @@ TEST_P(GuidedObject, IsTheSameAsTheClassicalOne) {
     const Scene scene(lit(GetParam()));
     const Ray ray{{0.2f, 0.1f, -4}, normalize(Vec3(0, 0.02f, 1))};
     const KnownMean classical = kept_radiance(std::string("guided_object_") + GetParam().name, scene, ray, 1'000'000);
-    for (const char* strategy : guided) {
+    for (const char* strategy : guided_strategies) {
         SCOPED_TRACE(strategy);
         const Measured m = test::measure_radiance(scene, ray, {300000, 0.0048}, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
@@ -219,7 +219,7 @@ TEST(SlowGuidedObject, MayHoldALampAndOtherObjects) {
     const Scene scene(std::move(s));
     const Ray ray{{0.1f, 0.1f, -4}, {0, 0, 1}};
     const KnownMean classical = kept_radiance("holds_a_lamp", scene, ray, 400'000);
-    for (const char* strategy : guided) {
+    for (const char* strategy : guided_strategies) {
         const Measured m = test::measure_radiance(scene, ray, {60000, 0.024}, 100000, 2, parse_subsurface(strategy));
         const double error = std::hypot(m.standard_error, classical.standard_error);
         EXPECT_TRUE(agrees(m.mean - classical.mean, error, 0, 4))
@@ -476,7 +476,7 @@ TEST(Subsurface, AThinFogIsLeftAlone) {
 
 TEST(Subsurface, NamesAreParsedAndOthersExplained) {
     EXPECT_TRUE(parse_subsurface("classical").is_classical());
-    for (const char* name : guided) {
+    for (const char* name : guided_strategies) {
         EXPECT_FALSE(parse_subsurface(name).is_classical());
         EXPECT_EQ(to_string(parse_subsurface(name)), name);
     }

@@ -38,7 +38,7 @@ SceneDescription room_with_hole() {
     return s;
 }
 
-constexpr int max_depth = 8;
+constexpr int most_vertices = 8;
 
 class UnguidedSquare : public testing::Test {
 protected:
@@ -47,14 +47,14 @@ protected:
         RenderSettings settings;
         settings.preset = parse_preset("distance+direction+roulette+splitting");
         settings.samples = 63;
-        settings.max_depth = max_depth;
+        settings.max_depth = most_vertices;
         settings.keeps_fields = true;
         return render(scene_, film, settings).fields;
     }
 
     template <class Decisions>
     Moments means(const Decisions& decisions, float expected, int walks, bool squares) const {
-        const PathTracer tracer(scene_, decisions, no_guides_, lights_, reflections_, max_depth);
+        const PathTracer tracer(scene_, decisions, no_guides_, lights_, reflections_, most_vertices);
         Moments means;
         for (int i = 0; i < walks; ++i) {
             Sampler sampler(SamplerKind::independent, 1, 0, static_cast<std::uint32_t>(i));
@@ -74,7 +74,7 @@ protected:
 using SlowUnguidedSquare = UnguidedSquare;
 
 TEST_F(UnguidedSquare, OfUnguidedWalksIsTheirOwn) {
-    const PathTracer tracer(scene_, classical_, no_guides_, lights_, reflections_, max_depth);
+    const PathTracer tracer(scene_, classical_, no_guides_, lights_, reflections_, most_vertices);
     double all = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
         Sampler sampler(SamplerKind::independent, 1, 0, i);

@@ -81,11 +81,6 @@ TEST(MitsubaDocument, NamesOfVersion0AreThoseOfVersion3) {
     EXPECT_FLOAT_EQ(scene.materials[scene.shapes[0].material].parameters.get_float("eta", 0), 1.7f);
 }
 
-struct Wrong {
-    const char* content;
-    const char* message;
-};
-
 TEST(MitsubaDocument, WhatIsWrongIsNamedWithItsPlace) {
     const MitsubaFiles files;
     const Wrong cases[] = {

@@ -21,6 +21,12 @@ inline std::string scene_with(const std::string& content) {
            content + "\n</scene>\n";
 }
 
+/// What is wrong in a scene, and what is to be said of it.
+struct Wrong {
+    const char* content;
+    const char* message;
+};
+
 /// A folder of files that scenes refer to.
 class MitsubaFiles {
 public:

@@ -149,10 +149,6 @@ TEST(MitsubaReader, DepthIsOneLess) {
 }
 
 TEST(MitsubaReader, BadValuesAreNamed) {
-    struct Wrong {
-        const char* content;
-        const char* message;
-    };
     const Wrong cases[] = {
         {"<shape type=\"sphere\"><float name=\"radius\" value=\"0\"/></shape>", "\"radius\" must be above 0"},
         {"<shape type=\"cylinder\"><point name=\"p1\" x=\"0\" y=\"0\" z=\"0\"/></shape>", "must differ"},
