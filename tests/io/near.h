@@ -1,6 +1,7 @@
 // Colours and points that are near others.
 #pragma once
 
+#include <wend/core/colour.h>
 #include <wend/core/vector.h>
 
 #include <gtest/gtest.h>
