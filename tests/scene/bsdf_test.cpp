@@ -125,6 +125,11 @@ DielectricBsdf antireflective(float ior, float alpha) {
     return b;
 }
 
+/// Reflects all of red light but for the tint.
+ConductorBsdf tinted_metal(float alpha, const Rgb& tint = Rgb(0.9f, 0.6f, 0.3f)) {
+    return {Rgb(0.0f, 0.9f, 1.5f), Rgb(1, 2.4f, 1.9f), alpha, alpha, FacetSlopes::ggx, tint};
+}
+
 const std::vector<Model>& models() {
     static const std::vector<Model> all = {
         {"lambert", LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}},
@@ -180,8 +185,7 @@ const std::vector<Model>& models() {
         {"dielectric_antireflective", antireflective(1.5f, 0.08f)},
         {"dielectric_antireflective_bubble", antireflective(1 / 1.5f, 0.4f)},
         {"dielectric_antireflective_smooth", antireflective(1.5f, 0)},
-        {"conductor_tinted", ConductorBsdf{Rgb(0.0f, 0.9f, 1.5f), Rgb(1, 2.4f, 1.9f), 0.4f, 0.4f, FacetSlopes::ggx,
-                                           Rgb(0.9f, 0.5f, 0.1f)}}};
+        {"conductor_tinted", tinted_metal(0.4f)}};
     return all;
 }
 
@@ -313,6 +317,35 @@ TEST(Lambert, AlbedoIsTheReflectance) {
         const auto shares = energy(LambertBsdf{Rgb(0.8f, 0.5f, 0.2f)}, wo, 1000);
         EXPECT_TRUE(test::is_within_one_percent(shares[0], 0.8));
         EXPECT_TRUE(test::is_within_one_percent(shares[2], 0.2));
+    }
+}
+
+TEST(Conductor, TheTintIsAFactorOfWhatIsReflected) {
+    Pcg32 random(1);
+    const Rgb tint(0.9f, 0.6f, 0.3f);
+    for (const float alpha : {0.0f, 0.4f}) {
+        const ConductorBsdf clear = tinted_metal(alpha, Rgb(1.0f)), tinted = tinted_metal(alpha, tint);
+        for (const Vec3& wo : incidences()) {
+            const float u = random.uniform();
+            const Vec2 u2 = random.uniform2();
+            const auto plain = clear.sample(wo, u, u2), coloured = tinted.sample(wo, u, u2);
+            ASSERT_EQ(plain.has_value(), coloured.has_value());
+            if (!plain) {
+                continue;
+            }
+            EXPECT_EQ(coloured->direction, plain->direction);
+            EXPECT_EQ(coloured->density, plain->density);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_FLOAT_EQ(coloured->value[c], tint[c] * plain->value[c]);
+                EXPECT_FLOAT_EQ(directional_albedo(tinted, wo)[c], tint[c] * directional_albedo(clear, wo)[c]);
+            }
+        }
+    }
+}
+
+TEST(Conductor, OfNoIndexReflectsAllFromEverywhere) {
+    for (const Vec3& wo : incidences()) {
+        EXPECT_NEAR(tinted_metal(0, Rgb(1.0f)).sample(wo, 0.5f, {0.5f, 0.5f})->value.r, 1, 1e-5) << wo;
     }
 }
 
