@@ -45,14 +45,14 @@ private:
     const char* at_;
 };
 
-struct Header {
+struct PnmHeader {
     int width, height;
     std::uint32_t largest;
     bool is_grey;
 };
 
 template <class Values>
-Image read_pixels(const Header& header, std::string_view rest, const Place& place) {
+Image read_pixels(const PnmHeader& header, std::string_view rest, const Place& place) {
     const std::size_t pixels = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
     if (Values::most(rest.size()) < pixels * (header.is_grey ? 1 : 3)) {
         throw InputError(place, "the picture is truncated");
@@ -91,8 +91,8 @@ Image read_pnm(std::string_view file, const Place& place) {
     if (largest < 1) {
         throw InputError(place, "the picture is damaged: its largest value is below 1");
     }
-    const Header header{static_cast<int>(width), static_cast<int>(height), static_cast<std::uint32_t>(largest),
-                        kind == '2' || kind == '5'};
+    const PnmHeader header{static_cast<int>(width), static_cast<int>(height), static_cast<std::uint32_t>(largest),
+                           kind == '2' || kind == '5'};
     if (kind == '2' || kind == '3') {
         return read_pixels<TextValues>(header, words.rest(), place);
     }
