@@ -95,7 +95,7 @@ def box(scene, made, **settings):
 @pytest.mark.parametrize("name", FOGS)
 def test_fog_that_varies(scene, tmp_path, name):
     box(scene, FOGS[name]())
-    check(scene, tmp_path, 1000, tolerance=0.015)
+    check(scene, tmp_path, 500, tolerance=0.015, cycles_spp=1000)
 
 
 def test_each_copy_has_its_own_fog(scene, tmp_path):

@@ -54,7 +54,7 @@ def stage(scene, name):
 def test_a_lamp_with_a_picture(scene, tmp_path, name):
     stage(scene, name)
     # One block of the oblong one is 2 % brighter.
-    check(scene, tmp_path, 4000 if LAMPS[name][0] == "AREA" else 1000, 0.025 if name == "oblong" else 0.015, cycles_spp=1000)
+    check(scene, tmp_path, 2000 if LAMPS[name][0] == "AREA" else 500, 0.025 if name == "oblong" else 0.015, cycles_spp=1000)
 
 
 def test_pictures_on_lamps_are_named(scene):
