@@ -325,6 +325,13 @@ TEST_F(ImageFile, OwnReadersRefuseWhatIsBroken) {
     }
 }
 
+TEST_F(ImageFile, ManyPixelsOfAFewBytesAreRefusedBeforeTheyTakeMemory) {
+    // 5000 x 5000, which pictures of other kinds may have in so few bytes.
+    store("a", std::string("qoif\0\0\x13\x88\0\0\x13\x88\3\0", 14) + std::string(22, '\xfd'));
+    EXPECT_NE(message_of([&] { read_image(folder / "a"); }).find("36 bytes cannot hold 5000 x 5000"),
+              std::string::npos);
+}
+
 TEST_F(ImageFile, TruncatedFilesAreRefused) {
     Picture picture;
     picture.image = gradient(40, 30);

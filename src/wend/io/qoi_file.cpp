@@ -4,6 +4,8 @@
 #include <wend/io/colour_encoding.h>
 #include <wend/io/image_size.h>
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 
@@ -95,7 +97,8 @@ ImageWithOpacity read_qoi(std::string_view file, const Place& place) {
     }
     check_image_size(width, height, file.size(), place);
     if (width * height > most_pixels_a_byte * static_cast<std::int64_t>(file.size())) {
-        throw InputError(place, "the picture is damaged: its size is more than so few bytes can hold");
+        throw InputError(place, fmt::format("the picture is truncated: {} bytes cannot hold {} x {} pixels",
+                                            file.size(), width, height));
     }
     const std::vector<float> table =
         decoding_table<std::uint8_t>(space == 0 ? ColourEncoding::srgb : ColourEncoding::linear);
