@@ -5,6 +5,7 @@ function(wend_target_options target)
   # Pictures are reproducible bit for bit: no fused operations that depend on the compiler's choice. Nobody reads errno or the
   # floating-point exception flags, and loops vectorize only without them; results are the same.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition
+    -ffile-prefix-map=${PROJECT_SOURCE_DIR}/= # the same bytes from every checkout
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarms on std::string in GCC 12 (its bug 105651)
     $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow> # of what is in another source
     $<$<BOOL:${WEND_WARNINGS_AS_ERRORS}>:-Werror>)

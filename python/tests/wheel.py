@@ -39,7 +39,7 @@ def make_wheel(source: Path, build: Path) -> Path:
         old.unlink()
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
     run(*pip, "wheel", source, "--no-build-isolation", "--no-deps", "-w", build / "raw", "-C",
-        f"build-dir={build / 'tree'}", "-C", "cmake.define.WEND_WARNINGS_AS_ERRORS="
+        f"build-dir={build}", "-C", "cmake.define.WEND_WARNINGS_AS_ERRORS="
         + os.environ.get("WEND_WARNINGS_AS_ERRORS", "OFF"))
     (raw,) = (build / "raw").glob("wend-*.whl")
     run(sys.executable, "-m", "auditwheel", "repair", raw, "-w", build / "dist", "--strip",

@@ -9,15 +9,15 @@
 namespace wend {
 namespace {
 
-constexpr int width = DirectionMap::width, height = DirectionMap::height;
+constexpr int map_width = DirectionMap::width, map_height = DirectionMap::height;
 
 /// Over all directions.
 double integral(const std::vector<float>& map) {
     double sum = 0;
-    for (int y = 0; y < height; ++y) {
-        const double ring = std::cos(pi * y / height) - std::cos(pi * (y + 1) / height);
-        for (int x = 0; x < width; ++x) {
-            sum += map[static_cast<std::size_t>(y * width + x)] * ring * 2 * pi / width;
+    for (int y = 0; y < map_height; ++y) {
+        const double ring = std::cos(pi * y / map_height) - std::cos(pi * (y + 1) / map_height);
+        for (int x = 0; x < map_width; ++x) {
+            sum += map[static_cast<std::size_t>(y * map_width + x)] * ring * 2 * pi / map_width;
         }
     }
     return sum;
@@ -48,8 +48,8 @@ TEST(DirectionMap, RecordsShowTheRadianceTheyFound) {
         const std::vector<float> map = record_map(lamp_records(lamp, uniform));
         EXPECT_NEAR(integral(map), 3, uniform ? 0.3 : 1e-3);
         const std::ptrdiff_t a = brightest(map), b = brightest(truth);
-        EXPECT_LE(std::abs(a % width - b % width), 16);
-        EXPECT_LE(std::abs(a / width - b / width), 16);
+        EXPECT_LE(std::abs(a % map_width - b % map_width), 16);
+        EXPECT_LE(std::abs(a / map_width - b / map_width), 16);
     }
 }
 
@@ -65,10 +65,10 @@ TEST(DirectionMap, DarkAndAbsentRecordsAreDark) {
 }
 
 TEST(DirectionMap, PlacesDirectionsByTheAxesThatThePictureNames) {
-    EXPECT_EQ(place_on_map({1, 0, 0}), (std::array{width / 2, height / 2}));
-    EXPECT_EQ(place_on_map({0, 1, 0}), (std::array{3 * width / 4, height / 2}));
+    EXPECT_EQ(place_on_map({1, 0, 0}), (std::array{map_width / 2, map_height / 2}));
+    EXPECT_EQ(place_on_map({0, 1, 0}), (std::array{3 * map_width / 4, map_height / 2}));
     EXPECT_EQ(place_on_map({0, 0, 1})[1], 0);
-    EXPECT_EQ(place_on_map({0, 0, -1})[1], height - 1);
+    EXPECT_EQ(place_on_map({0, 0, -1})[1], map_height - 1);
 }
 
 TEST(DirectionMap, AllMapsButTheFirstAreLayers) {
@@ -101,15 +101,15 @@ TEST(DirectionPicture, FramesEachMapWithAxesAndColours) {
     EXPECT_NEAR(scale.high / scale.low, 1e4, 1);
     const Image one = labelled_picture({panel}, scale).image;
     EXPECT_EQ(labelled_picture({panel, panel}, scale).image.height, 2 * one.height);
-    EXPECT_GT(one.width, width);
-    EXPECT_GT(one.height, height);
-    const int left = (one.width - width) / 4;
+    EXPECT_GT(one.width, map_width);
+    EXPECT_GT(one.height, map_height);
+    const int left = (one.width - map_width) / 4;
     EXPECT_TRUE(has_ink(one, 0, left, 0, one.height)) << "the angles from +z";
     EXPECT_TRUE(has_ink(one, one.width - left, one.width, 0, one.height)) << "the radiances";
     EXPECT_TRUE(has_ink(one, 0, one.width, 0, 20)) << "the title";
     EXPECT_TRUE(has_ink(one, 0, one.width, one.height - 20, one.height)) << "the longitude";
     const DirectionPanel untitled{"", panel.values, {}};
-    EXPECT_FALSE(has_ink(labelled_picture({untitled}, scale).image, 0, width / 2, 0, 20));
+    EXPECT_FALSE(has_ink(labelled_picture({untitled}, scale).image, 0, map_width / 2, 0, 20));
 }
 
 TEST(DirectionPicture, TitlesOfAnyBytesAreDrawn) {

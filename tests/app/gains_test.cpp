@@ -34,12 +34,12 @@ Comparison scene(const std::string& name, double direction, double full) {
     return comparison;
 }
 
-std::vector<Comparison> example() {
+std::vector<Comparison> two_scenes() {
     return {scene("a.pbrt", 2, 8), scene("<b>.pbrt", 0.5, -1), scene("c.pbrt", 4, 2)};
 }
 
 TEST(Gains, AreSummedUpByLogarithmsTheWorstFirst) {
-    const auto gains = gain_distributions(example());
+    const auto gains = gain_distributions(two_scenes());
     ASSERT_EQ(gains.size(), 2u) << "none for classical sampling";
     EXPECT_EQ(gains[0].sampling, "direction");
     EXPECT_NEAR(gains[0].geometric_mean, std::cbrt(4.0), 1e-12);
@@ -55,11 +55,11 @@ TEST(Gains, AreSummedUpByLogarithmsTheWorstFirst) {
 }
 
 TEST(Gains, OfWhatHasNoneAreNotMadeUp) {
-    const auto gains = gain_distributions(example());
+    const auto gains = gain_distributions(two_scenes());
     EXPECT_EQ(gains[1].scenes.size(), 2u);
     EXPECT_EQ(gains[1].unknown, std::vector<std::size_t>{1}) << "an error below 0 has no gain";
     EXPECT_NEAR(gains[1].geometric_mean, 4, 1e-12);
-    const auto json = gains_json(gains, example());
+    const auto json = gains_json(gains, two_scenes());
     EXPECT_EQ(json[1]["unknown"][0], "<b>.pbrt");
     EXPECT_EQ(json[0]["scenes"][0]["min"], 0.25);
     const auto lone = gain_distributions(std::vector{scene("a", 2, 2)});
@@ -68,7 +68,7 @@ TEST(Gains, OfWhatHasNoneAreNotMadeUp) {
 }
 
 TEST(Gains, ThePlotHasADotThatLeadsToEachScene) {
-    const std::vector<Comparison> scenes = example();
+    const std::vector<Comparison> scenes = two_scenes();
     const std::string svg = gains_svg(gain_distributions(scenes), scenes);
     EXPECT_EQ(count(svg, "<circle"), 5u);
     EXPECT_EQ(count(svg, "class=\"loss\""), 1u);
@@ -79,7 +79,7 @@ TEST(Gains, ThePlotHasADotThatLeadsToEachScene) {
 }
 
 TEST(ScenesPage, ShowsEverySceneTheWorstFirst) {
-    const std::vector<Comparison> scenes = example();
+    const std::vector<Comparison> scenes = two_scenes();
     const std::vector<std::string> thumbnails(3, "png");
     const std::vector<FailedScene> failed = {{"d.pbrt", "no <camera>"}};
     const std::string page =

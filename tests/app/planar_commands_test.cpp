@@ -14,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
+using test::keys;
 using test::run_wend;
 
 test::ProgramResult run_with(const std::string& command, std::vector<std::string> more) {
@@ -22,14 +23,6 @@ test::ProgramResult run_with(const std::string& command, std::vector<std::string
         more.insert(more.end(), {"--thickness", "2"});
     }
     return run_wend(more);
-}
-
-std::vector<std::string> keys(const json& object) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : object.items()) {
-        names.push_back(name);
-    }
-    return names;
 }
 
 const std::vector<std::string> result_keys = {"collisions_per_walk", "exact",     "fom",      "mean",

@@ -19,8 +19,6 @@ namespace {
 using test::count;
 using test::xml_problem;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A plot of one series without a legend.
 Plot plot_of(std::vector<PlotPoint> points, PlotAxis x = {"length, m"}, PlotAxis y = {"time, s"}) {
     PlotPanel panel;
@@ -103,6 +101,7 @@ TEST(Plot, GivenTicksReplaceRoundNumbers) {
 }
 
 TEST(Plot, SaysWhereThereIsNothingToPlot) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const std::vector<PlotPoint>& points :
          {std::vector<PlotPoint>{}, {{infinity, 1}}, {{1, infinity - infinity}}}) {
         const std::string svg = plot_svg(plot_of(points));

@@ -13,15 +13,8 @@ namespace {
 
 using nlohmann::json;
 using test::contains;
+using test::keys;
 using test::run_wend;
-
-std::vector<std::string> keys(const json& object) {
-    std::vector<std::string> names;
-    for (const auto& item : object.items()) {
-        names.push_back(item.key());
-    }
-    return names;
-}
 
 class Program : public testing::Test {
 protected:

@@ -35,6 +35,14 @@ nlohmann::json ProgramResult::json() const {
     return parsed;
 }
 
+std::vector<std::string> keys(const nlohmann::json& object) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : object.items()) {
+        names.push_back(name);
+    }
+    return names;
+}
+
 ProgramResult run_wend(const std::vector<std::string>& arguments) {
     const std::vector<const char*> argv = with_program_name(arguments);
     std::ostringstream out, err;

@@ -25,6 +25,9 @@ struct ProgramResult {
     nlohmann::json json() const;
 };
 
+/// Of a JSON object, in its order.
+std::vector<std::string> keys(const nlohmann::json& object);
+
 /// Runs `wend ARGUMENTS...` inside this process.
 ProgramResult run_wend(const std::vector<std::string>& arguments);
 

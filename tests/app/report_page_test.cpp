@@ -58,7 +58,7 @@ std::string some_png(std::size_t tail) {
     return bytes + std::string(tail, 'x');
 }
 
-Report example() {
+Report example_report() {
     Report report;
     report.title = "Fog & <script>alert(1)</script>";
     report.scene = "scenes/\"quoted\".pbrt";
@@ -98,7 +98,7 @@ TEST(Markup, TemplateValuesAreNotSearchedAgain) {
 }
 
 TEST(ReportPage, ShowsEveryRowOnce) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     EXPECT_EQ(count(page, "<th scope=\"row\">"), 3u);
     EXPECT_TRUE(contains(page,
                          "<tr><th scope=\"row\">classical</th><td>0.5</td><td class=\"ratio\">1×</td><td>60</td>"
@@ -113,8 +113,8 @@ TEST(ReportPage, ShowsEveryRowOnce) {
 }
 
 TEST(ReportPage, ShowsTheSpreadWhereThereAreSeveralSeeds) {
-    EXPECT_FALSE(contains(report_page(example()), "Spread over seeds"));
-    Report report = example();
+    EXPECT_FALSE(contains(report_page(example_report()), "Spread over seeds"));
+    Report report = example_report();
     report.rows[0].relmse_spread = {3, 0.5, 0.4, 0.75, 0.55, 0.1};
     report.rows[0].ratio_spread = {3, 1, 1, 1, 1, 0};
     const std::string page = report_page(report);
@@ -125,7 +125,7 @@ TEST(ReportPage, ShowsTheSpreadWhereThereAreSeveralSeeds) {
 }
 
 TEST(ReportPage, EscapesEveryText) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     EXPECT_EQ(count(page, "<title>Fog &amp; &lt;script&gt;alert(1)&lt;/script&gt;</title>"), 1u);
     EXPECT_EQ(count(page, "<script>"), 1u);
     EXPECT_FALSE(contains(page, "<b>odd"));
@@ -138,7 +138,7 @@ TEST(ReportPage, EscapesEveryText) {
 }
 
 TEST(ReportPage, EmbedsAllPicturesExactly) {
-    const std::vector<std::string> pictures = embedded_pictures(report_page(example()));
+    const std::vector<std::string> pictures = embedded_pictures(report_page(example_report()));
     ASSERT_EQ(pictures.size(), 7u);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         EXPECT_EQ(pictures[i], some_png(i));
@@ -146,7 +146,7 @@ TEST(ReportPage, EmbedsAllPicturesExactly) {
 }
 
 TEST(ReportPage, NeedsNothingFromOutside) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     EXPECT_EQ(count(page, "http"), count(page, "xmlns=\"http://www.w3.org/2000/svg\""));
     EXPECT_FALSE(contains(page, "<link"));
     EXPECT_FALSE(contains(page, "<script src"));
@@ -155,14 +155,14 @@ TEST(ReportPage, NeedsNothingFromOutside) {
 }
 
 TEST(ReportPage, OffersEveryPictureOnBothSides) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     EXPECT_EQ(count(page, "<option "), 6u);
     EXPECT_EQ(count(page, "<option value=\"1\" selected>classical</option>"), 1u);
     EXPECT_EQ(count(page, "<option value=\"2\" selected>it&#39;s &lt;full&gt;</option>"), 1u);
 }
 
 TEST(ReportPage, ShowsThePicturesInAStripWithTheirFigures) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     const std::string strip = page.substr(page.find("id=\"view-0\""), page.find("id=\"view-1\""));
     const std::size_t reference = strip.find("<b>reference</b>");
     const std::size_t classical = strip.find("<b>classical</b> 1024 spp, relMSE 0.5</figcaption>");
@@ -173,7 +173,7 @@ TEST(ReportPage, ShowsThePicturesInAStripWithTheirFigures) {
 }
 
 TEST(ReportPage, EveryMapHasItsColoursAndAPlaceInTheSlider) {
-    const std::string page = report_page(example());
+    const std::string page = report_page(example_report());
     EXPECT_TRUE(contains(page, "relative squared error, logarithmic scale"));
     EXPECT_TRUE(contains(page, "segments &amp; samples, linear scale"));
     EXPECT_TRUE(contains(page, "<span>1</span><i></i><span>40</span>"));

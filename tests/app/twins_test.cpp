@@ -224,7 +224,7 @@ const std::vector<Twin> twins = {
            {6.21768, 0.055},
            {4.35363, 0.063}}}}};
 
-std::string test_name(const testing::TestParamInfo<Twins::ParamType>& parameter) {
+std::string twin_name(const testing::TestParamInfo<Twins::ParamType>& parameter) {
     std::string name = std::string(std::get<0>(parameter.param).scene) + "_" + std::get<1>(parameter.param);
     name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
     return name;
@@ -232,7 +232,7 @@ std::string test_name(const testing::TestParamInfo<Twins::ParamType>& parameter)
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, Twins,
                          testing::Combine(testing::ValuesIn(twins), testing::Values("classical", "direction", "full")),
-                         test_name);
+                         twin_name);
 
 }  // namespace
 }  // namespace wend

@@ -19,18 +19,18 @@ const Layer* find(const Picture& picture, const std::string& name) {
     return found == picture.layers.end() ? nullptr : &*found;
 }
 
-constexpr int side = 16;
+constexpr int picture_side = 16;
 
 Film film_with(FilmLayers layers) {
-    return Film({side, side}, {{0, 0}, {side, side}}, std::move(layers));
+    return Film({picture_side, picture_side}, {{0, 0}, {picture_side, picture_side}}, std::move(layers));
 }
 
 /// Samples of two parts, in stages of unlike noise, and of means that are 1.5 but for `shift` times the noise.
 void fill(Film& film, bool halves, double shift = 0) {
     Pcg32 random(1);
     for (const float spread : {4.0f, 1.0f, 0.2f}) {
-        for (int k = 0; k < side * side * 9; ++k) {
-            const Vec2i pixel(k % side, k / side % side);
+        for (int k = 0; k < picture_side * picture_side * 9; ++k) {
+            const Vec2i pixel(k % picture_side, k / picture_side % picture_side);
             const double a = static_cast<double>(random.uniform());
             const double b = 1 + static_cast<double>(spread) * (static_cast<double>(random.uniform()) - 0.5 + shift);
             FilmSample sample;
@@ -60,7 +60,7 @@ TEST(FilmLayers, PartsAreWeightedAsTheirSum) {
         const float beauty = picture.image.pixels[i / 3].r;
         const float sum = find(picture, "direct")->values[i] + find(picture, "indirect")->values[i];
         EXPECT_NEAR(sum, beauty, 4 * 0x1p-24 * beauty);
-        mean += static_cast<double>(beauty) / (3 * side * side);
+        mean += static_cast<double>(beauty) / (3 * picture_side * picture_side);
     }
     // The stages have the means 3.5, 2 and 1.6, and the last one counts most.
     EXPECT_LT(mean, 2);
@@ -120,7 +120,7 @@ TEST(FilmLayers, ArchivesHoldThem) {
     film.add_features({3, 4}, seen);
     ArchiveWriter whole, part;
     whole(film);
-    const PixelRect lower{{0, 8}, {side, side}}, upper{{0, 0}, {side, 8}};
+    const PixelRect lower{{0, 8}, {picture_side, picture_side}}, upper{{0, 0}, {picture_side, 8}};
     Film again = film_with(layers), joined = film_with(layers);
     ArchiveReader reader(whole.bytes());
     reader(again);

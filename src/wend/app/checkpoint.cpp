@@ -16,18 +16,16 @@
 namespace wend {
 namespace {
 
-using nlohmann::json;
-
 /// What decides the picture, but for the time it takes.
-json settings_of(const Session& session, const RenderSettings& settings) {
-    json described = session.describe(settings);
+nlohmann::json settings_of(const Session& session, const RenderSettings& settings) {
+    nlohmann::json described = session.describe(settings);
     described.erase("scene");
     described.erase("threads");
     return described;
 }
 
-json describe(const Session& session, const RenderSettings& settings) {
-    json files = json::object();
+nlohmann::json describe(const Session& session, const RenderSettings& settings) {
+    nlohmann::json files = nlohmann::json::object();
     for (const FileStamp& file : session.files()) {
         files[file.name] = {file.bytes, file.checksum};
     }
@@ -35,7 +33,7 @@ json describe(const Session& session, const RenderSettings& settings) {
 }
 
 /// Of two objects, the keys whose values are different.
-std::set<std::string> different_keys(const json& before, const json& now) {
+std::set<std::string> different_keys(const nlohmann::json& before, const nlohmann::json& now) {
     std::set<std::string> keys;
     for (const auto& [one, other] : {std::pair(&before, &now), std::pair(&now, &before)}) {
         for (const auto& [key, value] : one->items()) {
@@ -47,20 +45,20 @@ std::set<std::string> different_keys(const json& before, const json& now) {
     return keys;
 }
 
-std::string change_of_file(const json& before, const json& now, const std::string& name) {
+std::string change_of_file(const nlohmann::json& before, const nlohmann::json& now, const std::string& name) {
     const std::string what = name == stamp_of_changes ? "the scene's text, or a parameter of it," : name;
     return what + (!now.contains(name)      ? " is not there any more"
                    : !before.contains(name) ? " was not there before"
                                             : " has changed");
 }
 
-std::string change_of_setting(const json& before, const json& now, const std::string& name) {
-    const auto value = [&](const json& of) { return of.contains(name) ? json_text(of[name]) : "none"; };
+std::string change_of_setting(const nlohmann::json& before, const nlohmann::json& now, const std::string& name) {
+    const auto value = [&](const nlohmann::json& of) { return of.contains(name) ? json_text(of[name]) : "none"; };
     return fmt::format("{} was {} and is {}", name, value(before), value(now));
 }
 
 /// What is different in two descriptions, one line each.
-std::vector<std::string> differences(const json& before, const json& now) {
+std::vector<std::string> differences(const nlohmann::json& before, const nlohmann::json& now) {
     std::vector<std::string> found;
     for (const std::string& file : different_keys(before["files"], now["files"])) {
         found.push_back(change_of_file(before["files"], now["files"], file));
@@ -72,8 +70,8 @@ std::vector<std::string> differences(const json& before, const json& now) {
 }
 
 /// Throws InputError where the checkpoint does not say what it is of.
-json description_of(const Checkpoint& checkpoint, const Place& place) {
-    json description = json::parse(checkpoint.description, nullptr, false);
+nlohmann::json description_of(const Checkpoint& checkpoint, const Place& place) {
+    nlohmann::json description = nlohmann::json::parse(checkpoint.description, nullptr, false);
     const auto is_object = [&](const char* key) { return description.contains(key) && description[key].is_object(); };
     if (!description.is_object() || !is_object("files") || !is_object("settings")) {
         throw InputError(place, "the checkpoint does not say what it is of");
@@ -94,7 +92,7 @@ void resume_from(const std::filesystem::path& file, Render& render, const Sessio
                  const RenderSettings& settings) {
     const Place place{file.string()};
     const Checkpoint checkpoint = read_checkpoint(file);
-    const json before = description_of(checkpoint, place);
+    const nlohmann::json before = description_of(checkpoint, place);
     const std::vector<std::string> different = differences(before, describe(session, settings));
     if (!different.empty()) {
         throw InputError(place, fmt::format("the checkpoint is of another render: {}", fmt::join(different, "; ")));
@@ -109,9 +107,9 @@ void resume_from(const std::filesystem::path& file, Render& render, const Sessio
 
 std::vector<std::string> layers_in_checkpoint(const std::filesystem::path& file) {
     const Place place{file.string()};
-    const json settings = description_of(read_checkpoint(file), place)["settings"];
+    const nlohmann::json settings = description_of(read_checkpoint(file), place)["settings"];
     std::vector<std::string> names;
-    for (const json& name : settings.value("layers", json::array())) {
+    for (const nlohmann::json& name : settings.value("layers", nlohmann::json::array())) {
         if (!name.is_string()) {
             throw InputError(place, "the checkpoint does not say which layers it has");
         }

@@ -26,8 +26,6 @@
 namespace wend {
 namespace {
 
-constexpr int most_samples = 1 << 30;
-
 using FieldsPointer = std::shared_ptr<const guide::Fields>;
 
 /// What the texts of the options mean.
@@ -50,8 +48,9 @@ std::vector<int> parse_passes(const std::string& text) {
         passes.push_back(n);
         total += n;
     }
-    if (total > most_samples) {
-        throw InputError(fmt::format("--passes {}: more than {} samples per pixel", text, most_samples));
+    if (total > RenderSettings::most_samples) {
+        throw InputError(
+            fmt::format("--passes {}: more than {} samples per pixel", text, RenderSettings::most_samples));
     }
     return passes;
 }
@@ -240,7 +239,7 @@ FieldsPointer render_scene(const RenderOptions& options, const Streams& streams,
     if (options.samples > 0) {
         settings.samples = options.samples;
     } else if (options.noise > 0) {
-        settings.samples = most_samples;
+        settings.samples = RenderSettings::most_samples;
     }
     settings.noise = options.noise;
     settings.ranks = ranks;
@@ -375,7 +374,7 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
         ->check(noise_problem);
     CLI::Option* passes = command.add_option("--passes", options.passes,
                                              "repeat these passes of an earlier run (settings.passes of its --json)");
-    samples->check(CLI::Range(1, most_samples))->excludes(seconds)->excludes(passes);
+    samples->check(CLI::Range(1, RenderSettings::most_samples))->excludes(seconds)->excludes(passes);
     seconds->check(seconds_problem)->excludes(passes);
     command.add_option(
         "--sampling", options.sampling,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int map_width = DirectionMap::width, map_height = DirectionMap::height;
 // Around a map, in pixels.
-constexpr int left = 112, right = 158, top = 34, bottom = 72;
+constexpr int left_of_map = 112, right_of_map = 158, above_map = 34, below_map = 72;
 constexpr int text_scale = 2, text_height = 14, bar_width = 18;
 constexpr Rgb ink(0.85f), quiet(0.35f), ground(0.008f);
 
@@ -32,14 +32,14 @@ void end_text(Image& image, int x, int y, const std::string& text, const Rgb& co
 /// The longitude, below the map at row `y`.
 void draw_longitude(Image& image, int y) {
     for (const AxisLabel& label : {AxisLabel{-180, "-x"}, {-90, "-y"}, {0, "+x"}, {90, "+y"}, {180, "-x"}}) {
-        const int x = left + (label.at + 180) * (map_width - 1) / 360;
+        const int x = left_of_map + (label.at + 180) * (map_width - 1) / 360;
         for (int i = 0; i < 6; ++i) {
             image.at(x, y + i) = ink;
         }
         centre_text(image, x, y + 10, fmt::format("{}", label.at), ink);
         centre_text(image, x, y + 28, label.text, ink);
     }
-    centre_text(image, left + map_width / 2, y + 50, "longitude in degrees, from +x towards +y", quiet);
+    centre_text(image, left_of_map + map_width / 2, y + 50, "longitude in degrees, from +x towards +y", quiet);
 }
 
 /// The angle from +z, to the left of the map that begins at row `y`.
@@ -47,17 +47,17 @@ void draw_latitude(Image& image, int y) {
     for (const AxisLabel& label : {AxisLabel{0, "+z 0"}, {90, "90"}, {180, "-z 180"}}) {
         const int row = y + label.at * (map_height - 1) / 180;
         for (int i = 1; i <= 6; ++i) {
-            image.at(left - i, row) = ink;
+            image.at(left_of_map - i, row) = ink;
         }
-        end_text(image, left - 10, row - text_height / 2, label.text, ink);
+        end_text(image, left_of_map - 10, row - text_height / 2, label.text, ink);
     }
-    end_text(image, left - 10, y + map_height / 4, "angle", quiet);
-    end_text(image, left - 10, y + map_height / 4 + 18, "from +z", quiet);
+    end_text(image, left_of_map - 10, y + map_height / 4, "angle", quiet);
+    end_text(image, left_of_map - 10, y + map_height / 4 + 18, "from +z", quiet);
 }
 
 /// The colours and what they stand for, to the right.
 void draw_bar(Image& image, int y, const ColourScale& scale) {
-    const int x = left + map_width + 16;
+    const int x = left_of_map + map_width + 16;
     for (int row = 0; row < map_height; ++row) {
         const Rgb colour = false_colour(1 - static_cast<float>(row) / (map_height - 1));
         for (int i = 0; i < bar_width; ++i) {
@@ -96,22 +96,22 @@ Image map_image(const DirectionPanel& panel, const ColourScale& scale) {
 }
 
 Picture labelled_picture(const std::vector<DirectionPanel>& panels, const ColourScale& scale) {
-    constexpr int panel_height = top + map_height + bottom;
+    constexpr int panel_height = above_map + map_height + below_map;
     Picture picture;
-    picture.full_size = {left + map_width + right, panel_height * static_cast<int>(panels.size())};
+    picture.full_size = {left_of_map + map_width + right_of_map, panel_height * static_cast<int>(panels.size())};
     picture.image = Image(picture.full_size.x, picture.full_size.y, ground);
     int y = 0;
     for (const DirectionPanel& panel : panels) {
         const Image map = map_image(panel, scale);
         for (int row = 0; row < map_height; ++row) {
             for (int x = 0; x < map_width; ++x) {
-                picture.image.at(left + x, y + top + row) = map.at(x, row);
+                picture.image.at(left_of_map + x, y + above_map + row) = map.at(x, row);
             }
         }
-        draw_text(picture.image, left, y + 10, panel.title, ink, text_scale);
-        draw_longitude(picture.image, y + top + map_height);
-        draw_latitude(picture.image, y + top);
-        draw_bar(picture.image, y + top, scale);
+        draw_text(picture.image, left_of_map, y + 10, panel.title, ink, text_scale);
+        draw_longitude(picture.image, y + above_map + map_height);
+        draw_latitude(picture.image, y + above_map);
+        draw_bar(picture.image, y + above_map, scale);
         y += panel_height;
     }
     return picture;

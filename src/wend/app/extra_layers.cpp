@@ -24,11 +24,11 @@ bool has(const std::vector<std::string>& names, std::string_view name) {
 }
 
 /// The parts of a film in their order.
-struct Parts {
+struct AskedParts {
     std::vector<std::string> names;
     PartsPlan plan;
 
-    Parts(const std::vector<std::string>& asked, const Scene& scene) {
+    AskedParts(const std::vector<std::string>& asked, const Scene& scene) {
         const std::size_t count = scene.lights().size();
         for (std::size_t i = 0; i < count; ++i) {
             plan.is_at_infinity.push_back(is_at_infinity(scene.lights()[i]));
@@ -102,7 +102,7 @@ void check_extra_layers(const std::vector<std::string>& names) {
 }
 
 FilmLayers film_layers(const std::vector<std::string>& names, const Scene& scene) {
-    return {Parts(names, scene).names, has(names, halves), has(names, geometry), has(names, objects)};
+    return {AskedParts(names, scene).names, has(names, halves), has(names, geometry), has(names, objects)};
 }
 
 void ask_for_layers(const std::vector<std::string>& names, const Scene& scene, RenderSettings& settings) {
@@ -110,7 +110,7 @@ void ask_for_layers(const std::vector<std::string>& names, const Scene& scene, R
     settings.layers = names;
     std::sort(settings.layers.begin(), settings.layers.end());
     settings.layers.erase(std::unique(settings.layers.begin(), settings.layers.end()), settings.layers.end());
-    settings.parts = Parts(names, scene).plan;
+    settings.parts = AskedParts(names, scene).plan;
     if (has(names, objects)) {
         settings.objects = ids_of(scene);
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double plot_width = 560, plot_left = 12, plot_right = 548, strip_height = 74, plot_top = 8, axis_height = 48;
 
-constexpr const char* opening =
+constexpr const char* opening_of_gains =
     R"(<svg class="plot" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" color="#767676" role="group" aria-label="Gains over classical sampling, a dot for each scene">
 <style>.plot text{{font:13px system-ui,sans-serif;fill:currentColor;text-anchor:middle}}.plot .start{{text-anchor:start}}.plot .grid{{stroke:currentColor;stroke-opacity:.13}}.plot .one{{stroke:currentColor;stroke-opacity:.7;stroke-dasharray:4 3}}.plot .half{{fill:#0077bb;fill-opacity:.16;stroke:#0077bb;stroke-opacity:.6}}.plot .runs{{stroke:#0077bb;stroke-opacity:.35;stroke-width:2}}.plot .dot{{fill:#0077bb}}.plot .loss{{fill:#d65f10}}.plot .mean{{fill:none;stroke:currentColor;stroke-width:2}}.plot a:focus-visible circle{{stroke:currentColor;stroke-width:3}}</style>
 )";
@@ -102,7 +102,7 @@ std::string gains_svg(const std::vector<GainDistribution>& gains, std::span<cons
         x.include(value);
     }
     x.finish();
-    std::string svg = fmt::format(opening, plot_width, bottom + axis_height);
+    std::string svg = fmt::format(opening_of_gains, plot_width, bottom + axis_height);
     auto out = std::back_inserter(svg);
     for (const auto& [at, label] : x.ticks()) {
         fmt::format_to(out, "<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\">{4}</text>\n",

@@ -13,7 +13,7 @@ constexpr int ended_by_signal = 128;
 
 // A signal handler can reach nothing but objects of static storage.
 std::atomic<bool> interrupted = false;
-std::atomic<int> number = 0;
+std::atomic<int> signal_number = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember_interrupt(int signal) {
@@ -21,14 +21,14 @@ extern "C" void remember_interrupt(int signal) {
         remove_unfinished_files();
         _exit(ended_by_signal + signal);
     }
-    number = signal;
+    signal_number = signal;
     interrupted = true;
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-    number = 0;
+    signal_number = 0;
     interrupted = false;
     struct sigaction action {};
     action.sa_handler = remember_interrupt;
@@ -56,7 +56,7 @@ const std::atomic<bool>& InterruptGuard::flag() const {
 }
 
 int InterruptGuard::signal() {
-    return number;
+    return signal_number;
 }
 
 }  // namespace wend

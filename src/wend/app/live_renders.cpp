@@ -11,13 +11,12 @@ using Clock = std::chrono::steady_clock;
 
 // How soon what viewers ask for is noticed.
 constexpr double step_seconds = 0.2;
-constexpr int most_samples = 1 << 30;
 
 RenderSettings settings_of(const Session& session, const std::string& sampling, RenderView& view,
                            const std::atomic<bool>& stop) {
     RenderSettings settings = session.settings();
     settings.preset = parse_preset(sampling);
-    settings.samples = most_samples;
+    settings.samples = RenderSettings::most_samples;
     settings.stop = &stop;
     if (!settings.preset.is_classical()) {
         settings.on_records = [&view](std::span<const guide::PathRecords> records) { view.add(records); };

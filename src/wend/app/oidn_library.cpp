@@ -14,14 +14,14 @@
 namespace wend {
 namespace {
 
-constexpr const char* file_name = "libOpenImageDenoise.so.2";
+constexpr const char* library_name = "libOpenImageDenoise.so.2";
 
 /// The library that the package pyoidn brought into a Python environment; empty where that has none.
 std::filesystem::path library_of_environment(const std::filesystem::path& environment) {
     std::error_code error;
     for (std::filesystem::directory_iterator entry(environment / "lib", error), end; !error && entry != end;
          entry.increment(error)) {
-        std::filesystem::path library = entry->path() / "site-packages/pyoidn/oidn/lib" / file_name;
+        std::filesystem::path library = entry->path() / "site-packages/pyoidn/oidn/lib" / library_name;
         std::error_code ignored;
         if (std::filesystem::exists(library, ignored)) {
             return library;
@@ -49,7 +49,7 @@ std::vector<std::string> oidn_candidates(const std::filesystem::path& given) {
     const std::filesystem::path only = given.empty() && named ? std::filesystem::path(named) : given;
     std::error_code ignored;
     if (!only.empty()) {
-        return {std::filesystem::is_directory(only, ignored) ? (only / file_name).string() : only.string()};
+        return {std::filesystem::is_directory(only, ignored) ? (only / library_name).string() : only.string()};
     }
     std::vector<std::filesystem::path> environments;
     for (const char* const variable : {"VIRTUAL_ENV", "CONDA_PREFIX"}) {
@@ -58,7 +58,7 @@ std::vector<std::string> oidn_candidates(const std::filesystem::path& given) {
         }
     }
     environments.push_back(std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().parent_path());
-    std::vector<std::string> files{file_name};
+    std::vector<std::string> files{library_name};
     for (const std::filesystem::path& environment : environments) {
         const std::filesystem::path library = library_of_environment(environment);
         if (!library.empty()) {

@@ -11,8 +11,6 @@
 namespace wend {
 namespace {
 
-constexpr int most_samples = 1 << 30;
-
 void require(bool is_right, const char* message) {
     if (!is_right) {
         throw InputError(message);
@@ -20,7 +18,7 @@ void require(bool is_right, const char* message) {
 }
 
 void check(const RenderChoices& choices) {
-    require(choices.samples >= 0 && choices.samples <= most_samples, "samples: expected 0 to 2^30");
+    require(choices.samples >= 0 && choices.samples <= RenderSettings::most_samples, "samples: expected 0 to 2^30");
     require(choices.seconds >= 0 && std::isfinite(choices.seconds), "seconds: expected a number from 0 on");
     require(choices.noise >= 0 && std::isfinite(choices.noise), "noise: expected a number from 0 on");
     std::int64_t sum = 0;
@@ -28,7 +26,7 @@ void check(const RenderChoices& choices) {
         require(samples > 0, "passes: expected positive numbers of samples");
         sum += samples;
     }
-    require(sum <= most_samples, "passes: more than 2^30 samples");
+    require(sum <= RenderSettings::most_samples, "passes: more than 2^30 samples");
     require(choices.threads >= 0 && choices.threads <= 4096, "threads: expected 0, for all, to 4096");
 }
 
@@ -47,7 +45,9 @@ OwnedRender::OwnedRender(std::shared_ptr<const ParsedScene> scene, const RenderC
     check(choices);
     settings_.preset = parse_preset(choices.sampling);
     settings_.subsurface = parse_subsurface(choices.subsurface);
-    settings_.samples = choices.samples > 0 ? choices.samples : choices.noise > 0 ? most_samples : settings_.samples;
+    settings_.samples = choices.samples > 0 ? choices.samples
+                        : choices.noise > 0 ? RenderSettings::most_samples
+                                            : settings_.samples;
     settings_.seconds = choices.seconds;
     settings_.noise = choices.noise;
     settings_.passes = choices.passes;

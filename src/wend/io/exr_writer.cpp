@@ -164,14 +164,14 @@ private:
     std::forward_list<std::vector<half>> halves_;
 };
 
-const std::vector<std::string> rgb = {"R", "G", "B"};
+const std::vector<std::string> colour_channels = {"R", "G", "B"};
 
 void add_beauty(Slices& slices, const Picture& picture, LayerNames names, bool as_halves) {
-    slices.add(beauty_layer(names), rgb, &picture.image.pixels[0].r, as_halves);
+    slices.add(beauty_layer(names), colour_channels, &picture.image.pixels[0].r, as_halves);
 }
 
 bool is_colour(const Layer& layer) {
-    return layer.name == "alpha" || (layer.channels == rgb && layer.name != "variance");
+    return layer.name == "alpha" || (layer.channels == colour_channels && layer.name != "variance");
 }
 
 }  // namespace

@@ -14,12 +14,12 @@
 namespace wend {
 namespace {
 
-enum class Type : std::uint8_t { float32 = 10, last = 11 };
+enum class NumberType : std::uint8_t { float32 = 10, last = 11 };
 
 /// Of which the header holds where they are.
 struct Entry {
     std::string name;
-    Type type = Type::last;
+    NumberType type = NumberType::last;
     std::uint64_t offset = 0;
     std::vector<std::size_t> shape;
 };
@@ -28,8 +28,8 @@ Entry take_entry(Bytes& bytes, const Place& place) {
     Entry entry;
     entry.name = std::string(bytes.take(bytes.take<std::uint16_t>()));
     const auto dimensions = bytes.take<std::uint16_t>();
-    entry.type = bytes.take<Type>();
-    if (entry.type > Type::last) {
+    entry.type = bytes.take<NumberType>();
+    if (entry.type > NumberType::last) {
         throw InputError(place, fmt::format("the array \"{}\" is of an unknown type", entry.name));
     }
     entry.offset = bytes.take<std::uint64_t>();
@@ -69,7 +69,7 @@ std::map<std::string, Tensor> read_tensors(const std::filesystem::path& file) {
     std::uint64_t taken_so_far = 0;
     for (std::uint32_t i = 0; i < entries; ++i) {
         const Entry entry = take_entry(bytes, place);
-        if (entry.type != Type::float32) {
+        if (entry.type != NumberType::float32) {
             continue;
         }
         const std::uint64_t size = count_of(entry, place) * sizeof(float);

@@ -15,23 +15,23 @@ namespace wend {
 namespace {
 
 /// A format: how its files begin, and who reads them.
-struct Format {
+struct VolumeFormat {
     std::string_view magic;
     std::optional<Volume> (*read)(const std::filesystem::path& file, const std::string& grid_name);
     std::vector<std::string> (*names)(const std::filesystem::path& file);
 };
 
-constexpr std::array<Format, 2> formats{
+constexpr std::array<VolumeFormat, 2> volume_formats{
     {{nanovdb_magic, read_nanovdb, nanovdb_names}, {openvdb_magic, read_openvdb, openvdb_names}}};
 
-const Format& format_of(const std::filesystem::path& file) {
+const VolumeFormat& format_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw InputError(Place{file.string()}, "cannot open the volume");
     }
     std::array<char, 16> start{};
     stream.read(start.data(), start.size());
-    for (const Format& format : formats) {
+    for (const VolumeFormat& format : volume_formats) {
         if (std::string_view(start.data(), format.magic.size()) == format.magic) {
             return format;
         }

@@ -11,17 +11,17 @@ namespace wend {
 namespace {
 
 /// Of the quadratures: points over microfacets, and azimuths.
-constexpr int points = 8192;
+constexpr int microfacet_points = 8192;
 constexpr int azimuths = 256;
 
 /// The mean of use(u) over a lattice in the unit square. (On a grid the disk of visible normals would have few radii,
 /// and transmission ends at one.)
 double lattice_mean(const auto& use) {
     double sum = 0;
-    for (int i = 0; i < points; ++i) {
-        sum += use(golden_lattice_point(i, points, Vec2(0, 0)));
+    for (int i = 0; i < microfacet_points; ++i) {
+        sum += use(golden_lattice_point(i, microfacet_points, Vec2(0, 0)));
     }
-    return sum / points;
+    return sum / microfacet_points;
 }
 
 Vec3 at_cosine(double cosine, double azimuth = 0) {

@@ -16,7 +16,7 @@
 namespace wend::openpgl {
 namespace {
 
-constexpr guide::SealedKind kind{"a guiding field", "a field", "WENDPGF\x1a", 1};
+constexpr guide::SealedKind kind_of_field{"a guiding field", "a field", "WENDPGF\x1a", 1};
 
 /// What Open PGL's default of samples per leaf is for, in Wend's own.
 constexpr double leaf_scale = PGL_TREE_MAX_SAMPLE_PER_LEAF;
@@ -135,11 +135,11 @@ std::string LearnedField::to_bytes() const {
     if (fields_) {
         bytes(guide::to_bytes(fields_->surface), guide::to_bytes(fields_->volume));
     }
-    return guide::seal(kind, bytes.bytes());
+    return guide::seal(kind_of_field, bytes.bytes());
 }
 
 LearnedField LearnedField::from_bytes(std::string_view bytes, int threads) {
-    ArchiveReader body(guide::unseal(kind, bytes));
+    ArchiveReader body(guide::unseal(kind_of_field, bytes));
     guide::FitSettings settings;
     std::int32_t max_depth;
     std::uint64_t iteration;

@@ -16,7 +16,7 @@
 namespace wend::openpgl {
 namespace {
 
-constexpr guide::SealedKind kind{"training samples", "samples", "WENDPGS\x1a", 1};
+constexpr guide::SealedKind kind_of_samples{"training samples", "samples", "WENDPGS\x1a", 1};
 
 /// A sample of value zero without bytes that mean nothing.
 struct PackedZero {
@@ -219,11 +219,11 @@ std::string SampleStore::to_bytes() const {
         sort_by_content(zeros);
         bytes(samples.lit, zeros);
     }
-    return guide::seal(kind, bytes.bytes());
+    return guide::seal(kind_of_samples, bytes.bytes());
 }
 
 SampleStore SampleStore::from_bytes(std::string_view bytes) {
-    ArchiveReader body(guide::unseal(kind, bytes));
+    ArchiveReader body(guide::unseal(kind_of_samples, bytes));
     SampleStore store;
     for (const Half half : {Half::surface, Half::volume}) {
         std::vector<Sample> samples;

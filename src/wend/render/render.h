@@ -27,6 +27,9 @@
 namespace wend {
 
 struct RenderSettings {
+    /// So many samples a pixel can have.
+    static constexpr int most_samples = 1 << 30;
+
     /// Samples per pixel; ignored where `seconds` is positive.
     int samples = 16;
     /// Time to spend, training included.

@@ -9,19 +9,19 @@
 namespace wend {
 namespace {
 
-constexpr int world = -1;
+constexpr int whole_world = -1;
 /// Holes that are looked at in one medium, and points of each.
 constexpr std::size_t most_holes = 16;
 constexpr std::size_t points_of_hole = 16;
 /// What covers less of its outline's length, squared, is no hole but a seam.
 constexpr double seam = 1e-4;
 /// What is a smaller share of all the boundary is no hole but a pole that a modeller left out.
-constexpr double pinhole = 1e-6;
+constexpr double pinhole_share = 1e-6;
 /// Of one medium.
 constexpr std::size_t most_faults = 16;
 
 const std::vector<int>& surfaces_of(const SceneDescription& scene, int object) {
-    return object == world ? scene.world_surfaces : scene.objects[static_cast<std::size_t>(object)].surfaces;
+    return object == whole_world ? scene.world_surfaces : scene.objects[static_cast<std::size_t>(object)].surfaces;
 }
 
 bool is_passable(const SceneDescription& scene, const Surface& surface) {
@@ -40,7 +40,7 @@ bool is_passable(const SceneDescription& scene, const Surface& surface) {
 /// All that bounds one medium.
 struct Boundary {
     std::vector<int> surfaces;
-    int object = world;        ///< where all of it is
+    int object = whole_world;  ///< where all of it is
     bool is_interior = false;  ///< of any surface that lets light in
     bool is_decidable = true;
 };
@@ -68,7 +68,7 @@ std::vector<Boundary> boundaries(const SceneDescription& scene) {
             }
         }
     };
-    add(world);
+    add(whole_world);
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         add(static_cast<int>(i));
     }
@@ -107,7 +107,7 @@ public:
             }
         }
         std::size_t looked_at = 0;
-        const double least_area = edges->empty() ? 0 : pinhole * area();
+        const double least_area = edges->empty() ? 0 : pinhole_share * area();
         for (const Hole& hole : holes(*edges)) {
             const bool is_wide = hole.area.length() > std::max(seam * hole.length * hole.length, least_area);
             if (!hole.ends.empty() && is_wide && looked_at++ < most_holes && !may_be_closed(hole)) {
@@ -188,7 +188,7 @@ private:
             points.push_back((edge.from + edge.to) * 0.5f);
         }
         remove_near(surfaces_of(scene_, boundary_.object), margin, points);
-        if (boundary_.object != world) {
+        if (boundary_.object != whole_world) {
             const auto is_here = [&](const Instance& i) { return i.object == boundary_.object; };
             const auto instance = std::find_if(scene_.instances.begin(), scene_.instances.end(), is_here);
             if (instance == scene_.instances.end()) {

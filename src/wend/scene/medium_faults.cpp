@@ -7,7 +7,7 @@
 namespace wend {
 namespace {
 
-constexpr std::size_t most_faults = 8;
+constexpr std::size_t most_meetings = 8;
 constexpr int most_pairs = 64;
 /// Of each surface, points that are tried.
 constexpr std::size_t most_points = 8;
@@ -160,7 +160,7 @@ std::vector<MediumFault> medium_faults(const SceneDescription& scene) {
                      [&](const Boundary& a, const Boundary& b) { return size(a) < size(b); });
     int pairs = 0;
     for (std::size_t i = 0; i < boundaries.size(); ++i) {
-        for (std::size_t k = i + 1; k < boundaries.size() && pairs < most_pairs && faults.size() < most_faults; ++k) {
+        for (std::size_t k = i + 1; k < boundaries.size() && pairs < most_pairs && faults.size() < most_meetings; ++k) {
             const Surface& inner = scene.surfaces[static_cast<std::size_t>(boundaries[i].surface)];
             const Surface& outer = scene.surfaces[static_cast<std::size_t>(boundaries[k].surface)];
             if (inner.interior == outer.interior || !boundaries[i].box.intersects(boundaries[k].box)) {

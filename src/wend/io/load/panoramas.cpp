@@ -3,6 +3,7 @@
 #include <wend/core/error.h>
 #include <wend/core/vector.h>
 #include <wend/io/load/context.h>
+#include <wend/io/load/named_value.h>
 
 #include <fmt/format.h>
 
@@ -14,27 +15,13 @@ namespace {
 
 using Mapping = Panorama::Mapping;
 
-struct Named {
-    std::string_view name;
-    Mapping mapping;
-};
-constexpr Named mappings[] = {{"cubeface", Mapping::cube_face},      {"cylindrical", Mapping::cylindrical},
-                              {"equidistant", Mapping::equidistant}, {"equirectangular", Mapping::equirectangular},
-                              {"equisolid", Mapping::equisolid},     {"mirrorball", Mapping::mirror_ball},
-                              {"polynomial", Mapping::polynomial}};
-
-Mapping mapping_of(const pbrt::ParameterSet& parameters) {
-    const std::string name = parameters.get_string("mapping", "equirectangular");
-    const auto found =
-        std::find_if(std::begin(mappings), std::end(mappings), [&](const Named& m) { return m.name == name; });
-    if (found == std::end(mappings)) {
-        throw InputError(parameters.place_of("mapping"),
-                         fmt::format("the mapping \"{}\" is unknown; known are cubeface, cylindrical, equidistant, "
-                                     "equirectangular, equisolid, mirrorball, polynomial",
-                                     name));
-    }
-    return found->mapping;
-}
+constexpr std::array<Named<Mapping>, 7> mappings = {{{"cubeface", Mapping::cube_face},
+                                                     {"cylindrical", Mapping::cylindrical},
+                                                     {"equidistant", Mapping::equidistant},
+                                                     {"equirectangular", Mapping::equirectangular},
+                                                     {"equisolid", Mapping::equisolid},
+                                                     {"mirrorball", Mapping::mirror_ball},
+                                                     {"polynomial", Mapping::polynomial}}};
 
 bool is_fisheye(Mapping mapping) {
     return mapping == Mapping::equidistant || mapping == Mapping::equisolid || mapping == Mapping::polynomial;
@@ -88,7 +75,7 @@ ScreenWindow window_of(const Panorama& camera, float aspect) {
 
 Panorama load_panorama(const pbrt::ParameterSet& parameters, const std::optional<ScreenWindow>& window, float aspect) {
     Panorama camera;
-    camera.mapping = mapping_of(parameters);
+    camera.mapping = named_value(parameters, "mapping", mappings, Mapping::equirectangular);
     if (is_fisheye(camera.mapping)) {
         camera.largest_angle = half_view(parameters);
     }

@@ -1,6 +1,7 @@
 #include <wend/io/load/subdivision_shapes.h>
 
 #include <wend/io/load/mesh_parameters.h>
+#include <wend/io/load/named_value.h>
 #include <wend/io/load/subdivision.h>
 
 #include <fmt/format.h>
@@ -15,16 +16,10 @@
 namespace wend {
 namespace {
 
-template <class Value>
-struct Named {
-    std::string_view name;
-    Value value;
-};
-
 using Rules = SubdivisionRules;
-constexpr std::array<Named<Rules::Scheme>, 3> schemes = {{{"catmullClark", Rules::Scheme::catmull_clark},
-                                                          {"loop", Rules::Scheme::loop},
-                                                          {"bilinear", Rules::Scheme::bilinear}}};
+constexpr std::array<Named<Rules::Scheme>, 3> subdivision_schemes = {{{"catmullClark", Rules::Scheme::catmull_clark},
+                                                                      {"loop", Rules::Scheme::loop},
+                                                                      {"bilinear", Rules::Scheme::bilinear}}};
 constexpr std::array<Named<Rules::Boundary>, 3> boundaries = {{{"none", Rules::Boundary::none},
                                                                {"edgeOnly", Rules::Boundary::edge_only},
                                                                {"edgeAndCorner", Rules::Boundary::edge_and_corner}}};
@@ -37,32 +32,13 @@ constexpr std::array<Named<Rules::FaceVarying>, 6> linear_parts = {{{"none", Rul
 constexpr std::array<Named<Rules::Triangles>, 2> triangle_rules = {
     {{"catmullClark", Rules::Triangles::catmull_clark}, {"smooth", Rules::Triangles::smooth}}};
 
-/// The value of this name; `fallback` where the parameter is absent.
-template <class Value, std::size_t n>
-Value chosen(const pbrt::ParameterSet& p, std::string_view parameter, const std::array<Named<Value>, n>& choices,
-             Value fallback) {
-    if (!p.has(parameter)) {
-        return fallback;
-    }
-    const std::string name = p.get_string(parameter, "");
-    std::vector<std::string_view> names;
-    for (const Named<Value>& choice : choices) {
-        if (choice.name == name) {
-            return choice.value;
-        }
-        names.push_back(choice.name);
-    }
-    throw InputError(p.place_of(parameter),
-                     fmt::format("\"{}\" is \"{}\"; known are {}", parameter, name, fmt::join(names, ", ")));
-}
-
 Rules load_rules(const pbrt::ParameterSet& p) {
     const Rules standard;
     Rules rules;
-    rules.scheme = chosen(p, "scheme", schemes, standard.scheme);
-    rules.boundary = chosen(p, "interpolateBoundary", boundaries, standard.boundary);
-    rules.face_varying = chosen(p, "faceVaryingLinearInterpolation", linear_parts, standard.face_varying);
-    rules.triangles = chosen(p, "triangleSubdivisionRule", triangle_rules, standard.triangles);
+    rules.scheme = named_value(p, "scheme", subdivision_schemes, standard.scheme);
+    rules.boundary = named_value(p, "interpolateBoundary", boundaries, standard.boundary);
+    rules.face_varying = named_value(p, "faceVaryingLinearInterpolation", linear_parts, standard.face_varying);
+    rules.triangles = named_value(p, "triangleSubdivisionRule", triangle_rules, standard.triangles);
     return rules;
 }
 

@@ -20,10 +20,6 @@ constexpr std::string_view known_types =
     "polarizer, principled, principledthin, retarder, roughconductor, roughdielectric, roughplastic, thindielectric, "
     "twosided";
 
-bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), type) != names.end();
-}
-
 }  // namespace
 
 Model Models::of(const Object& bsdf) {
@@ -31,13 +27,13 @@ Model Models::of(const Object& bsdf) {
     if (type == "diffuse") {
         return diffuse(bsdf);
     }
-    if (is_one_of(type, {"dielectric", "roughdielectric", "thindielectric"})) {
+    if (bsdf.is_one_of({"dielectric", "roughdielectric", "thindielectric"})) {
         return dielectric(bsdf);
     }
-    if (is_one_of(type, {"conductor", "roughconductor"})) {
+    if (bsdf.is_one_of({"conductor", "roughconductor"})) {
         return conductor(bsdf);
     }
-    if (is_one_of(type, {"plastic", "roughplastic", "pplastic"})) {
+    if (bsdf.is_one_of({"plastic", "roughplastic", "pplastic"})) {
         return plastic(bsdf);
     }
     if (type == "principled") {
@@ -226,7 +222,7 @@ Model Models::measured(const Object& bsdf) {
 }
 
 Model Models::replaced(const Object& bsdf) {
-    if (!is_one_of(bsdf.type(), {"circular", "measured_polarized", "polarizer", "retarder"})) {
+    if (!bsdf.is_one_of({"circular", "measured_polarized", "polarizer", "retarder"})) {
         refuse_type(bsdf, std::string(known_types));
     }
     context_.warn(bsdf.place(), fmt::format("{} is not implemented: a diffuse one takes its place", bsdf.title()));

@@ -45,6 +45,10 @@ std::vector<double> numbers_of(std::string_view text, const pbrt::Location& plac
     return numbers;
 }
 
+bool Object::is_one_of(std::initializer_list<std::string_view> types) const {
+    return std::find(types.begin(), types.end(), type()) != types.end();
+}
+
 std::string Object::title() const {
     return fmt::format("<{} type=\"{}\">", element_.tag, type());
 }

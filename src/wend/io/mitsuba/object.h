@@ -7,6 +7,7 @@
 #include <wend/io/pbrt/description_builder.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,6 +42,7 @@ public:
     const Element& element() const { return element_; }
     const pbrt::Location& place() const { return element_.place; }
     std::string_view type() const { return element_.attribute("type"); }
+    bool is_one_of(std::initializer_list<std::string_view> types) const;
     /// `<bsdf type="diffuse">`, for messages.
     std::string title() const;
 

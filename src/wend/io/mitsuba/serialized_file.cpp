@@ -15,7 +15,7 @@
 namespace wend::mitsuba {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{4} << 30;
+constexpr std::size_t most_unpacked_bytes = std::size_t{4} << 30;
 
 enum Flags : std::uint32_t {
     has_normals = 0x1,
@@ -35,7 +35,7 @@ std::string inflated(std::string_view packed, const Place& place) {
     std::string result;
     int status = Z_OK;
     constexpr std::size_t chunk = std::size_t{1} << 20;
-    while (status == Z_OK && result.size() < most_bytes) {
+    while (status == Z_OK && result.size() < most_unpacked_bytes) {
         const std::size_t used = result.size();
         const std::size_t input = std::min(packed.size(), chunk);
         result.resize(used + chunk);

@@ -13,10 +13,6 @@
 namespace wend::mitsuba {
 namespace {
 
-bool is_one_of(std::string_view type, std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), type) != names.end();
-}
-
 /// Whether a texture is in an object, or in what it refers to.
 bool has_texture(const Object& object, int depth = 0) {
     constexpr int deepest = 8;
@@ -34,12 +30,12 @@ bool has_texture(const Object& object, int depth = 0) {
 
 /// Disks with textures are: their texture coordinates are others than those of a disk of pbrt.
 bool is_mesh(const Object& shape) {
-    return is_one_of(shape.type(), {"cube", "obj", "ply", "rectangle", "serialized"}) ||
+    return shape.is_one_of({"cube", "obj", "ply", "rectangle", "serialized"}) ||
            (shape.type() == "disk" && has_texture(shape));
 }
 
 bool is_curve(const Object& shape) {
-    return is_one_of(shape.type(), {"bsplinecurve", "linearcurve"});
+    return shape.is_one_of({"bsplinecurve", "linearcurve"});
 }
 
 /// Of the map from the unit sphere, disk or cylinder, whose axis is z.
@@ -126,7 +122,7 @@ void Shapes::add(const Element& element) {
     ++depth_;
     const Object shape(context_, element);
     const std::string_view type = shape.type();
-    if (is_mesh(shape) || is_curve(shape) || is_one_of(type, {"cylinder", "disk", "sphere"})) {
+    if (is_mesh(shape) || is_curve(shape) || shape.is_one_of({"cylinder", "disk", "sphere"})) {
         add_object(shape);
     } else if (type == "instance") {
         add_instance(shape);
@@ -136,7 +132,7 @@ void Shapes::add(const Element& element) {
         for (const Element* inner : shape.nested("shape")) {
             add(*inner);
         }
-    } else if (is_one_of(type, {"ellipsoids", "ellipsoidsmesh", "sdfgrid"})) {
+    } else if (shape.is_one_of({"ellipsoids", "ellipsoidsmesh", "sdfgrid"})) {
         context_.warn(shape.place(), fmt::format("{} is not implemented: it is left out", shape.title()));
         --depth_;
         return;

@@ -54,12 +54,12 @@ Xyz integrate(const Spectrum& spectrum, Xyz (*matching)(double)) {
 constexpr ColourMatrix to_rec709{
     {{{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}}}};
 /// The tristimulus values that this matrix maps to (1, 1, 1).
-constexpr Xyz white{0.95047, 1.0, 1.08883};
+constexpr Xyz white_point{0.95047, 1.0, 1.08883};
 
 Xyz matching(double wavelength) {
     static const Xyz scale = [] {
         const Xyz fit = integrate(d65, fitted_matching);
-        return Xyz{white.x * fit.y / fit.x, 1, white.z * fit.y / fit.z};
+        return Xyz{white_point.x * fit.y / fit.x, 1, white_point.z * fit.y / fit.z};
     }();
     const Xyz fit = fitted_matching(wavelength);
     return {fit.x * scale.x, fit.y, fit.z * scale.z};
@@ -93,7 +93,7 @@ Rgb rgb_from_xyz(const Xyz& xyz) {
     Rgb rgb;
     for (int c = 0; c < 3; ++c) {
         const auto& row = to_rec709.m[static_cast<std::size_t>(c)];
-        const double of_white = row[0] * white.x + row[1] * white.y + row[2] * white.z;
+        const double of_white = row[0] * white_point.x + row[1] * white_point.y + row[2] * white_point.z;
         rgb[c] = static_cast<float>((row[0] * xyz.x + row[1] * xyz.y + row[2] * xyz.z) / of_white);
     }
     return rgb;

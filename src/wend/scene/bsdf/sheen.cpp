@@ -12,8 +12,8 @@ namespace {
 
 /// Uniform cubic B-splines in the roughness (rows) and in the root of the cosine (columns): a least-squares fit to the
 /// tables of zeltner2022 as Cycles 5.0 has them, within 2e-3 of the albedo from a roughness of 0.3 up.
-constexpr std::size_t size = 8;
-using Spline = std::array<std::array<float, size>, size>;
+constexpr std::size_t spline_size = 8;
+using Spline = std::array<std::array<float, spline_size>, spline_size>;
 
 constexpr Spline spline_of_a = {{{0.004f, -0.009f, -0.052f, -0.135f, -0.102f, 0.074f, 0.312f, 0.543f},
                                  {0.051f, 0.036f, 0.064f, 0.073f, 0.071f, 0.16f, 0.346f, 0.551f},
@@ -46,8 +46,8 @@ struct Place {
     std::array<float, 4> weight;
 
     explicit Place(float x) {
-        const float at = std::clamp(x, 0.0f, 1.0f) * (size - 3);
-        first = std::min(static_cast<std::size_t>(at), size - 4);
+        const float at = std::clamp(x, 0.0f, 1.0f) * (spline_size - 3);
+        first = std::min(static_cast<std::size_t>(at), spline_size - 4);
         const float t = at - static_cast<float>(first), s = 1 - t;
         weight = {s * s * s / 6, (4 + t * t * (3 * t - 6)) / 6, (4 + s * s * (3 * s - 6)) / 6, t * t * t / 6};
     }
