@@ -46,7 +46,7 @@ def main():
     parser.add_argument("--oidn", help="the library, if wend does not find it by itself")
     parser.add_argument("--spp", type=int, default=16)
     parser.add_argument("--seeds", type=int, nargs="+", default=[5])
-    parser.add_argument("--scenes", nargs="+", default=sorted(p.stem for p in (ROOT / "scenes").glob("*.pbrt")))
+    parser.add_argument("--scenes", nargs="+", default=sorted(p.name.removesuffix(".ref-a.exr") for p in (ROOT / "scenes").glob("*.ref-a.exr")))
     options = parser.parse_args()
     print("| scene | seed | raw | colours alone | without `volume` | `--denoise` |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
