@@ -357,7 +357,7 @@ class _Reader(SceneReader):
                     self.tell(f"object '{name}'", "hair does not shine")
                 else:
                     light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
-                    add("AreaLightSource", "diffuse", light | {"bool twosided": True, "bool alphaonce": True})
+                    add("AreaLightSource", "diffuse", light | {"bool twosided": not look.is_one_sided, "bool alphaonce": True})
                     self.has_light = True
             seen = {"string cameraview": self.view} if self.view != "shown" else {}
             add("Shape", kind, parameters | look.shape_parameters | seen)
