@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._blend_chalk import add_roughness
-from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
+from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, share_left, tell_of_facets, tell_of_films
 from ._blend_fog import Fog, fog_of
 from ._blend_glass import dielectric, glass_of, lets_through, mirror_of
 from ._blend_hair import hair_of
@@ -210,6 +210,7 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
         if linked_to(nodes, inputs["Coat Normal"]) != linked_to(nodes, inputs["Normal"]):
             nodes.warn(node, "a coat has the normals of what it covers")
     has_sheen = add_sheen(nodes, material, inputs)
+    emission = emission * share_left(nodes, node, coat, has_sheen, varies) if emission.max() > 0 else emission
     brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
     add_detail(nodes, node, material)
     result = Surface(material, emission=emission, brushed=brushed)
