@@ -105,6 +105,34 @@ def test_sides_differ(scene, tmp_path):
     check(scene, tmp_path, 500)
 
 
+@pytest.mark.parametrize("behind", [MATT, ("BsdfTransparent", {})], ids=["matt", "transparent"])
+def test_a_front_alone_shines(scene, tmp_path, behind):
+    """Also where its object is mirrored."""
+    floor(scene)
+    made = mixed(by("NewGeometry", "Backfacing"), ("Emission", {"strength": 5.0}), behind)
+    mesh(scene, "plane", made, size=2, place=(-1.2, 0, 1.2), turn=(2.2, 0, 0))
+    mesh(scene, "plane", made, size=1, place=(0, -1, 2), turn=(0.8, 0, 0), stretch=(-1, 1, 1))
+    check(scene, tmp_path, 1000)
+
+
+def test_a_front_alone_shines_by_a_picture(scene, tmp_path):
+    floor(scene)
+    made = mixed(by("NewGeometry", "Backfacing"), ("Emission", {"strength": 5.0}), MATT)
+    checks = node(made.node_tree, "TexChecker", scale=3.0, color1=(1, 0.3, 0.1), color2=(0.1, 0.3, 1))
+    link(made.node_tree, checks, next(n for n in made.node_tree.nodes if n.bl_idname == "ShaderNodeEmission").inputs[0])
+    mesh(scene, "plane", made, size=2, place=(-1.2, 0, 1.2), turn=(2.2, 0, 0))
+    check(scene, tmp_path, 1000, tolerance=0.015, bake_resolution=256)
+
+
+def test_light_of_both_sides_that_differs_is_named(scene):
+    mesh(scene, "plane", takes("Emission", "Strength", by("NewGeometry", "Backfacing")))
+    with pytest.warns(wend.SceneWarning, match="whose back alone shines"):
+        blend.of_scene(scene)
+    mesh(scene, "cube", mixed(by("NewGeometry", "Backfacing"), ("Emission", {"strength": 5.0}), ("Emission", {})))
+    with pytest.warns(wend.SceneWarning, match="is as in front"):
+        blend.of_scene(scene)
+
+
 def test_angles_need_no_warning(scene):
     on_a_floor(scene, mixed(by("Fresnel"), MATT, GLOSSY))
     with warnings.catch_warnings():

@@ -48,6 +48,14 @@ def test_cameras(scene, tmp_path, settings):
     assert np.abs(ours[..., 0] - theirs[..., 0]).mean() < 0.02
 
 
+@pytest.mark.parametrize(("width", "height", "percentage"), [(1280, 720, 70), (1280, 720, 35), (33, 17, 50)])
+def test_a_share_of_the_size_is_rounded_as_in_blender(scene, tmp_path, width, height, percentage):
+    render = scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, percentage
+    seen = by_cycles(scene, tmp_path, 1).shape
+    assert blend.of_scene(scene).scene().resolution == (seen[1], seen[0])
+
+
 def test_depth_of_field(scene, tmp_path):
     floor(scene)
     sky(scene, (0.2, 0.3, 0.5))

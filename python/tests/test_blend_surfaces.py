@@ -6,6 +6,7 @@ import pytest
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
 from blender_scene import (  # noqa: E402, F401
     add,
+    by_cycles,
     camera,
     check,
     floor,
@@ -17,7 +18,11 @@ from blender_scene import (  # noqa: E402, F401
     scene,
     set_input,
     sky,
+    told,
 )
+
+import wend  # noqa: E402
+from wend import blend  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
 
@@ -71,6 +76,32 @@ def test_principled(scene, tmp_path, inputs):
 def test_others(scene, tmp_path, kind, inputs):
     ball(scene, material(kind, **inputs))
     check(scene, tmp_path, 1000, tolerance=CHALK if kind == "BsdfDiffuse" else 0.01)
+
+
+def test_a_coat_darkens_what_shines_below_it(scene, tmp_path):
+    """All in all: seen from aside it is darker than ours, and from above brighter."""
+    inputs = {"base_color": (0, 0, 0), "roughness": 0.5, "coat_weight": 0.8, "coat_roughness": 0.3, "coat_tint": (0.2, 0.5, 0.9)}
+    made = material("BsdfPrincipled", emission_color=(0.2, 0.4, 1), emission_strength=5.0, specular_ior_level=0, **inputs)
+    mesh(scene, "uv_sphere", made, smooth=True, radius=1.5, segments=64, ring_count=32)
+    camera(scene, (0, -60, 0), (0, 0, 0), lens=500)
+    theirs = by_cycles(scene, tmp_path, 200).mean(axis=(0, 1))
+    ours = wend.render(blend.of_scene(scene, spp=200).scene(), sampling="classical").image.mean(axis=(0, 1))
+    np.testing.assert_allclose(ours, theirs, rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ({"base_color": (1.4, 0.3, 0.1)}, "Base Color above 1"),
+        ({"coat_weight": 1.0, "emission_strength": 1.0}, "a coat darkens"),
+        ({"sheen_weight": 1.0, "emission_strength": 1.0}, "sheen does not darken"),
+    ],
+    ids=["too bright", "coat", "sheen"],
+)
+def test_what_is_not_quite_so_is_named(scene, inputs, words):
+    mesh(scene, "cube", material("BsdfPrincipled", **inputs))
+    sky(scene, (1, 1, 1))
+    assert words in told(scene)
 
 
 @pytest.mark.parametrize(

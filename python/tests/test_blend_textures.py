@@ -303,11 +303,54 @@ def test_what_has_no_faces_or_no_finite_uvs(scene):
     assert blend.of_scene(scene, bake_resolution=8).scene(resolution=(8, 8))
 
 
-def test_what_depends_on_the_eye_is_named(scene):
-    mesh(scene, "cube", takes("BsdfDiffuse", "Color", texture("CameraData", 1)))
+def to_the_camera(tree, socket):
+    made = node(tree, "VectorTransform", convert_to="CAMERA")
+    link(tree, node(tree, "NewGeometry"), made.inputs[0], "Normal")
+    link(tree, made, socket)
+
+
+@pytest.mark.parametrize(
+    ("wire", "name"),
+    [
+        (texture("CameraData", 1), "Camera Data"),
+        (texture("NewGeometry", "Incoming"), "Geometry"),
+        (to_the_camera, "Vector Transform"),
+    ],
+    ids=["camera", "incoming", "transform"],
+)
+def test_what_depends_on_the_eye_is_named(scene, wire, name):
+    mesh(scene, "cube", takes("BsdfDiffuse", "Color", wire))
     lamp(scene, "POINT", 1, (0, 0, 3))
     _, texts = told(scene, bake_resolution=16)
-    assert any("Camera Data" in text and "from where it is seen" in text for text in texts)
+    assert any(name in text and "from where it is seen" in text for text in texts)
+
+
+@pytest.mark.parametrize("wire", [texture("TexNoise"), texture("TexCoord", "Generated")], ids=["noise", "coordinates"])
+@pytest.mark.parametrize("by", ["key", "modifier"])
+def test_what_lies_by_a_shape_that_is_deformed_is_named(scene, wire, by):
+    made = mesh(scene, "cube", takes("BsdfDiffuse", "Color", wire))
+    lamp(scene, "POINT", 1, (0, 0, 3))
+    _, before = told(scene, bake_resolution=16)
+    if by == "modifier":
+        made.modifiers.new("round", "CAST")
+    else:
+        made.shape_key_add(name="first")
+        made.shape_key_add(name="second").value = 1
+    _, texts = told(scene, bake_resolution=16)
+    assert any("as it is deformed" in text for text in texts) and not any("as it is deformed" in text for text in before)
+
+
+def test_what_differs_between_sides_and_varies_is_named(scene):
+    def wire(tree, socket):
+        made = node(tree, "Math", operation="MULTIPLY")
+        link(tree, node(tree, "NewGeometry"), made.inputs[0], "Backfacing")
+        link(tree, node(tree, "TexNoise"), made.inputs[1])
+        link(tree, made, socket)
+
+    mesh(scene, "cube", takes("BsdfDiffuse", "Color", wire))
+    lamp(scene, "POINT", 1, (0, 0, 3))
+    _, texts = told(scene, bake_resolution=16)
+    assert any("baked as it is in front" in text for text in texts)
 
 
 @pytest.mark.parametrize("output", ["Random", "Color"])

@@ -51,6 +51,16 @@ def _reflected(cosine: float, index: float) -> float:
     return 0.5 * across**2 * (1 + along**2)
 
 
+def left_by_coat(weight: float, index: float, tint: Colour) -> Colour:
+    """Of the light that a surface shines with evenly, what a coat lets through, in all: what it does not reflect, and of
+    that what it does not absorb."""
+    cosines = (np.arange(128) + 0.5) / 128
+    passed = np.array([1 - weight * _reflected(float(cosine), index) for cosine in cosines])
+    lengths = 1 / np.sqrt(1 - (1 - cosines**2) / max(index, 1.0) ** 2)
+    absorbed = 1 - weight + weight * np.clip(tint, 0, 1) ** lengths[:, None]
+    return np.asarray((2 * cosines * passed) @ absorbed / len(cosines), dtype=np.float64)
+
+
 def texture_by_view(nodes: Nodes, socket: Any, kind: str, power: float) -> str | None:
     """The name of a texture by the angle of view and the side; None where an input depends on more, or on neither."""
     if nodes.seen_at(socket, View(1.0)) is None:

@@ -37,15 +37,17 @@ class Bakery:
         object_: evaluated; it is looked at while materials are made.
         number: of it, among all objects.
         is_shared: whether there are several instances of it.
+        is_passing: whether it is there only while it is looked at, as what nodes of geometry make and place is.
     """
 
-    def __init__(self, all_: Bakeries, object_: Any, number: int, is_shared: bool) -> None:
+    def __init__(self, all_: Bakeries, object_: Any, number: int, is_shared: bool, is_passing: bool) -> None:
         self.name: str = object_.name
         #: of the map that renders take
         self.uv_name: str = getattr(_render_layer(object_.data), "name", "")
         self.bakes_all = False  #: because the object has UVs of its own, which pictures do not know
         self.uvs: Floats | None = None  #: of corners, where there are such, after `bake`
-        self.side, self.is_shared = all_.side, is_shared
+        self.side, self.is_shared, self.is_passing = all_.side, is_shared, is_passing
+        self.is_deformed = _is_deformed(object_.original)
         self._all, self._object, self._number = all_, object_, number
         self._mesh: Any = None
         self._place = object_.matrix_world.copy()
@@ -62,14 +64,15 @@ class Bakery:
         """A copy of the object's, as evaluated, in Blender's data."""
         if self._mesh is None:
             try:
+                # With all layers it would be evaluated anew, and be that of what the nodes belong to.
                 self._mesh = bpy.data.meshes.new_from_object(
-                    self._object, preserve_all_data_layers=True, depsgraph=self._all.depsgraph
+                    self._object, preserve_all_data_layers=not self.is_passing, depsgraph=self._all.depsgraph
                 )
             except RuntimeError:  # there is no geometry
                 self._mesh = bpy.data.meshes.new("wend.bake")
-            source = self._object.original.data
+            source = self._object.data
             if hasattr(source, "texspace_location") and hasattr(self._mesh, "texspace_location"):
-                # Generated coordinates are those of the mesh before its modifiers.
+                # Generated coordinates are those of the mesh before its modifiers, but where they make another one.
                 self._mesh.use_auto_texspace = False
                 self._mesh.texspace_location = source.texspace_location
                 self._mesh.texspace_size = source.texspace_size
@@ -218,8 +221,8 @@ class Bakeries:
     def get(self, key: str) -> Bakery | None:
         return self._by_key.get(key)
 
-    def add(self, object_: Any, key: str, is_shared: bool) -> Bakery:
-        self._by_key[key] = Bakery(self, object_, len(self._by_key), is_shared)
+    def add(self, object_: Any, key: str, is_shared: bool, is_passing: bool) -> Bakery:
+        self._by_key[key] = Bakery(self, object_, len(self._by_key), is_shared, is_passing)
         return self._by_key[key]
 
     def file_for(self, wanted: Wanted) -> str:
@@ -342,6 +345,20 @@ def _baked(scene: Any, mesh: Any, slots: Sequence[str], place: Any, wanted: Want
 
 
 # ---- Meshes ----
+
+#: Modifiers that move points.
+_MOVING = {
+    "ARMATURE", "CAST", "CLOTH", "CORRECTIVE_SMOOTH", "CURVE", "DISPLACE", "HOOK", "LAPLACIANDEFORM", "LAPLACIANSMOOTH", "LATTICE",
+    "MESH_CACHE", "MESH_DEFORM", "MESH_SEQUENCE_CACHE", "SHRINKWRAP", "SIMPLE_DEFORM", "SMOOTH", "SOFT_BODY", "SURFACE_DEFORM",
+    "WARP", "WAVE",
+}  # fmt: skip
+
+
+def _is_deformed(object_: Any) -> bool:
+    """Whether something moves the points of its mesh."""
+    keys = getattr(object_.data, "shape_keys", None)
+    is_keyed = keys is not None and any(abs(key.value) > 0 for key in keys.key_blocks[1:])
+    return is_keyed or any(modifier.type in _MOVING and modifier.show_render for modifier in object_.modifiers)
 
 
 def _render_layer(data: Any) -> Any:

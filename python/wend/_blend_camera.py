@@ -26,8 +26,7 @@ def add_view(
     """
     add, render, cycles = reader.builder.add, scene.render, getattr(scene, "cycles", None)
     if resolution is None:
-        share = render.resolution_percentage / 100
-        resolution = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
+        resolution = size_of(render)
     _add_camera(reader, scene, eye, resolution, motion)
     film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
     exposure = float(cycles.film_exposure) if cycles is not None else 1.0
@@ -49,6 +48,12 @@ def add_view(
         add("PixelFilter", "gaussian", {"float xradius": radius, "float yradius": radius, "float sigma": radius / 3})
     add("Sampler", "sobol", {"integer pixelsamples": spp})
     add("Integrator", "volpath", {"integer maxdepth": 100})
+
+
+def size_of(render: Any) -> tuple[int, int]:
+    """Of the picture, in pixels: whole per cents of whole pixels, as Blender rounds them."""
+    width, height = (side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
+    return max(width, 1), max(height, 1)
 
 
 def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int], motion: Motion) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ._blend_angles import left_by_coat
 from ._blend_nodes import Colour, Nodes
 from ._blend_pictures import file_of, mapping_of
 from ._scene_reader import Brush
@@ -26,6 +27,18 @@ def add_detail(nodes: Nodes, node: Any, parameters: dict[str, Any]) -> None:
         parameters["string normalmap"] = file
     elif found is not None:
         nodes.warn(found.node, f"{found.node.bl_idname.removeprefix('ShaderNode')} as Normal is left out")
+
+
+def share_left(nodes: Nodes, node: Any, coat: float, has_sheen: bool, varies: bool) -> Colour:
+    """Of what a Principled surface shines with, the share that goes through its coat, and all where that is baked, which
+    `varies` says. What is not exact is named."""
+    if has_sheen:
+        nodes.warn(node, "sheen does not darken what shines below it")
+    if coat <= 0:
+        return np.ones(3)
+    nodes.warn(node, "a coat darkens what shines below it by the same from all sides")
+    index, tint = nodes.number(node.inputs["Coat IOR"]), nodes.colour(node.inputs["Coat Tint"])
+    return np.ones(3) if varies else left_by_coat(coat, max(index, 1e-3), tint)
 
 
 def _normal_map(nodes: Nodes, node: Any) -> str | None:

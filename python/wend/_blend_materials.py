@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._blend_chalk import add_roughness
-from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, tell_of_facets, tell_of_films
+from ._blend_details import add_detail, add_tint, brush_of, conductor, linked_to, share_left, tell_of_facets, tell_of_films
 from ._blend_fog import Fog, fog_of
 from ._blend_glass import dielectric, glass_of, lets_through, mirror_of
 from ._blend_hair import hair_of
 from ._blend_nodes import Colour, Nodes, output_node
 from ._blend_sheen import add_sheen, fibres
+from ._blend_sides import of_one_side
 from ._blend_subsurface import add_inside
 from ._blend_sums import added
 from ._blend_surface import Surface, is_nothing, reflecting
@@ -74,6 +75,7 @@ def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe |
         node = nodes.shader(output.inputs["Surface"])
         # What is nothing but a volume has no surface; what is nothing at all is black.
         surface = _surface(nodes, node) if node else Surface(is_clear=True) if volume else reflecting(Surface())
+        surface = of_one_side(nodes, output, surface, _surface)
     if surface.alpha and not getattr(material, "use_transparent_shadow", True):
         nodes.warn(output, "transparent shadows that are switched off are there")
     picture = nodes.baked_light(output) if surface.shines_by_a_picture else None
@@ -102,7 +104,7 @@ def _look(
     shape = surface.alpha | ({"string cameraview": view} if view else {})
     inside = key if medium is not None else None
     fog = medium if isinstance(medium, Fog) else None
-    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface))
+    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface), surface.is_one_sided)
 
 
 def _refracts(surface: Surface) -> bool:
@@ -208,6 +210,7 @@ def _principled(nodes: Nodes, node: Any) -> Surface:
         if linked_to(nodes, inputs["Coat Normal"]) != linked_to(nodes, inputs["Normal"]):
             nodes.warn(node, "a coat has the normals of what it covers")
     has_sheen = add_sheen(nodes, material, inputs)
+    emission = emission * share_left(nodes, node, coat, has_sheen, varies) if emission.max() > 0 else emission
     brushed = brush_of(nodes, node, inputs["Anisotropic"], inputs["Anisotropic Rotation"], material)
     add_detail(nodes, node, material)
     result = Surface(material, emission=emission, brushed=brushed)

@@ -41,13 +41,14 @@ class Nodes:
         self, reader: SceneReader, place: str, key: str, material: Any = None, bakery: Bakery | Probe | None = None
     ) -> None:
         self.reader, self.place, self.key = reader, place, key
-        self._material, self.bakery = material, bakery
+        self.material, self.bakery = material, bakery
         self.bakes_all = bakery is not None and bakery.bakes_all
         self.displacement: Any = None  #: the input of the material's output, where it takes something
         #: Of each tree that was entered, by its address: the group's node, whose inputs are those of the tree.
         self._entered: dict[int, Any] = {}
         self._textures = 0
         self._view: View | None = None  #: from where values are asked for
+        self.is_behind: bool | None = None  #: the side that all is seen from; None: both
 
     def warn(self, node: Any, text: str) -> None:
         self.reader.tell(f"{self.place}, node '{node.name}'", text)
@@ -139,6 +140,8 @@ class Nodes:
                 parameters[f"texture {name}"] = texture
                 return
         value = self.colour(socket) if kind == "rgb" else self.number(socket)
+        if kind == "rgb" and np.max(value) > 1 + 1e-4:
+            self.warn(socket.node, f"{socket.name} above 1 is taken as 1")
         parameters[f"{kind} {name}"] = np.clip(value, 0, 1) if kind == "rgb" else float(value) ** power
 
     def texture(self, socket: Any, kind: str, power: float = 1) -> str | None:
@@ -165,21 +168,16 @@ class Nodes:
             kind: "rgb", "float", or "normal".
             power: that numbers are raised to.
         """
-        if self.bakery is None or self._material is None:
+        if self.bakery is None or self.material is None:
             return None
         reach = Reach(self, self.bakery.uv_name)
         reach.follow(socket)
         label = f"{socket.name} of node '{socket.node.name}'"
-        if reach.sees:
-            self.warn(reach.sees, f"{label} depends on from where it is seen, and is baked as seen from above")
-        if reach.feels:
-            self.warn(reach.feels, f"{label} depends on what is near, and is baked without other objects")
-        if reach.is_by_place and self.bakery.is_shared:
-            self.warn(socket.node, f"{label} is baked at the first of several instances")
+        reach.tell(socket.node, label, self.bakery)
         node = socket.node
         is_normal = kind == "normal"
         wanted = Wanted(
-            self._material.original,
+            self.material.original,
             self.groups_to(node.id_data),
             node.name,
             socket.identifier,
@@ -193,13 +191,13 @@ class Nodes:
 
     def baked_light(self, output: Any) -> dict[str, Any] | None:
         """The same of what a whole surface shines with."""
-        if self.bakery is None or self._material is None:
+        if self.bakery is None or self.material is None:
             return None
         reach = Reach(self, self.bakery.uv_name)
         reach.follow(output.inputs["Surface"])
         if reach.sees:
             self.warn(reach.sees, "Emission depends on from where it is seen, and is baked as seen from above")
-        wanted = Wanted(self._material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_even=reach.is_even, is_unit=True)
+        wanted = Wanted(self.material.original, (), "", "", "light", is_by_uv=reach.is_by_uv, is_even=reach.is_even, is_unit=True)
         return self._picture_of(wanted, "Emission")
 
     def _picture_of(self, wanted: Wanted, label: str) -> dict[str, Any]:
@@ -247,6 +245,8 @@ class Nodes:
         kind = node.bl_idname
         if kind in ("ShaderNodeValue", "ShaderNodeRGB"):
             return np.atleast_1d(np.array(found.default_value, dtype=np.float64))[:3]
+        if self.is_behind is not None and kind == "ShaderNodeNewGeometry" and found.name == "Backfacing":
+            return np.array([float(self.is_behind)])
         inputs = [self.known(s, depth + 1) if hasattr(s, "default_value") else None for s in node.inputs]
         if self._view is not None and (seen := value_seen(node, found.name, inputs, self._view)) is not None:
             return seen

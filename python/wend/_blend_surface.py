@@ -20,6 +20,7 @@ class Surface:
     emission: Colour = field(default_factory=lambda: np.zeros(3))
     alpha: dict[str, Any] = field(default_factory=dict)  #: of the shape; nothing: certain
     shines_by_a_picture: bool = False  #: because what it shines with varies
+    is_one_sided: bool = False  #: its front alone shines
     is_clear: bool = False  #: light goes straight through
     brushed: Brush | None = None  #: along which way
     is_held_out: bool = False  #: there is a hole in the picture

@@ -26,7 +26,7 @@ class Probe:
     baking, "own" is the same all over an object; by UV alone can be baked "uv", and "unit" where that is in the unit
     square; all else is by "object", or inside it as "fog"."""
 
-    bakes_all = is_shared = False
+    bakes_all = is_shared = is_deformed = False
     side = 0
 
     def __init__(self, name: str, uv_name: str) -> None:

@@ -237,12 +237,17 @@ class _Reader(SceneReader):
                 lamps[key] = instance.object.data.original, instance.matrix_world.copy()
             if not shown or instance.object.type not in _SOLID or self.bakeries.get(key):
                 continue
-            bakery = self.bakeries.add(instance.object, key, times[key] > 1)
+            # Of what nodes of geometry make and place, an object is there only while it is the one that is looked at.
+            placed = instance.instance_object
+            is_passing = instance.is_instance and placed is not None and placed.data != instance.object.data
+            bakery = self.bakeries.add(instance.object, key, times[key] > 1, is_passing)
             materials = [slot.material for slot in instance.object.material_slots if slot.material]
             for material in materials:
                 bakery.decide(wants_of(self, material, bakery))
             for material in materials:
                 look_of(self, material, bakery)
+            if is_passing and bakery.is_wanted:
+                bakery.mesh()
         self.bakeries.bake(self.scene)
         self._lamp_pictures = {key: picture_of(lamp, world) for key, (lamp, world) in lamps.items()}
 
@@ -352,7 +357,7 @@ class _Reader(SceneReader):
                     self.tell(f"object '{name}'", "hair does not shine")
                 else:
                     light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
-                    add("AreaLightSource", "diffuse", light | {"bool twosided": True, "bool alphaonce": True})
+                    add("AreaLightSource", "diffuse", light | {"bool twosided": not look.is_one_sided, "bool alphaonce": True})
                     self.has_light = True
             seen = {"string cameraview": self.view} if self.view != "shown" else {}
             add("Shape", kind, parameters | look.shape_parameters | seen)

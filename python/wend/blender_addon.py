@@ -167,15 +167,10 @@ def _prepare(scene: Any, _: Any = None) -> None:
         warnings.simplefilter("always", SceneWarning)
         warnings.showwarning = lambda message, *_, **__: told.append(str(message))
         try:
-            found = of_scene(scene, resolution=_size_of(scene))
+            found = of_scene(scene)
         except InputError as error:
             found = error
     _classes()[1].prepared[scene.name, scene.frame_current] = found, told
-
-
-def _size_of(scene: Any) -> tuple[int, int]:
-    share = scene.render.resolution_percentage / 100
-    return max(int(scene.render.resolution_x * share), 1), max(int(scene.render.resolution_y * share), 1)
 
 
 def _scene_of(engine: Any, depsgraph: Any) -> Any:
@@ -188,9 +183,7 @@ def _scene_of(engine: Any, depsgraph: Any) -> Any:
         engine.report({"WARNING"}, text)
     if isinstance(found, InputError):
         raise found
-    return found or of_scene(
-        scene, resolution=_size_of(scene), depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False
-    )
+    return found or of_scene(scene, depsgraph=depsgraph, set_frame=engine.frame_set, can_render=False)
 
 
 def _render(engine: Any, depsgraph: Any) -> None:
