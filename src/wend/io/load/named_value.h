@@ -36,7 +36,7 @@ Value named_value(const pbrt::ParameterSet& parameters, std::string_view paramet
         known[i] = choices[i].name;
     }
     throw InputError(parameters.place_of(parameter),
-                     fmt::format("\"{}\" is \"{}\"; known are {}", parameter, name, fmt::join(known, ", ")));
+                     fmt::format("the {} \"{}\" is unknown; known are {}", parameter, name, fmt::join(known, ", ")));
 }
 
 }  // namespace wend
