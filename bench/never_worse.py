@@ -258,6 +258,9 @@ def page(results, baseline):
     lines += ["", "## Every scene and budget, worst first", "",
               "Outliers: the error that one pixel in ten thousand exceeds, of the default over that of "
               f"`{baseline}`. Price: of a sample, in those of `{baseline}`.", "",
+              "Light that `classical` seldom finds is in few of its pixels, and in few of its pictures. Medians of few seeds "
+              "and trimmed errors leave it out ([experiments](experiments/guiding_choice.md), \"What medians and trimming "
+              "say of rare light\").", "",
               "| scene | budget | ratio | outliers | price | training |", "|---|---|---|---|---|---|"]
     for (name, budget), s in sorted(found.items(), key=lambda item: item[1]["trimmed"]):
         lines.append(f"| {name} | {budget} | {s['plain']:.2f} ({s['trimmed']:.2f}) | {s['outliers']:.2f} | "
