@@ -58,14 +58,14 @@ void Film::add(const Vec2i& pixel, const FilmSample& sample) {
     p.segments += sample.segments;
     p.branches += sample.branches;
     if (sample.is_of_half_a && layers_.halves) {
-        add_to_half(index_of(pixel), sample.radiance);
+        add_to_half(crop_.place_of(pixel), sample.radiance);
     }
 }
 
 void Film::add_parts(const Vec2i& pixel, std::span<const std::array<double, 3>> parts) {
     WEND_EXPECT(parts.size() == layers_.parts.size());
     for (std::size_t part = 0; part < parts.size(); ++part) {
-        parts_.add(index_of(pixel), part, parts[part]);
+        parts_.add(crop_.place_of(pixel), part, parts[part]);
     }
 }
 
@@ -86,7 +86,7 @@ void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
     p.alpha += features.alpha;
     ++p.featured;
     if (layers_.geometry) {
-        Geometry& sum = geometry_[index_of(pixel)];
+        Geometry& sum = geometry_[crop_.place_of(pixel)];
         for (int c = 0; c < 3; ++c) {
             sum.position[c] += features.position[c];
             sum.face_normal[c] += features.face_normal[c];
@@ -97,14 +97,14 @@ void Film::add_features(const Vec2i& pixel, const FilmFeatures& features) {
 void Film::add_coverage(const Vec2i& pixel, std::span<const Coverage> seen) {
     WEND_EXPECT(layers_.objects);
     for (const Coverage& object : seen) {
-        coverage_[index_of(pixel)].add(object);
+        coverage_[crop_.place_of(pixel)].add(object);
     }
 }
 
 void Film::reject(const Vec2i& pixel, bool is_of_half_a) {
     ++at(pixel).count;
     if (is_of_half_a && layers_.halves) {
-        add_to_half(index_of(pixel), Rgb(0.0f));
+        add_to_half(crop_.place_of(pixel), Rgb(0.0f));
     }
 }
 

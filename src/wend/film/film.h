@@ -42,6 +42,11 @@ struct PixelRect {
 
     int width() const { return max.x - min.x; }
     int height() const { return max.y - min.y; }
+    /// In a list of its pixels, row by row.
+    std::size_t place_of(const Vec2i& pixel) const {
+        return static_cast<std::size_t>(pixel.y - min.y) * static_cast<std::size_t>(width()) +
+               static_cast<std::size_t>(pixel.x - min.x);
+    }
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
@@ -118,7 +123,7 @@ public:
     template <class Archive, class Self>
     static void archive_part(Archive& bytes, Self& film, const PixelRect& part) {
         for (int y = part.min.y; y < part.max.y; ++y) {
-            archive_pixels(bytes, film, film.index_of({part.min.x, y}), static_cast<std::size_t>(part.width()));
+            archive_pixels(bytes, film, film.crop_.place_of({part.min.x, y}), static_cast<std::size_t>(part.width()));
         }
     }
 
@@ -206,11 +211,7 @@ private:
     static double stage_weight(double earlier_weight, const StageNoise& first, const Comparison& shown);
     Halves stage_weights() const;
 
-    std::size_t index_of(const Vec2i& p) const {
-        return static_cast<std::size_t>(p.y - crop_.min.y) * static_cast<std::size_t>(crop_.width()) +
-               static_cast<std::size_t>(p.x - crop_.min.x);
-    }
-    Pixel& at(const Vec2i& p) { return pixels_[index_of(p)]; }
+    Pixel& at(const Vec2i& p) { return pixels_[crop_.place_of(p)]; }
 
     Vec2i full_size_;
     PixelRect crop_;

@@ -16,7 +16,7 @@ namespace wend {
 namespace {
 
 constexpr std::string_view checkpoint_signature = "WENDCHECKPOINT\n";
-constexpr std::uint32_t version = 10;
+constexpr std::uint32_t version = 11;
 
 /// Bytes that go into a file one part after another, with the checksum of all.
 class CheckedStream {

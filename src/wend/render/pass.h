@@ -12,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -24,8 +25,10 @@ struct Tile {
     WalkShares shares{1};                                ///< in the pass at hand
     WalkTallies tallies{};                               ///< of it
     std::array<std::uint64_t, most_walk_kinds> walks{};  ///< of each kind, in all passes
-    // How far walks of the kind at hand are in this pass: pixels that have all of theirs, samples of the next pixel
-    // that are done or of another kind, and what they have brought.
+    std::array<double, most_walk_kinds> work{};          ///< theirs, counted as WalkTally::work
+    // How far this pass is: kinds whose walks are done, pixels that have all walks of the next kind, samples of the
+    // next pixel that are done or of another kind, and what they have brought.
+    std::size_t kinds_done = 0;
     int pixels_done = 0, samples_done = 0;
     PixelWalks of_pixel;
 
@@ -34,11 +37,26 @@ struct Tile {
         return {pixels.min.x + index % pixels.width(), pixels.min.y + index / pixels.width()};
     }
 
+    /// Of a walk in the pass at hand, by those that there have been.
+    double expected_work() const {
+        const auto all_walks = static_cast<double>(std::accumulate(walks.begin(), walks.end(), std::uint64_t{0}));
+        const double all_work = std::accumulate(work.begin(), work.end(), 0.0);
+        double expected = 0;
+        for (std::size_t kind = 0; kind < most_walk_kinds; ++kind) {
+            const bool is_known = walks[kind] > 0;
+            expected += static_cast<double>(shares[kind]) * (is_known ? work[kind] : all_work) /
+                        std::max(is_known ? static_cast<double>(walks[kind]) : all_walks, 1.0);
+        }
+        return expected;
+    }
+
     /// See ListsMembers.
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& tile) {
-        bytes(tile.counts, tile.shares, tile.tallies, tile.walks, tile.pixels_done, tile.samples_done, tile.of_pixel);
-        bytes.require(tile.pixels_done >= 0 && tile.pixels_done <= tile.pixel_count() && tile.samples_done >= 0);
+        bytes(tile.counts, tile.shares, tile.tallies, tile.walks, tile.work, tile.kinds_done, tile.pixels_done,
+              tile.samples_done, tile.of_pixel);
+        bytes.require(tile.kinds_done <= most_walk_kinds && tile.pixels_done >= 0 &&
+                      tile.pixels_done <= tile.pixel_count() && tile.samples_done >= 0);
     }
 };
 
@@ -111,12 +129,21 @@ public:
           plan_(plan),
           rest_(rest) {}
 
-    /// Goes on in a tile until all its pixels are done or it is time to rest.
-    void run(Tile& tile, Learners::Records& records) const {
-        if (tile.shares[kind_] == 0) {
-            tile.pixels_done = tile.pixel_count();
-            return;
+    /// Goes on in a tile that is at this kind until all its pixels are done or it is time to rest; whether they are.
+    bool run(Tile& tile, Learners::Records& records) const {
+        if (tile.shares[kind_] > 0 && !run_pixels(tile, records)) {
+            return false;
         }
+        tile.pixels_done = 0;
+        ++tile.kinds_done;
+        return true;
+    }
+
+private:
+    /// Rays of a pixel whose surfaces are looked at: those that every pixel has. More would tell little.
+    static constexpr int most_features = 15;
+
+    bool run_pixels(Tile& tile, Learners::Records& records) const {
         // Segments between two looks at the clock.
         constexpr std::uint64_t few = 256;
         const double mean = mean_estimate(tile.pixels);
@@ -134,7 +161,7 @@ public:
                     looked = tile.counts.segments;
                 }
                 if (rest_.is_due() || !sample(pixel, expected, tile, records, parts)) {
-                    return;
+                    return false;
                 }
             }
             // What is not relative to its pixel would weigh by how bright that is.
@@ -143,11 +170,8 @@ public:
             }
             tile.samples_done = 0;
         }
+        return true;
     }
-
-private:
-    /// Rays of a pixel whose surfaces are looked at: those that every pixel has. More would tell little.
-    static constexpr int most_features = 15;
 
     /// The next sample of a pixel, if it is one of this kind; false if it was dropped.
     bool sample(const Vec2i& pixel, float expected, Tile& tile, Learners::Records& records, LightParts& parts) const {
@@ -188,10 +212,11 @@ private:
             film_.reject(pixel, is_of_half_a(number, index));
             return true;
         }
-        tile.of_pixel.add(
-            place.weight * mean_value(result.sample.radiance),
-            cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments,
-            sqr(static_cast<double>(place.weight * ray.weight)) * result.unguided_square);
+        const double work =
+            cost_of_segment_ * result.sample.segments + cost_of_interior_segment * result.interior_segments;
+        tile.work[kind_] += work;
+        tile.of_pixel.add(place.weight * mean_value(result.sample.radiance), work,
+                          sqr(static_cast<double>(place.weight * ray.weight)) * result.unguided_square);
         result.sample.guided = is_guided_;
         result.sample.radiance = settings_.balance * (result.sample.radiance * (place.weight * settings_.exposure));
         result.sample.is_of_half_a = is_of_half_a(number, index);
@@ -248,11 +273,7 @@ private:
     }
 
     /// In lists of what is known of each pixel of the crop.
-    std::size_t place_of(const Vec2i& pixel) const {
-        const PixelRect& crop = film_.crop();
-        return static_cast<std::size_t>(pixel.y - crop.min.y) * static_cast<std::size_t>(crop.width()) +
-               static_cast<std::size_t>(pixel.x - crop.min.x);
-    }
+    std::size_t place_of(const Vec2i& pixel) const { return film_.crop().place_of(pixel); }
     float estimate(const Vec2i& pixel) const {
         return plan_.estimates.empty() ? 0.0f : plan_.estimates[place_of(pixel)];
     }

@@ -1,5 +1,6 @@
 #include <wend/render/render.h>
 
+#include <wend/core/parallel.h>
 #include <wend/render/guiding_choice.h>
 #include <wend/render/noise_target.h>
 #include <wend/render/pass.h>
@@ -11,6 +12,7 @@
 #include <wend/render/walks.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -65,19 +67,13 @@ public:
         }
         const Rest rest(std::min(SpentTime().when_spent(seconds), end_of_time()), settings_.stop);
         for (bool is_over = false; all_have_walked(rest, is_over);) {
-            if (kind_ + 1 == choice_.kinds().size()) {
-                share_film();
+            share_film();
+            if (kinds_of_stage_ == choice_.kinds().size()) {
                 end_pass();
                 return shares_.team().agreed(next_count()) > 0;
             }
-            if (next_kind_begins_stage()) {
-                share_film();
-                film_.begin_stage();
-            }
-            for (Tile& tile : tiles_) {
-                tile.pixels_done = 0;
-            }
-            ++kind_;
+            film_.begin_stage();
+            ++kinds_of_stage_;
             if (is_over) {
                 share();
                 break;
@@ -185,8 +181,8 @@ private:
     template <class Archive, class Self>
     static void archive(Archive& bytes, Self& work) {
         bytes.same(work.tiles_.size());
-        bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kind_, work.noise_,
-              work.noise_left_, work.recorded_samples_, work.mark_, work.last_mark_, work.taught_);
+        bytes(work.film_, work.learners_, work.choice_, work.is_within_pass_, work.plan_, work.kinds_of_stage_,
+              work.noise_, work.noise_left_, work.recorded_samples_, work.mark_, work.last_mark_, work.taught_);
         bytes.require(work.taught_.size() <= 1);
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
@@ -198,8 +194,11 @@ private:
         bytes.require(is_of_pixels(work.plan_.estimates) && is_of_pixels(work.plan_.firsts) &&
                       is_of_pixels(work.plan_.counts) &&
                       (work.taught_.empty() || is_of_pixels(work.taught_.front().means)));
-        bytes.require(work.kind_ < work.choice_.kinds().size() && work.plan_.count >= 0 && work.plan_.first >= 0 &&
-                      work.statistics_.samples >= 0);
+        const std::size_t kinds = work.choice_.kinds().size();
+        bytes.require(work.kinds_of_stage_ >= 1 && work.kinds_of_stage_ <= kinds && work.plan_.count >= 0 &&
+                      work.plan_.first >= 0 && work.statistics_.samples >= 0);
+        bytes.require(std::all_of(work.tiles_.begin(), work.tiles_.end(),
+                                  [&](const Tile& tile) { return tile.kinds_done <= work.kinds_of_stage_; }));
     }
 
     /// What was done in a tile, but for the film.
@@ -218,11 +217,22 @@ private:
     void share_out() {
         std::vector<std::uint64_t> work;
         for (const Tile& tile : tiles_) {
-            work.push_back(tile.counts.segments);
+            work.push_back(static_cast<std::uint64_t>(tile.expected_work() * samples_of(tile)));
         }
         shares_.share_out(work);
     }
-    /// Goes on with walks of the kind at hand. Whether all ranks have walked theirs; where one is stopped, or time is
+    /// In the pass at hand.
+    double samples_of(const Tile& tile) const {
+        if (plan_.counts.empty()) {
+            return static_cast<double>(plan_.count) * tile.pixel_count();
+        }
+        double samples = 0;
+        for (int i = 0; i < tile.pixel_count(); ++i) {
+            samples += plan_.counts[film_.crop().place_of(tile.pixel(i))];
+        }
+        return samples;
+    }
+    /// Goes on with walks of the stage at hand. Whether all ranks have walked theirs; where one is stopped, or time is
     /// over, all know what each has done.
     bool all_have_walked(const Rest& rest, bool& is_over) {
         struct Said {
@@ -286,21 +296,18 @@ private:
             tiles_[i].tallies = {};
         }
         share_out();
-        kind_ = 0;
+        // By one sample a stage would not know its variance.
+        const std::size_t kinds = choice_.kinds().size();
+        kinds_of_stage_ = choice_.is_trial() && plan_.count >= 2 * static_cast<int>(kinds) ? 1 : kinds;
         is_within_pass_ = true;
     }
 
     bool ends_by_noise() const { return settings_.noise > 0; }
-    /// By one sample a stage would not know its variance.
-    bool next_kind_begins_stage() const {
-        return choice_.is_trial() && plan_.count >= 2 * static_cast<int>(choice_.kinds().size());
-    }
 
     void end_pass() {
         is_within_pass_ = false;
-        kind_ = 0;
         for (Tile& tile : tiles_) {
-            tile.pixels_done = 0;
+            tile.kinds_done = 0;
         }
         // Where a pass leaves out what has no more noise than wanted, it has fewer samples than planned.
         statistics_.samples =
@@ -342,15 +349,18 @@ private:
         return choice_.learn(tallies, samples, learners_.get<FieldLearner>().records());
     }
 
-    /// Walks of the kind at hand; whether all have been walked.
+    /// Walks of the stage at hand; whether all have been walked.
     bool walk(const Rest& rest) {
-        walks_.walk(kind_, plan_, rest, tiles_, records_, shares_);
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            if (shares_.owns(i) && tiles_[i].pixels_done < tiles_[i].pixel_count()) {
-                return false;
+        std::atomic<bool> have_all = true;
+        parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) {
+            while (shares_.owns(i) && tiles_[i].kinds_done < kinds_of_stage_) {
+                if (!walks_.walk(plan_, rest, tiles_[i], records_[i])) {
+                    have_all = false;
+                    break;
+                }
             }
-        }
-        return true;
+        });
+        return have_all;
     }
 
     const Scene& scene_;
@@ -370,7 +380,8 @@ private:
     bool is_within_pass_ = false;
     double recorded_samples_ = 0;  ///< of each pixel: those that the fields have learned from
     PassPlan plan_;                ///< of the pass at hand
-    std::size_t kind_ = 0;         ///< of the walks at hand
+    /// Those whose walks are drawn before the film begins another stage, with those of the stages before in this pass.
+    std::size_t kinds_of_stage_ = 1;
     double noise_ = 0;             ///< after the last pass
     NoiseLeft noise_left_;         ///< likewise, where noise ends the render
     Mark mark_, last_mark_;        ///< at the ends of the last two passes

@@ -1,6 +1,5 @@
 #include <wend/render/walks.h>
 
-#include <wend/core/parallel.h>
 #include <wend/transport/path_tracer.h>
 
 #include <optional>
@@ -29,35 +28,28 @@ Walks::Walks(const Scene& scene, Film& film, const RenderSettings& settings, con
                      beams_) {
 }
 
-void Walks::walk(std::size_t kind, const PassPlan& plan, const Rest& rest, std::vector<Tile>& tiles,
-                 std::vector<Learners::Records>& records, const TileShares& shares) const {
-    const Preset& preset = choice_.kinds()[kind].preset;
+bool Walks::walk(const PassPlan& plan, const Rest& rest, Tile& tile, Learners::Records& records) const {
+    const Preset& preset = choice_.kinds()[tile.kinds_done].preset;
     const auto run_with = [&](const auto& decisions) {
-        const Pass one(scene_, film_, settings_, decisions, choice_, kind, learners_, plan, rest);
-        parallel_for(tiles.size(), settings_.threads, [&](std::size_t i) {
-            if (shares.owns(i)) {
-                one.run(tiles[i], records[i]);
-            }
-        });
+        const Pass one(scene_, film_, settings_, decisions, choice_, tile.kinds_done, learners_, plan, rest);
+        return one.run(tile, records);
     };
     if (!preset.is_classical()) {
-        walk_guided(preset, plan, run_with);
-        return;
+        return walk_guided(preset, plan, run_with);
     }
     // Longer walks teach more, and where nothing is taught only their noise counts: in fog, where each has many
     // collisions ahead, they cost more than they bring (docs/experiments/survival.md).
     const bool teach = !settings_.preset.is_classical() && (plan.is_of_guided_render || !has_fog(scene_));
     const ClassicalRoulette survival = teach ? unguided_walks_end : ClassicalRoulette();
     if (settings_.preset.is_classical() || beams_.empty()) {
-        run_with(ClassicalDecisions{{}, {}, survival});
-    } else {
-        run_with(GuidedDecisions{towards_beams_,
-                                 GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f), survival});
+        return run_with(ClassicalDecisions{{}, {}, survival});
     }
+    return run_with(GuidedDecisions{
+        towards_beams_, GuidedDirection<guide::Field>(&unknown_.surface, &unknown_.volume, 1.0f), survival});
 }
 
 template <class Run>
-void Walks::walk_guided(const Preset& preset, const PassPlan& plan, const Run& run_with) const {
+bool Walks::walk_guided(const Preset& preset, const PassPlan& plan, const Run& run_with) const {
     const auto& learned = learners_.get<FieldLearner>();
     const guide::Fields& fields = learned.fields();
     const GuidedDistance distance(
@@ -69,16 +61,14 @@ void Walks::walk_guided(const Preset& preset, const PassPlan& plan, const Run& r
                                     preset.direction ? &learned.volume_caustics() : nullptr);
     const auto run_guided = [&](const auto& survival) {
         if (preset.guides_distance() || !beams_.empty()) {
-            run_with(GuidedDecisions{preset.guides_distance() ? distance : towards_beams_, direction, survival});
-        } else {
-            run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
+            return run_with(GuidedDecisions{preset.guides_distance() ? distance : towards_beams_, direction, survival});
         }
+        return run_with(GuidedDecisions{ClassicalDistance(), direction, survival});
     };
     if (plan.estimates.empty()) {
-        run_guided(guided_walks_end);
-    } else {
-        run_guided(AdjointRouletteSplitting(preset.roulette, preset.splitting, plan.sample_variance));
+        return run_guided(guided_walks_end);
     }
+    return run_guided(AdjointRouletteSplitting(preset.roulette, preset.splitting, plan.sample_variance));
 }
 
 }  // namespace wend

@@ -9,9 +9,7 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/learners.h>
 #include <wend/render/pass.h>
-#include <wend/render/tile_shares.h>
 
-#include <cstddef>
 #include <vector>
 
 namespace wend {
@@ -22,13 +20,12 @@ public:
     Walks(const Scene& scene, Film& film, const RenderSettings& settings, const GuidingChoice& choice,
           const Learners& learners);
 
-    /// Goes on with walks of a kind in the tiles that this process has, until they are done or it is time to rest.
-    void walk(std::size_t kind, const PassPlan& plan, const Rest& rest, std::vector<Tile>& tiles,
-              std::vector<Learners::Records>& records, const TileShares& shares) const;
+    /// Goes on in a tile with walks of its next kind, until they are done or it is time to rest; whether they are done.
+    bool walk(const PassPlan& plan, const Rest& rest, Tile& tile, Learners::Records& records) const;
 
 private:
     template <class Run>
-    void walk_guided(const Preset& preset, const PassPlan& plan, const Run& run_with) const;
+    bool walk_guided(const Preset& preset, const PassPlan& plan, const Run& run_with) const;
 
     const Scene& scene_;
     Film& film_;
