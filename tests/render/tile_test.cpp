@@ -1,4 +1,4 @@
-#include <wend/render/pass.h>
+#include <wend/render/tile.h>
 
 #include <gtest/gtest.h>
 

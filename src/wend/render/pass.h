@@ -5,81 +5,17 @@
 #include <wend/render/guiding_choice.h>
 #include <wend/render/learners.h>
 #include <wend/render/render.h>
+#include <wend/render/tile.h>
 #include <wend/transport/first_surface.h>
 #include <wend/transport/path_tracer.h>
 
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace wend {
-
-/// A block of pixels, rendered by one thread at a time.
-struct Tile {
-    PixelRect pixels;
-    WalkCounts counts;
-    WalkShares shares{1};                                ///< in the pass at hand
-    WalkTallies tallies{};                               ///< of it
-    std::array<std::uint64_t, most_walk_kinds> walks{};  ///< of each kind, in all passes
-    std::array<double, most_walk_kinds> work{};          ///< theirs, counted as WalkTally::work
-    // How far this pass is: kinds whose walks are done, pixels that have all walks of the next kind, samples of the
-    // next pixel that are done or of another kind, and what they have brought.
-    std::size_t kinds_done = 0;
-    int pixels_done = 0, samples_done = 0;
-    PixelWalks of_pixel;
-
-    int pixel_count() const { return pixels.width() * pixels.height(); }
-    Vec2i pixel(int index) const {
-        return {pixels.min.x + index % pixels.width(), pixels.min.y + index / pixels.width()};
-    }
-
-    /// Of a walk in the pass at hand, by those that there have been.
-    double expected_work() const {
-        const auto all_walks = static_cast<double>(std::accumulate(walks.begin(), walks.end(), std::uint64_t{0}));
-        const double all_work = std::accumulate(work.begin(), work.end(), 0.0);
-        double expected = 0;
-        for (std::size_t kind = 0; kind < most_walk_kinds; ++kind) {
-            const bool is_known = walks[kind] > 0;
-            expected += static_cast<double>(shares[kind]) * (is_known ? work[kind] : all_work) /
-                        std::max(is_known ? static_cast<double>(walks[kind]) : all_walks, 1.0);
-        }
-        return expected;
-    }
-
-    /// See ListsMembers.
-    template <class Archive, class Self>
-    static void archive(Archive& bytes, Self& tile) {
-        bytes(tile.counts, tile.shares, tile.tallies, tile.walks, tile.work, tile.kinds_done, tile.pixels_done,
-              tile.samples_done, tile.of_pixel);
-        bytes.require(tile.kinds_done <= most_walk_kinds && tile.pixels_done >= 0 &&
-                      tile.pixels_done <= tile.pixel_count() && tile.samples_done >= 0);
-    }
-};
-
-inline std::vector<Tile> tiles_of(const PixelRect& crop) {
-    constexpr int side = 16;
-    std::vector<Tile> tiles;
-    for (int y = crop.min.y; y < crop.max.y; y += side) {
-        for (int x = crop.min.x; x < crop.max.x; x += side) {
-            tiles.emplace_back().pixels = {{x, y}, {std::min(x + side, crop.max.x), std::min(y + side, crop.max.y)}};
-        }
-    }
-    return tiles;
-}
-
-/// Samples of a pixel, of all passes, as a mean.
-inline int mean_samples(const std::vector<Tile>& tiles) {
-    double paths = 0, pixels = 0;
-    for (const Tile& tile : tiles) {
-        paths += static_cast<double>(tile.counts.paths);
-        pixels += tile.pixel_count();
-    }
-    return static_cast<int>(paths / pixels);
-}
 
 /// When walks are to rest: at a time, or once they are told to stop, which drops those on their way.
 class Rest {

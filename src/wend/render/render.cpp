@@ -8,7 +8,7 @@
 #include <wend/render/schedule.h>
 #include <wend/render/spent_time.h>
 #include <wend/render/taught.h>
-#include <wend/render/tile_shares.h>
+#include <wend/render/tiles_at_work.h>
 #include <wend/render/walks.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ public:
           settings_(std::move(settings)),
           schedule_(settings_),
           context_{scene, settings_, static_cast<double>(film.crop().width()) * film.crop().height()},
-          tiles_(tiles_of(film.crop())),
+          tiles_(film.crop(), settings_.ranks),
           records_(tiles_.size()),
           learners_(context_),
           choice_(settings_.preset, {has_fog(scene), learners_.get<InteriorLearner>().can_guide()},
@@ -58,7 +58,7 @@ public:
         if (!is_within_pass_) {
             // What a pass begins with takes time, too.
             constexpr int stopped = -1;
-            const int count = shares_.team().agreed(settings_.stop && *settings_.stop ? stopped : next_count());
+            const int count = tiles_.shares().team().agreed(settings_.stop && *settings_.stop ? stopped : next_count());
             is_stopped_ = count == stopped;
             if (count <= 0) {
                 return is_stopped_;
@@ -70,7 +70,7 @@ public:
             share_film();
             if (kinds_of_stage_ == choice_.kinds().size()) {
                 end_pass();
-                return shares_.team().agreed(next_count()) > 0;
+                return tiles_.shares().team().agreed(next_count()) > 0;
             }
             film_.begin_stage();
             ++kinds_of_stage_;
@@ -87,7 +87,7 @@ public:
 
     void share() {
         if (is_within_pass_) {
-            shares_.gather([&](auto& bytes, std::size_t tile) {
+            tiles_.shares().gather([&](auto& bytes, std::size_t tile) {
                 archive_work(bytes, *this, tile);
                 Film::archive_part(bytes, film_, tiles_[tile].pixels);
             });
@@ -113,22 +113,17 @@ public:
     RenderStatistics statistics() const {
         RenderStatistics statistics = statistics_;
         statistics.seconds = time_.seconds();
-        for (const Tile& tile : tiles_) {
-            statistics.counts += tile.counts;
-        }
+        statistics.counts = tiles_.counts();
         const auto means = choice_.means();
         for (std::size_t kind = 0; kind < choice_.kinds().size(); ++kind) {
-            double walks = 0;
-            for (const Tile& tile : tiles_) {
-                walks += static_cast<double>(tile.walks[kind]);
-            }
             const double all = static_cast<double>(std::max<std::uint64_t>(statistics.counts.paths, 1));
-            statistics.kinds.push_back({choice_.kinds()[kind], walks / all, means[kind].square, means[kind].work});
+            statistics.kinds.push_back(
+                {choice_.kinds()[kind], tiles_.walks(kind) / all, means[kind].square, means[kind].work});
         }
         statistics.interrupted = is_within_pass_ || next_count() > 0;
-        statistics.ranks = shares_.team().size();
-        statistics.bytes_sent = shares_.team().bytes_sent();
-        statistics.waiting_seconds = shares_.team().waiting_seconds();
+        statistics.ranks = tiles_.shares().team().size();
+        statistics.bytes_sent = tiles_.shares().team().bytes_sent();
+        statistics.waiting_seconds = tiles_.shares().team().waiting_seconds();
         return statistics;
     }
 
@@ -169,7 +164,7 @@ public:
             noise_left_ = noise_left(film_, settings_, statistics_.samples);
         }
         time_ = SpentTime(seconds_before);
-        share_out();
+        tiles_.share_out(plan_);
     }
 
 private:
@@ -187,6 +182,7 @@ private:
         bytes(work.statistics_.samples, work.statistics_.training_seconds, work.statistics_.passes);
         for (std::size_t i = 0; i < work.tiles_.size(); ++i) {
             archive_work(bytes, work, i);
+            bytes.require(work.tiles_[i].kinds_done <= work.kinds_of_stage_);
         }
         const auto is_of_pixels = [&](const auto& list) {
             return list.empty() || list.size() == static_cast<std::size_t>(work.context_.pixels);
@@ -197,8 +193,6 @@ private:
         const std::size_t kinds = work.choice_.kinds().size();
         bytes.require(work.kinds_of_stage_ >= 1 && work.kinds_of_stage_ <= kinds && work.plan_.count >= 0 &&
                       work.plan_.first >= 0 && work.statistics_.samples >= 0);
-        bytes.require(std::all_of(work.tiles_.begin(), work.tiles_.end(),
-                                  [&](const Tile& tile) { return tile.kinds_done <= work.kinds_of_stage_; }));
     }
 
     /// What was done in a tile, but for the film.
@@ -209,28 +203,10 @@ private:
     }
     /// Gives all ranks what each has added to the film. Records are exchanged when they are learned from.
     void share_film() {
-        shares_.gather([&](auto& bytes, std::size_t tile) {
+        tiles_.shares().gather([&](auto& bytes, std::size_t tile) {
             bytes(tiles_[tile]);
             Film::archive_part(bytes, film_, tiles_[tile].pixels);
         });
-    }
-    void share_out() {
-        std::vector<std::uint64_t> work;
-        for (const Tile& tile : tiles_) {
-            work.push_back(static_cast<std::uint64_t>(tile.expected_work() * samples_of(tile)));
-        }
-        shares_.share_out(work);
-    }
-    /// In the pass at hand.
-    double samples_of(const Tile& tile) const {
-        if (plan_.counts.empty()) {
-            return static_cast<double>(plan_.count) * tile.pixel_count();
-        }
-        double samples = 0;
-        for (int i = 0; i < tile.pixel_count(); ++i) {
-            samples += plan_.counts[film_.crop().place_of(tile.pixel(i))];
-        }
-        return samples;
     }
     /// Goes on with walks of the stage at hand. Whether all ranks have walked theirs; where one is stopped, or time is
     /// over, all know what each has done.
@@ -239,7 +215,7 @@ private:
             bool has_walked, is_stopped, is_time_over;
         };
         const std::vector<Said> all =
-            shares_.team().all(Said{walk(rest), rest.drops_walks(), SpentTime::Clock::now() >= end_of_time()});
+            tiles_.shares().team().all(Said{walk(rest), rest.drops_walks(), SpentTime::Clock::now() >= end_of_time()});
         const auto any = [&](bool Said::*what) {
             return std::any_of(all.begin(), all.end(), [what](const Said& said) { return said.*what; });
         };
@@ -264,15 +240,8 @@ private:
     double fraction() const {
         // Of other ranks it is not known how far they are in the pass at hand. Pixels that get samples by their noise
         // do so in the mean.
-        double paths = 0, pixels = 0;
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            if (shares_.owns(i)) {
-                paths += static_cast<double>(tiles_[i].counts.paths);
-                pixels += tiles_[i].pixel_count();
-            }
-        }
-        const double samples =
-            is_within_pass_ && pixels > 0 ? paths / pixels : static_cast<double>(statistics_.samples);
+        const double own = is_within_pass_ ? tiles_.own_mean_samples() : 0.0;
+        const double samples = own > 0 ? own : static_cast<double>(statistics_.samples);
         const double by_noise = ends_by_noise() && noise_left_.samples > 0 ? samples / noise_left_.samples : 0.0;
         return std::min(1.0, std::max(schedule_.fraction(samples, time_.seconds()), by_noise));
     }
@@ -291,11 +260,7 @@ private:
             plan_.counts = counts_to_noise(film_, settings_, count);
         }
         learners_.begin(plan_);
-        for (std::size_t i = 0; i < tiles_.size(); ++i) {
-            tiles_[i].shares = choice_.shares(i, count);
-            tiles_[i].tallies = {};
-        }
-        share_out();
+        tiles_.begin_pass(choice_, plan_);
         // By one sample a stage would not know its variance.
         const std::size_t kinds = choice_.kinds().size();
         kinds_of_stage_ = choice_.is_trial() && plan_.count >= 2 * static_cast<int>(kinds) ? 1 : kinds;
@@ -306,15 +271,13 @@ private:
 
     void end_pass() {
         is_within_pass_ = false;
-        for (Tile& tile : tiles_) {
-            tile.kinds_done = 0;
-        }
+        tiles_.end_pass();
         // Where a pass leaves out what has no more noise than wanted, it has fewer samples than planned.
-        statistics_.samples =
-            ends_by_noise() && !plan_.counts.empty() ? mean_samples(tiles_) : statistics_.samples + plan_.count;
+        statistics_.samples = ends_by_noise() && !plan_.counts.empty() ? static_cast<int>(tiles_.mean_samples())
+                                                                       : statistics_.samples + plan_.count;
         statistics_.passes.push_back(plan_.count);
         const SpentTime training;
-        learners_.learn(records_, plan_, shares_);
+        learners_.learn(records_, plan_, tiles_.shares());
         statistics_.training_seconds += training.seconds();
         // The next pass will sample in another way: what it learned from has changed, or survival begins to follow it.
         const bool warms_up = !settings_.preset.is_classical() && plan_.first < warm_up_samples;
@@ -341,19 +304,14 @@ private:
 
     /// By what the pass has shown, the kinds of walks to come; whether that changes anything.
     bool choose(int samples) {
-        std::vector<WalkTallies> tallies;
-        tallies.reserve(tiles_.size());
-        for (const Tile& tile : tiles_) {
-            tallies.push_back(tile.tallies);
-        }
-        return choice_.learn(tallies, samples, learners_.get<FieldLearner>().records());
+        return choice_.learn(tiles_.tallies(), samples, learners_.get<FieldLearner>().records());
     }
 
     /// Walks of the stage at hand; whether all have been walked.
     bool walk(const Rest& rest) {
         std::atomic<bool> have_all = true;
         parallel_for(tiles_.size(), settings_.threads, [&](std::size_t i) {
-            while (shares_.owns(i) && tiles_[i].kinds_done < kinds_of_stage_) {
+            while (tiles_.shares().owns(i) && tiles_[i].kinds_done < kinds_of_stage_) {
                 if (!walks_.walk(plan_, rest, tiles_[i], records_[i])) {
                     have_all = false;
                     break;
@@ -366,10 +324,9 @@ private:
     const Scene& scene_;
     Film& film_;
     const RenderSettings settings_;
-    TileShares shares_{settings_.ranks};  ///< of the pass at hand
     Schedule schedule_;
     LearningContext context_;
-    std::vector<Tile> tiles_;
+    TilesAtWork tiles_;
     std::vector<Learners::Records> records_;  ///< by tile
     Learners learners_;
     GuidingChoice choice_;
