@@ -114,3 +114,11 @@ def test_values_of_another_kind_are_refused(values):
     with pytest.raises(wend.InputError):
         b.add("Film", "rgb", values)
         b.scene()
+
+
+def test_a_directive_may_be_put_before_others():
+    b = wend.SceneBuilder()
+    b.add("Camera", "perspective")
+    b.add("WorldBegin")
+    b.insert(1, "Film", "rgb", {"integer xresolution": 8})
+    assert [line.split()[0] for line in b.text().splitlines() if line[0] != " "] == ["Camera", "Film", "WorldBegin"]

@@ -86,7 +86,7 @@ def _look(
     reader: SceneReader, key: str, surface: Surface, medium: Fog | dict[str, Any] | None, picture: dict[str, Any] | None = None
 ) -> Look:
     if isinstance(medium, dict):
-        reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
+        reader.make_medium(key, medium)
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
     # Nothing around an inside is not there, and else it is black.

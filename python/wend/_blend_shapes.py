@@ -65,6 +65,12 @@ def is_open(mesh: Any) -> bool:
     return bool((np.bincount(edges) == 1).any()) if len(edges) else False
 
 
+def triangles_of(mesh: Any) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+    """Points, and numbers of those of each triangle."""
+    mesh.calc_loop_triangles()
+    return _taken(mesh.vertices, "co", 3, np.float32).astype(np.float64), _taken(mesh.loop_triangles, "vertices", 3, np.int32)
+
+
 def mesh_parts(
     mesh: Any, ends: tuple[Geometry, Geometry] | None, uvs: npt.NDArray[np.float32] | None = None
 ) -> Iterator[tuple[int, Parameters]]:

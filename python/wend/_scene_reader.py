@@ -59,6 +59,7 @@ class SceneReader:
         #: pictures that are made of tiles, and the matrices that take coordinates to theirs
         self.sheets: dict[Any, tuple[str, npt.NDArray[np.float64]]] = {}
         self.around: str | None = None  #: the medium that fills the world
+        self.media: dict[str, dict[str, Any]] = {}  #: parameters of those that are the same everywhere, by name
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)
 
@@ -68,6 +69,11 @@ class SceneReader:
         if key not in self._told:
             self._told.add(key)
             warnings.warn(f"{place}: warning: {text}", SceneWarning, stacklevel=3)
+
+    def make_medium(self, name: str, parameters: dict[str, Any]) -> None:
+        """One that is the same everywhere."""
+        self.media[name] = parameters | {"string type": "homogeneous"}
+        self.builder.add("MakeNamedMedium", name, self.media[name])
 
     def map_file(self, name: str) -> str:
         """A file for a picture that is made for the scene."""

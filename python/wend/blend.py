@@ -35,11 +35,12 @@ from ._blend_lamp_pictures import LampPicture, picture_of, wants_picture
 from ._blend_materials import look_of, wants_of
 from ._blend_motion import Motion
 from ._blend_nodes import Nodes, output_node
+from ._blend_regions import Region, Regions
 from ._blend_render_mode import as_rendered
 from ._blend_roles import view_of
 from ._blend_settings import tell_of_object, tell_of_scene
 from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, shrunk, strands
-from ._blend_volumes import glow_parameters, volume_parameters
+from ._blend_volumes import glow_parameters, has_volume, volume_parameters
 from ._blend_world import add_world, add_world_volume
 from ._blend_world_fog import WorldFog, world_fog
 
@@ -167,12 +168,15 @@ class _Reader(SceneReader):
         self.can_render = can_render
         self.has_light = False
         self._fogs = 0
+        self._media: set[str] = set()  #: names of those that objects have, together with what is around them
         self._lamp_pictures: dict[str, LampPicture] = {}
         self._objects: dict[str, str] = {}
         #: of the object at hand, where it changes its shape
         self.shapes: tuple[Geometry, Geometry] | None = None
         self.copies = Copies(self, can_render)
         self.view = "shown"  #: of the object at hand: what it is to the camera
+        self.regions = Regions(self)
+        self.region: Region | None = None  #: of the object at hand, if it has a volume
 
     def read(
         self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion, progress: bool
@@ -185,7 +189,9 @@ class _Reader(SceneReader):
         self.around = fog.name if fog is not None else add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
+        before_view = len(self.builder)
         add_view(self, self.scene, eye, resolution, spp, motion)
+        after_view = len(self.builder)
         add("WorldBegin")
         if fog is not None:
             fog.add_end(self)
@@ -196,6 +202,12 @@ class _Reader(SceneReader):
         times = Counter(self.copies.key_of(i) for i, shown in zip(depsgraph.object_instances, seen) if shown)
         if self.can_render:
             self.bake(depsgraph, seen, times)
+        self.find_regions(depsgraph, seen)
+        stands_in = self.regions.around(np.array(eye.matrix_world.translation))
+        if stands_in != (self.around or ""):
+            # What follows the camera has around it what it had.
+            self.builder.insert(after_view, "MediumInterface", "", self.around or "")
+            self.builder.insert(before_view, "MediumInterface", "", stands_in)
         bar = Bar(os.path.basename(self.builder.name), progress)
         for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
             if shown:
@@ -204,6 +216,7 @@ class _Reader(SceneReader):
                 bar.update(i / len(seen), object_.name)
                 place = motion.places(instance)
                 self.view = view_of(self, instance)
+                self.region = self.regions.of(i)
                 self.shapes = motion.shapes(object_)
                 key = self.copies.key_of(instance)
                 self.add_object(object_, place, key, times[key] > 1)
@@ -250,6 +263,17 @@ class _Reader(SceneReader):
                 bakery.mesh()
         self.bakeries.bake(self.scene)
         self._lamp_pictures = {key: picture_of(lamp, world) for key, (lamp, world) in lamps.items()}
+
+    def find_regions(self, depsgraph: Any, seen: list[bool]) -> None:
+        """What volumes enclose."""
+        for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
+            object_ = instance.object
+            if shown and object_.type in (*_SOLID, "VOLUME"):
+                bakery = self.bakeries.get(self.copies.key_of(instance)) if self.bakeries is not None else None
+                materials = [slot.material for slot in object_.material_slots if slot.material and has_volume(slot.material)]
+                looks = [look_of(self, material, bakery) for material in materials] if object_.type != "VOLUME" else []
+                self.regions.add(i, object_, np.array(instance.matrix_world), looks)
+        self.regions.nest()
 
     @staticmethod
     def is_seen(instance: Any) -> bool:
@@ -342,7 +366,7 @@ class _Reader(SceneReader):
             inside = Look(None, medium=look.medium, fog=look.fog)
             self.add_shape(place, inside, (kind, shrunk(parameters)), name)
             look = replace(look, medium=None, fog=None)
-        if look.fog is not None:
+        if look.medium is not None:
             look = self.filled(look, place, name)
         with self.builder.block():
             self.put(place)
@@ -351,7 +375,7 @@ class _Reader(SceneReader):
             else:
                 add("NamedMaterial", look.name)
             if look.medium is not None:
-                add("MediumInterface", look.medium, self.around or "")
+                add("MediumInterface", look.medium, self.regions.outside(self.region))
             if look.emission is not None:
                 if kind == "curve":
                     self.tell(f"object '{name}'", "hair does not shine")
@@ -363,14 +387,18 @@ class _Reader(SceneReader):
             add("Shape", kind, parameters | look.shape_parameters | seen)
 
     def filled(self, look: Look, place: Any, name: str) -> Look:
-        """With a medium that varies, where the shape is."""
-        if look.fog.parameters is None:
+        """With the medium that is there, which is what all volumes there are together."""
+        if look.fog is not None and look.fog.parameters is None:
             return replace(look, medium=None, fog=None)
-        self._fogs += 1
-        medium = f"{look.medium} {self._fogs}"
-        with self.builder.block():
-            self.builder.add("Transform", self.held(place, f"object '{name}'"))
-            self.builder.add("MakeNamedMedium", medium, look.fog.parameters)
+        medium, parameters = self.regions.inside(self.region, look)
+        if look.fog is not None and self.region is None:
+            self._fogs += 1
+            medium += f" {self._fogs}"
+        if medium not in self.media and medium not in self._media:
+            self._media.add(medium)
+            with self.builder.block():
+                self.builder.add("Transform", self.held(place, f"object '{name}'") if look.fog is not None else np.eye(4))
+                self.builder.add("MakeNamedMedium", medium, parameters)
         return replace(look, medium=medium, fog=None)
 
     def add_volume(self, object_: Any, place: Any, name: str) -> None:
@@ -413,7 +441,7 @@ class _Reader(SceneReader):
                 medium,
                 parameters | {"string type": "nanovdb", "string filename": file, "string gridname": grid},
             )
-            self.builder.add("MediumInterface", medium, self.around or "")
+            self.builder.add("MediumInterface", medium, self.regions.outside(self.region))
             self.builder.add("Material", "interface")
             self.builder.add("Shape", "trianglemesh", box_of(np.array(object_.bound_box, dtype=np.float64)))
 
