@@ -231,3 +231,15 @@ def test_what_is_transparent_has_its_colour(scene, tmp_path, share):
     mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
     lamp(scene, "SUN", 2, (0, 0, 9), (0.5, 0.3, 0), angle=0.5)
     check(scene, tmp_path, 500, tolerance=0.015)
+
+
+@pytest.mark.parametrize("has_slots", [False, True], ids=["no slot", "an empty slot"])
+def test_what_has_no_material_is_as_a_new_one(scene, tmp_path, has_slots):
+    ball(scene, None, flat=True)
+    if has_slots:
+        made = scene.objects["Cube"]
+        for other in (material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), None):
+            made.data.materials.append(other)
+        for i, face in enumerate(made.data.polygons):
+            face.material_index = i % 4
+    check(scene, tmp_path, 1000)

@@ -54,7 +54,11 @@ def wants_of(reader: SceneReader, material: Any, bakery: Bakery) -> set[str]:
 
 
 def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
-    tree = material.node_tree if material else None
+    if material is None:
+        # As a new Principled BSDF.
+        grey = {"string type": "principled", "float eta": 1.5, "float roughness": 0.5, "rgb reflectance": (0.8, 0.8, 0.8)}
+        return _look(reader, key, Surface(grey), None)
+    tree = material.node_tree
     if tree is None:
         return _look(reader, key, Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)}), None)
     output = output_node(tree)
