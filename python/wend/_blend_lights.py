@@ -45,6 +45,11 @@ def add(
         return
     if not lamp.use_shadow:
         reader.tell(place, "a light without shadows has them")
+    if power.min() < 0:
+        reader.tell(place, "negative power of a light is taken as none")
+        power = np.maximum(power, 0)
+    if getattr(getattr(lamp, "cycles", None), "max_bounces", 1024) < 128:
+        reader.tell(place, f"light that was reflected more often than its {lamp.cycles.max_bounces} times is there")
     if power.max() <= 0:
         return
     with reader.builder.block():
