@@ -1,5 +1,7 @@
 """What artists add to Blender's surfaces, against Cycles."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -233,6 +235,13 @@ def test_what_is_transparent_has_its_colour(scene, tmp_path, share):
     check(scene, tmp_path, 500, tolerance=0.015)
 
 
+def _all_told(scene):
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        blend.of_scene(scene)
+    return [str(w.message) for w in found]
+
+
 @pytest.mark.parametrize("has_slots", [False, True], ids=["no slot", "an empty slot"])
 def test_what_has_no_material_is_as_a_new_one(scene, tmp_path, has_slots):
     ball(scene, None, flat=True)
@@ -243,3 +252,12 @@ def test_what_has_no_material_is_as_a_new_one(scene, tmp_path, has_slots):
         for i, face in enumerate(made.data.polygons):
             face.material_index = i % 4
     check(scene, tmp_path, 1000)
+
+
+def test_smooth_faces_whose_normals_lean_far_from_them_are_named(scene):
+    sky(scene, (1, 1, 1))
+    ball(scene, None)
+    mesh(scene, "cube", None)
+    assert not [w for w in _all_told(scene) if "lean" in w]
+    mesh(scene, "cylinder", None, vertices=8, smooth=True).name = "pipe"
+    assert [w for w in _all_told(scene) if "object 'pipe': warning: smooth faces whose normals lean" in w]

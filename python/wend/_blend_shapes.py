@@ -109,6 +109,28 @@ def mesh_parts(
         yield int(number), parameters
 
 
+#: Triangles of a mesh that are looked at.
+_SOME = 20000
+
+
+def lean(parts: list[tuple[Look, Parameters]]) -> float:
+    """By how many degrees the normals of a mesh lean from its faces, on average over their area."""
+    total = area = 0.0
+    for _, parameters in parts:
+        if "normal3 N" in parameters:
+            indices = parameters["integer indices"]
+            corners = indices[:: max(len(indices) // _SOME, 1)]
+            a, b, c = (parameters["point3 P"][corners[:, k]].astype(np.float64) for k in range(3))
+            across = np.cross(b - a, c - a)
+            size = np.linalg.norm(across, axis=1)
+            normals = np.asarray(parameters["normal3 N"], dtype=np.float64)[corners]
+            cosines = np.einsum("ijk,ik->ij", normals, across / np.maximum(size, 1e-30)[:, None]).clip(-1, 1)
+            # As far as the eye is concerned a normal has two sides.
+            total += float(size @ np.degrees(np.arccos(np.abs(cosines))).mean(axis=1))
+            area += float(size.sum())
+    return total / area if area > 0 else 0.0
+
+
 #: Of the size of a mesh, how far below it what it encloses begins where it is partly there.
 _BELOW = 2e-4
 

@@ -39,10 +39,13 @@ from ._blend_regions import Region, Regions
 from ._blend_render_mode import as_rendered
 from ._blend_roles import view_of
 from ._blend_settings import tell_of_object, tell_of_scene
-from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, mesh_parts, shrunk, strands
+from ._blend_shapes import Geometry, box_of, brush, hair_segments, is_open, lean, mesh_parts, shrunk, strands
 from ._blend_volumes import glow_parameters, has_volume, volume_parameters
 from ._blend_world import add_world, add_world_volume
 from ._blend_world_fog import WorldFog, world_fog
+
+#: Degrees by which smooth faces may lean from their normals without a word.
+_BENT = 22
 
 #: Kinds of objects that have a surface once they are evaluated.
 _SOLID = ("MESH", "CURVE", "SURFACE", "META", "FONT")
@@ -344,6 +347,12 @@ class _Reader(SceneReader):
                 )
         finally:
             object_.to_mesh_clear()
+        if lean(parts) > _BENT:
+            self.tell(
+                f"object '{name}'",
+                f"smooth faces whose normals lean from them by more than {_BENT} degrees are darker than in Cycles (by up to 4 % "
+                "where it is 25 degrees, and up to 20 % where it is 50)",
+            )
         brush(self, name, parts, np.eye(4) if is_copied else place[0])
         # What shines or holds a medium is no part of an object that is placed several times.
         if not is_copied or any(look.emission is not None or look.medium is not None for look, _ in parts):
