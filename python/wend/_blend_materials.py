@@ -108,13 +108,24 @@ def _look(
     shape = surface.alpha | ({"string cameraview": view} if view else {})
     inside = key if medium is not None else None
     fog = medium if isinstance(medium, Fog) else None
-    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface), surface.is_one_sided)
+    return Look(
+        named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface), _index_of(surface), surface.is_one_sided
+    )
 
 
 def _refracts(surface: Surface) -> bool:
     if surface.mixed is not None:
         return any(_refracts(part) for part in surface.mixed[:2])
     return surface.material is not None and lets_through(surface.material)
+
+
+def _index_of(surface: Surface) -> float:
+    """Of the glass that it is, or a part of it."""
+    parts = surface.mixed[:2] if surface.mixed is not None else ()
+    own = surface.material or {}
+    if own.get("string type") == "dielectric":
+        return float(own.get("float eta", 1.5))
+    return next((index for index in map(_index_of, parts) if index != 1), 1.0)
 
 
 def _brush_of(surface: Surface) -> Brush | None:

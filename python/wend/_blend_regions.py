@@ -1,5 +1,5 @@
-"""Volumes of Blender's objects that lie within each other, or around the camera: Cycles adds up all that are at a place,
-here each place has one medium."""
+"""What is inside of what, of Blender's objects with volumes and of glass. Cycles adds up all volumes that are at a place,
+here each place has one medium. And light that leaves glass is as bright as inside there, here darker by its index."""
 
 from __future__ import annotations
 
@@ -26,13 +26,15 @@ _WAYS = tuple(Vector(w).normalized() for w in ((0.36, 0.48, 0.8), (-0.79, 0.21, 
 
 @dataclass(eq=False)
 class Region:
-    """What the closed surface of an object with a volume encloses."""
+    """What the closed surface of an object with a volume, or of glass, encloses."""
 
     number: int  #: of the instance
     name: str  #: of the object
     points: Array
     triangles: npt.NDArray[np.int32]
     looks: list[Look] | None  #: with a medium; None: it is that of a file
+    index: float = 1.0  #: of its glass
+    index_inside: float = 1.0  #: the product of those of all glass around what is inside
     around: list[Region] = field(default_factory=list)  #: those that it lies within, the largest first
 
     def __post_init__(self) -> None:
@@ -82,10 +84,11 @@ class Regions:
         self._of_instances: dict[int, Region] = {}
 
     def add(self, number: int, object_: Any, place: Array, looks: Iterable[Look]) -> None:
-        """An object, if it is one with a volume. `number`: of the instance. `place` has points as columns."""
+        """An object that has a volume or is of glass. `number`: of the instance. `place` has points as columns."""
         is_file = object_.type == "VOLUME"
+        looks = list(looks)
         filled = [x for x in looks if x.medium is not None and (x.fog is None or x.fog.parameters is not None)]
-        if not (filled or is_file) or len(self._of_instances) >= _MOST:
+        if len(self._of_instances) >= _MOST:
             return
         if is_file:
             box = box_of(np.array(object_.bound_box, dtype=np.float64))
@@ -99,11 +102,16 @@ class Regions:
             finally:
                 object_.to_mesh_clear()
         world = points @ place[:3, :3].T + place[:3, 3]
-        self._of_instances[number] = Region(number, object_.name, world, triangles, None if is_file else filled)
+        index = max((look.index for look in looks), key=lambda index: abs(index - 1), default=1.0)
+        self._of_instances[number] = Region(number, object_.name, world, triangles, None if is_file else filled, index)
 
     def nest(self) -> None:
         """Finds out which lies within which, and says where that has no counterpart."""
         regions = sorted(self._of_instances.values(), key=lambda region: -region.size)
+        for k, inner in enumerate(regions):
+            glass = [outer.index for outer in regions[:k] if outer.index != 1 and inner.share_within(outer) > 0.99]
+            inner.index_inside = inner.index * float(np.prod(glass))
+        regions = [region for region in regions if region.looks is None or region.looks]
         for k, inner in enumerate(regions):
             for outer in regions[:k]:
                 if (inner.low > outer.high).any() or (outer.low > inner.high).any():
@@ -119,6 +127,12 @@ class Regions:
                 names = [f"object '{outer.name}'" for outer in inner.around] or ["the world"]
                 text = f"its volume is in place of that of {' and '.join(names)}, and not added to it"
                 self._reader.tell(f"object '{inner.name}'", text, each=True)
+
+    def index_at(self, places: Array, without: Region | None = None) -> float:
+        """The product of the indices of the glass around all these places. Light that leaves glass is darker by its
+        square, but not in Cycles."""
+        bodies = (region for region in self._of_instances.values() if region.index != 1 and region is not without)
+        return float(np.prod([body.index for body in bodies if all(map(body.holds, places))]))
 
     def of(self, number: int) -> Region | None:
         """That of an instance."""
@@ -136,8 +150,12 @@ class Regions:
     def inside(self, region: Region | None, look: Look) -> tuple[str, Parameters]:
         """The medium that is seen within a volume, with what is around it: a name, which is that of no other one, and
         what it is."""
-        name, parameters = _own(self._reader, region, look)
-        return self._total(region, look) or (name, parameters or {})
+        own, parameters = _own(self._reader, region, look)
+        name, made = self._total(region, look) or (own, parameters or {})
+        glow = next((key for key in ("rgb Le", "rgb glow") if key in made), None)
+        if glow is None or region is None or region.index_inside == 1:
+            return name, made
+        return f"{name} within glass", made | {glow: np.asarray(made[glow]) * region.index_inside**2}
 
     def _name_within(self, region: Region) -> str:
         return self.inside(region, region.looks[0])[0] if region.looks else self.outside(region)

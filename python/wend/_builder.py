@@ -57,9 +57,9 @@ class SceneBuilder:
         """
         self._directives.append(_directive(directive, arguments))
 
-    def insert(self, position: int, directive: str, *arguments: Any) -> None:
-        """The same, before what was added there: `len` of the builder at that time."""
-        self._directives.insert(position, _directive(directive, arguments))
+    def insert(self, position: int, other: SceneBuilder) -> None:
+        """What another builder was given, before what was added here when `len` was `position`."""
+        self._directives[position:position] = other._directives
 
     @contextmanager
     def block(self, kind: str = "Attribute", *arguments: Any) -> Iterator[None]:

@@ -41,6 +41,7 @@ class Look:
     brushed: Brush | None = None  #: None: along its texture coordinates, if at all
     shown: str | None = None  #: file of a picture that it shines with, in place of the emission
     refracts: bool = False
+    index: float = 1.0  #: of what is below it, where it refracts
     is_one_sided: bool = False  #: its front alone shines
 
 

@@ -29,7 +29,7 @@ except ImportError as error:
 from . import _blend_lights as lights
 from . import _reader_command as command
 from ._blend_bake import Bakeries
-from ._blend_camera import add_view
+from ._blend_camera import add_view, expect_camera
 from ._blend_copies import Copies
 from ._blend_lamp_pictures import LampPicture, picture_of, wants_picture
 from ._blend_materials import look_of, wants_of
@@ -185,6 +185,7 @@ class _Reader(SceneReader):
         self, depsgraph: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion, progress: bool
     ) -> SceneBuilder:
         add = self.builder.add
+        expect_camera(self.scene, eye)
         tell_of_scene(self, self.scene, depsgraph.view_layer)
         fog = self.world_fog(depsgraph) if self.can_render else None
         if fog is not None:
@@ -192,9 +193,7 @@ class _Reader(SceneReader):
         self.around = fog.name if fog is not None else add_world_volume(self, self.scene.world)
         if self.around is not None:
             add("MediumInterface", "", self.around)
-        before_view = len(self.builder)
-        add_view(self, self.scene, eye, resolution, spp, motion)
-        after_view = len(self.builder)
+        before_world = len(self.builder)
         add("WorldBegin")
         if fog is not None:
             fog.add_end(self)
@@ -205,12 +204,8 @@ class _Reader(SceneReader):
         times = Counter(self.copies.key_of(i) for i, shown in zip(depsgraph.object_instances, seen) if shown)
         if self.can_render:
             self.bake(depsgraph, seen, times)
-        self.find_regions(depsgraph, seen)
-        stands_in = self.regions.around(np.array(eye.matrix_world.translation))
-        if stands_in != (self.around or ""):
-            # What follows the camera has around it what it had.
-            self.builder.insert(after_view, "MediumInterface", "", self.around or "")
-            self.builder.insert(before_view, "MediumInterface", "", stands_in)
+        self.find_regions(depsgraph, seen, eye)
+        self.builder.insert(before_world, self.view_of(eye, resolution, spp, motion))
         bar = Bar(os.path.basename(self.builder.name), progress)
         for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
             if shown:
@@ -267,16 +262,49 @@ class _Reader(SceneReader):
         self.bakeries.bake(self.scene)
         self._lamp_pictures = {key: picture_of(lamp, world) for key, (lamp, world) in lamps.items()}
 
-    def find_regions(self, depsgraph: Any, seen: list[bool]) -> None:
-        """What volumes enclose."""
+    def find_regions(self, depsgraph: Any, seen: list[bool], eye: Any) -> None:
+        """What volumes enclose, and glass in which there are lights or the camera."""
+        place = np.array(eye.matrix_world.translation)
+        lights, glass = [(place, place)], {}
+        looks: dict[int, list[Look]] = {}
         for i, (instance, shown) in enumerate(zip(depsgraph.object_instances, seen)):
             object_ = instance.object
-            if shown and object_.type in (*_SOLID, "VOLUME"):
-                bakery = self.bakeries.get(self.copies.key_of(instance)) if self.bakeries is not None else None
-                materials = [slot.material for slot in object_.material_slots if slot.material and has_volume(slot.material)]
-                looks = [look_of(self, material, bakery) for material in materials] if object_.type != "VOLUME" else []
-                self.regions.add(i, object_, np.array(instance.matrix_world), looks)
+            if not shown or object_.type not in (*_SOLID, "VOLUME", "LIGHT"):
+                continue
+            world = np.array(instance.matrix_world)
+            corners = np.zeros((1, 3)) if object_.type == "LIGHT" else np.array(object_.bound_box)
+            corners = corners @ world[:3, :3].T + world[:3, 3]
+            box = corners.min(axis=0), corners.max(axis=0)
+            bakery = self.bakeries.get(self.copies.key_of(instance)) if self.bakeries is not None else None
+            materials = [slot.material for slot in object_.material_slots if slot.material] if object_.type in _SOLID else []
+            given = [look_of(self, material, bakery) for material in materials]
+            is_filled = object_.type == "VOLUME" or any(look.medium is not None for look in given)
+            if object_.type == "LIGHT" or is_filled or any(look.emission is not None for look in given):
+                lights.append(box)
+            if is_filled:
+                looks[i] = given
+            elif any(look.index != 1 for look in given):
+                glass[i] = (*box, given)
+        low, high = (np.array(side) for side in zip(*lights))
+        looks |= {i: given for i, (a, b, given) in glass.items() if ((a <= low) & (high <= b)).all(axis=1).any()}
+        for i, instance in enumerate(depsgraph.object_instances):
+            if i in looks:
+                self.regions.add(i, instance.object, np.array(instance.matrix_world), looks[i])
         self.regions.nest()
+
+    def view_of(self, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion) -> SceneBuilder:
+        """What stands before the world."""
+        world, self.builder = self.builder, SceneBuilder()
+        place = np.array(eye.matrix_world.translation)
+        stands_in, around = self.regions.around(place), self.around or ""
+        if stands_in != around:
+            self.builder.add("MediumInterface", "", stands_in)
+        # Within glass all is brighter by the index's square than in Cycles.
+        add_view(self, self.scene, eye, resolution, spp, motion, 1 / self.regions.index_at(place[np.newaxis]) ** 2)
+        if stands_in != around:
+            self.builder.add("MediumInterface", "", around)
+        view, self.builder = self.builder, world
+        return view
 
     @staticmethod
     def is_seen(instance: Any) -> bool:
@@ -294,7 +322,8 @@ class _Reader(SceneReader):
     def add_object(self, object_: Any, place: Any, key: str, is_copied: bool) -> None:
         kind, name = object_.type, object_.name
         if kind == "LIGHT":
-            lights.add(self, name, object_.data, place, object_.visible_camera, self._lamp_pictures.get(key))
+            index = self.regions.index_at(place[0, 3:, :3]) if object_.data.type != "SUN" else 1.0
+            lights.add(self, name, object_.data, place, object_.visible_camera, self._lamp_pictures.get(key), index**2)
             self.has_light = True
         elif kind in _SOLID:
             self.add_solid(object_, place, key, is_copied)
@@ -377,6 +406,10 @@ class _Reader(SceneReader):
             look = replace(look, medium=None, fog=None)
         if look.medium is not None:
             look = self.filled(look, place, name)
+        light = self.light_of(look, place, parameters) if look.emission is not None and kind == "trianglemesh" else {}
+        if light and look.index != 1 and not look.is_one_sided:
+            self.add_glow_inside(place, look, light, parameters)
+            look = replace(look, is_one_sided=True)
         with self.builder.block():
             self.put(place)
             if look.name is None:
@@ -389,11 +422,30 @@ class _Reader(SceneReader):
                 if kind == "curve":
                     self.tell(f"object '{name}'", "hair does not shine")
                 else:
-                    light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
                     add("AreaLightSource", "diffuse", light | {"bool twosided": not look.is_one_sided, "bool alphaonce": True})
                     self.has_light = True
             seen = {"string cameraview": self.view} if self.view != "shown" else {}
             add("Shape", kind, parameters | look.shape_parameters | seen)
+
+    def light_of(self, look: Look, place: Any, parameters: dict[str, Any]) -> dict[str, Any]:
+        """Parameters of what a mesh shines with."""
+        points = parameters["point3 P"]
+        some = points[:: max(len(points) // 8, 1)] @ place[0, :3, :3] + place[0, 3, :3]
+        light = {"rgb L": look.emission} if look.shown is None else {"string filename": look.shown}
+        return light | {"float scale": self.regions.index_at(some, self.region) ** 2}
+
+    def add_glow_inside(self, place: Any, look: Look, light: dict[str, Any], parameters: dict[str, Any]) -> None:
+        """What the inner side of glass shines with. In Cycles it comes out as bright as it is, and here by the index's
+        square darker."""
+        inner = shrunk(parameters)
+        inner["integer indices"] = np.ascontiguousarray(np.asarray(inner["integer indices"])[:, ::-1])
+        uvs = {name: value for name, value in parameters.items() if name == "point2 uv"}
+        brighter = {"float scale": light["float scale"] * look.index**2, "bool solid": False}
+        with self.builder.block():
+            self.put(place)
+            self.builder.add("Material", "interface")
+            self.builder.add("AreaLightSource", "diffuse", light | brighter)
+            self.builder.add("Shape", "trianglemesh", inner | uvs | look.shape_parameters)
 
     def filled(self, look: Look, place: Any, name: str) -> Look:
         """With the medium that is there, which is what all volumes there are together."""
@@ -442,6 +494,8 @@ class _Reader(SceneReader):
         # What it shines with is given apart: in Cycles it is not in proportion to the grid.
         parameters.pop("rgb Le", None)
         parameters |= {"float scale": density} | glow_parameters(nodes, node, grids, grid, volume.render.clipping, density)
+        if "rgb glow" in parameters and self.region is not None:
+            parameters["rgb glow"] = parameters["rgb glow"] * self.region.index_inside**2
         medium = f" volume {name}"
         with self.builder.block():
             self.builder.add("Transform", place)
