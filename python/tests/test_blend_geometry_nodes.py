@@ -5,6 +5,8 @@ import pytest
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
 from blender_scene import check, link, material, mesh, node, scene, sky, takes  # noqa: E402, F401
 
+from wend._blend_render_mode import as_rendered  # noqa: E402
+
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
 
 
@@ -41,3 +43,28 @@ def test_what_nodes_make_is_baked_as_it_is(scene, tmp_path, place):
     """By its own box, also where it is there on points alone."""
     grown(scene, place, takes("BsdfDiffuse", "Color", lambda tree, socket: link(tree, node(tree, "TexCoord"), socket, "Generated")))
     check(scene, tmp_path, 500, bake_resolution=256)
+
+
+def test_nodes_and_modifiers_are_as_in_a_render(scene):
+    """What they make for views is something else."""
+    made = mesh(scene, "cube", material("BsdfDiffuse"))
+    group = bpy.data.node_groups.new("nodes", "GeometryNodeTree")
+    for side in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
+    begin, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
+    switch, asks = group.nodes.new("GeometryNodeSwitch"), group.nodes.new("GeometryNodeIsViewport")
+    switch.input_type = "GEOMETRY"
+    group.links.new(asks.outputs[0], switch.inputs[0])
+    group.links.new(begin.outputs[0], switch.inputs[1])
+    group.links.new(switch.outputs[0], end.inputs[0])
+    made.modifiers.new("nodes", "NODES").node_group = group
+    water = mesh(scene, "plane", material("BsdfDiffuse"))
+    ocean = water.modifiers.new("ocean", "OCEAN")
+    ocean.resolution, ocean.viewport_resolution = 2, 6
+    with as_rendered(scene):
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        assert len(made.evaluated_get(depsgraph).data.polygons) == 6
+        faces = len(water.evaluated_get(depsgraph).data.polygons)
+    ocean.viewport_resolution = 2
+    assert len(water.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.polygons) == faces
+    assert not asks.mute

@@ -3,7 +3,7 @@
 import pytest
 
 bpy = pytest.importorskip("bpy", reason="bpy is not installed")
-from blender_scene import check, floor, link, material, mesh, node, scene, sky, told  # noqa: E402, F401
+from blender_scene import check, floor, lamp, link, material, mesh, node, scene, sky, takes, told  # noqa: E402, F401
 
 pytestmark = pytest.mark.filterwarnings("ignore::wend.SceneWarning", "ignore::DeprecationWarning")
 
@@ -59,3 +59,61 @@ def test_facets_that_are_taken_as_others_are_named(scene, transmission, distribu
 def test_the_coat_of_glass_is_named(scene):
     mesh(scene, "cube", material("BsdfPrincipled", transmission_weight=1.0, coat_weight=1.0))
     assert "the coat of glass is left out" in told(scene)
+
+
+@pytest.mark.parametrize("how", ["principled", "sum", "picture"])
+def test_glass_that_shines_shines_to_both_sides(scene, tmp_path, how):
+    """What its inner side shines with comes out as bright."""
+    floor(scene)
+    glow = {"distribution": "GGX", "roughness": 0.3, "emission_color": (0.2, 0.4, 1), "emission_strength": 0.5}
+    if how == "sum":
+        made = material()
+        tree = made.node_tree
+        both = node(tree, "AddShader")
+        link(tree, node(tree, "BsdfGlass", distribution="GGX", roughness=0.3, color=(0.8, 0.8, 0.8)), both.inputs[0])
+        link(tree, node(tree, "Emission", color=(0.2, 0.4, 1), strength=0.5), both.inputs[1])
+        link(tree, both, next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial").inputs["Surface"])
+    elif how == "principled":
+        made = material("BsdfPrincipled", base_color=(0.8, 0.8, 0.8), transmission_weight=1.0, **glow)
+    else:
+
+        def wire(tree, socket):
+            gradient = node(tree, "TexGradient")
+            link(tree, node(tree, "TexCoord"), gradient.inputs[0], "Generated")
+            link(tree, gradient, socket)
+
+        made = takes("BsdfPrincipled", "Emission Strength", wire, transmission_weight=1.0, **glow)
+    sky(scene, (0.3, 0.3, 0.3))
+    mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1.01), segments=64, ring_count=32)
+    check(scene, tmp_path, 2500, cycles_spp=2500)
+
+
+@pytest.mark.parametrize("what", ["mesh", "lamp", "volume", "own volume"])
+def test_what_shines_in_glass_comes_out_as_bright(scene, tmp_path, what):
+    sky(scene, (0.2, 0.3, 0.4))
+    made = material("BsdfGlass", distribution="GGX", roughness=0.3, ior=1.45)
+    glow = {"color": (0.5, 0.5, 0.5), "density": 0.5, "emission_color": (1, 0.4, 0.1), "emission_strength": 0.5}
+    if what == "own volume":
+        tree = made.node_tree
+        end = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
+        link(tree, node(tree, "VolumePrincipled", **glow), end.inputs["Volume"])
+    mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 0.5), radius=1.7, segments=64, ring_count=32)
+    if what == "mesh":
+        shining = material("Emission", color=(1, 0.4, 0.1))
+        mesh(scene, "uv_sphere", shining, smooth=True, place=(0, 0, 0.5), radius=0.9, segments=64, ring_count=32)
+    elif what == "lamp":
+        lamp(scene, "POINT", 20, (0, 0, 0.5), shadow_soft_size=0.8, use_soft_falloff=False)
+    elif what == "volume":
+        mesh(scene, "cube", material("VolumePrincipled", "Volume", **glow), place=(0, 0, 0.5), size=1.5)
+    check(scene, tmp_path, 1500)
+
+
+def test_in_glass_the_camera_sees_all_as_bright(scene, tmp_path):
+    sky(scene, (0.3, 0.4, 0.5))
+    water = material("BsdfGlass", distribution="GGX", roughness=0.3, ior=1.33)
+    tree = water.node_tree
+    end = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputMaterial")
+    link(tree, node(tree, "VolumeAbsorption", color=(0.2, 0.6, 0.9), density=0.1), end.inputs["Volume"])
+    mesh(scene, "cube", water, place=(0, -6, 3), size=3)
+    floor(scene)
+    check(scene, tmp_path, 1500)

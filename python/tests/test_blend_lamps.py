@@ -23,6 +23,7 @@ from blender_scene import (  # noqa: E402, F401
     scene,
     sky,
     straight,
+    told,
 )
 
 from cycles_reference import reference  # noqa: E402
@@ -186,3 +187,15 @@ def test_mirrored_lamps_shine_where_cycles_has_them(scene, tmp_path, kind, size)
     else:
         lamp(scene, "AREA", 100, (0.3, 0, 6), (0.1, 0.1, 0), size, shape=kind, size=0.8)
     check(scene, tmp_path, 500, tolerance=0.015)
+
+
+def test_lamps_and_worlds_that_take_light_away_or_end_it_early_are_named(scene):
+    floor(scene)
+    sky(scene, (1, 1, 1))
+    lamp(scene, "POINT", -60, (1, -1, 2)).name = "dark"
+    lamp(scene, "AREA", 60, (1, -1, 2)).data.cycles.max_bounces = 0
+    scene.world.cycles.max_bounces = 2
+    words = told(scene)
+    assert "light 'dark': warning: negative power" in words
+    assert "light 'AREA': warning: light that was reflected more often than its 0 times is there" in words
+    assert "world 'world': warning: light that was reflected more often than its 2 times is there" in words

@@ -1,5 +1,7 @@
 """What artists add to Blender's surfaces, against Cycles."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -231,3 +233,31 @@ def test_what_is_transparent_has_its_colour(scene, tmp_path, share):
     mesh(scene, "uv_sphere", made, smooth=True, place=(0, 0, 1), segments=64, ring_count=32)
     lamp(scene, "SUN", 2, (0, 0, 9), (0.5, 0.3, 0), angle=0.5)
     check(scene, tmp_path, 500, tolerance=0.015)
+
+
+def _all_told(scene):
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        blend.of_scene(scene)
+    return [str(w.message) for w in found]
+
+
+@pytest.mark.parametrize("has_slots", [False, True], ids=["no slot", "an empty slot"])
+def test_what_has_no_material_is_as_a_new_one(scene, tmp_path, has_slots):
+    ball(scene, None, flat=True)
+    if has_slots:
+        made = scene.objects["Cube"]
+        for other in (material("BsdfDiffuse", color=(0.2, 0.5, 0.8)), None):
+            made.data.materials.append(other)
+        for i, face in enumerate(made.data.polygons):
+            face.material_index = i % 4
+    check(scene, tmp_path, 1000)
+
+
+def test_smooth_faces_whose_normals_lean_far_from_them_are_named(scene):
+    sky(scene, (1, 1, 1))
+    ball(scene, None)
+    mesh(scene, "cube", None)
+    assert not [w for w in _all_told(scene) if "lean" in w]
+    mesh(scene, "cylinder", None, vertices=8, smooth=True).name = "pipe"
+    assert [w for w in _all_told(scene) if "object 'pipe': warning: smooth faces whose normals lean" in w]

@@ -114,3 +114,12 @@ def test_values_of_another_kind_are_refused(values):
     with pytest.raises(wend.InputError):
         b.add("Film", "rgb", values)
         b.scene()
+
+
+def test_what_another_was_given_may_be_put_before_the_rest():
+    b, other = wend.SceneBuilder(), wend.SceneBuilder()
+    b.add("Camera", "perspective")
+    b.add("WorldBegin")
+    other.add("Film", "rgb", {"integer xresolution": 8})
+    b.insert(1, other)
+    assert [line.split()[0] for line in b.text().splitlines() if line[0] != " "] == ["Camera", "Film", "WorldBegin"]

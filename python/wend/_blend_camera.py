@@ -16,20 +16,30 @@ from ._scene_reader import SceneReader
 _CAMERA = np.diag([1.0, 1.0, -1.0, 1.0])
 
 
-def add_view(
-    reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion
-) -> None:
-    """Adds camera, film, filter, sampler and integrator. `eye` is the camera's object.
-
+def expect_camera(scene: Any, eye: Any) -> None:
+    """
     Raises:
-        InputError: where that is none.
+        InputError: where `eye` is no object of a camera.
+    """
+    if eye is None or eye.type != "CAMERA":
+        raise InputError(f"{scene.name}: error: the scene has no camera")
+
+
+def add_view(
+    reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int] | None, spp: int, motion: Motion, brightness: float
+) -> None:
+    """Adds camera, film, filter, sampler and integrator.
+
+    Args:
+        eye: the camera's object.
+        brightness: multiplies the picture.
     """
     add, render, cycles = reader.builder.add, scene.render, getattr(scene, "cycles", None)
     if resolution is None:
         resolution = size_of(render)
     _add_camera(reader, scene, eye, resolution, motion)
     film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
-    exposure = float(cycles.film_exposure) if cycles is not None else 1.0
+    exposure = brightness * (float(cycles.film_exposure) if cycles is not None else 1.0)
     if exposure != 1:
         film["float iso"] = 100 * exposure
     if render.use_border:
@@ -57,8 +67,6 @@ def size_of(render: Any) -> tuple[int, int]:
 
 
 def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int, int], motion: Motion) -> None:
-    if eye is None or eye.type != "CAMERA":
-        raise InputError(f"{scene.name}: error: the scene has no camera")
     camera = eye.data
     place = f"camera '{eye.name}'"
     reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))

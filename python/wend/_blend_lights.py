@@ -26,10 +26,10 @@ _OF_POINTS = 4.0
 
 
 def add(
-    reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool, picture: LampPicture | None = None
+    reader: SceneReader, name: str, lamp: Any, places: Places, is_seen: bool, picture: LampPicture | None, brightness: float
 ) -> None:
     """A lamp where the shutter opens and where it closes. `is_seen`: by the camera, as far as it has a size. `picture`:
-    what its nodes are, where they are no constants."""
+    what its nodes are, where they are no constants. `brightness` multiplies what it shines with."""
     place = f"light '{name}'"
     kinds = {"POINT": _point, "SPOT": _spot, "SUN": _sun, "AREA": _area}
     strength, profile = np.ones(3), None
@@ -37,7 +37,7 @@ def add(
         reader.tell(place, "the nodes of a light that are no constants become a picture, by Cycles")
     elif lamp.use_nodes and lamp.node_tree and any(link.is_valid for link in lamp.node_tree.links):
         strength, profile = _strength_of_nodes(reader, place, lamp)
-    power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength
+    power = np.array(lamp.color, dtype=np.float64) * lamp.energy * 2.0 ** getattr(lamp, "exposure", 0.0) * strength * brightness
     if getattr(lamp, "use_temperature", False):
         power = power * np.array(lamp.temperature_color, dtype=np.float64)
     if getattr(getattr(lamp, "cycles", None), "is_portal", False) and lamp.type == "AREA":
@@ -45,6 +45,11 @@ def add(
         return
     if not lamp.use_shadow:
         reader.tell(place, "a light without shadows has them")
+    if power.min() < 0:
+        reader.tell(place, "negative power of a light is taken as none")
+        power = np.maximum(power, 0)
+    if getattr(getattr(lamp, "cycles", None), "max_bounces", 1024) < 128:
+        reader.tell(place, f"light that was reflected more often than its {lamp.cycles.max_bounces} times is there")
     if power.max() <= 0:
         return
     with reader.builder.block():

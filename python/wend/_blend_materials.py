@@ -54,7 +54,11 @@ def wants_of(reader: SceneReader, material: Any, bakery: Bakery) -> set[str]:
 
 
 def _made(reader: SceneReader, material: Any, key: str, bakery: Bakery | Probe | None) -> Look:
-    tree = material.node_tree if material else None
+    if material is None:
+        # As a new Principled BSDF.
+        grey = {"string type": "principled", "float eta": 1.5, "float roughness": 0.5, "rgb reflectance": (0.8, 0.8, 0.8)}
+        return _look(reader, key, Surface(grey), None)
+    tree = material.node_tree
     if tree is None:
         return _look(reader, key, Surface({"string type": "diffuse", "rgb reflectance": (0.8, 0.8, 0.8)}), None)
     output = output_node(tree)
@@ -86,7 +90,7 @@ def _look(
     reader: SceneReader, key: str, surface: Surface, medium: Fog | dict[str, Any] | None, picture: dict[str, Any] | None = None
 ) -> Look:
     if isinstance(medium, dict):
-        reader.builder.add("MakeNamedMedium", key, medium | {"string type": "homogeneous"})
+        reader.make_medium(key, medium)
     shines = picture is not None or surface.emission.max() > 0
     emission = tuple(float(x) for x in surface.emission) if shines else None
     # Nothing around an inside is not there, and else it is black.
@@ -104,13 +108,24 @@ def _look(
     shape = surface.alpha | ({"string cameraview": view} if view else {})
     inside = key if medium is not None else None
     fog = medium if isinstance(medium, Fog) else None
-    return Look(named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface), surface.is_one_sided)
+    return Look(
+        named, emission, inside, fog, shape, _brush_of(surface), shown, _refracts(surface), _index_of(surface), surface.is_one_sided
+    )
 
 
 def _refracts(surface: Surface) -> bool:
     if surface.mixed is not None:
         return any(_refracts(part) for part in surface.mixed[:2])
     return surface.material is not None and lets_through(surface.material)
+
+
+def _index_of(surface: Surface) -> float:
+    """Of the glass that it is, or a part of it."""
+    parts = surface.mixed[:2] if surface.mixed is not None else ()
+    own = surface.material or {}
+    if own.get("string type") == "dielectric":
+        return float(own.get("float eta", 1.5))
+    return next((index for index in map(_index_of, parts) if index != 1), 1.0)
 
 
 def _brush_of(surface: Surface) -> Brush | None:

@@ -9,7 +9,11 @@ from typing import Any
 import bpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 #: Of modifiers, settings of views and those of renders.
-_OF_MODIFIERS = (("show_viewport", "show_render"), ("levels", "render_levels"))
+_OF_MODIFIERS = (
+    ("show_viewport", "show_render"),
+    ("levels", "render_levels"),
+    ("viewport_resolution", "resolution"),
+)
 _OF_SIMPLIFICATION = (
     ("simplify_subdivision", "simplify_subdivision_render"),
     ("simplify_child_particles", "simplify_child_particles_render"),
@@ -47,6 +51,11 @@ def as_rendered(scene: Any) -> Iterator[None]:
                         put(modifier, views, getattr(modifier, renders))
         for collection in [c for c in bpy.data.collections if not c.library]:
             put(collection, "hide_viewport", collection.hide_render)
+        for group in bpy.data.node_groups:
+            for node in group.nodes:
+                if node.bl_idname == "GeometryNodeIsViewport":
+                    # Then it says that it is none.
+                    put(node, "mute", True)
         for system in bpy.data.particles:
             put(system, "display_percentage", 100)
             put(system, "child_percent", system.rendered_child_count)

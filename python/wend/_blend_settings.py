@@ -41,6 +41,9 @@ def tell_of_scene(reader: SceneReader, scene: Any, layer: Any) -> None:
     for name in ("material_override", "world_override"):
         if getattr(layer, name, None) is not None:
             reader.tell(f"view layer '{layer.name}'", f"its {name.replace('_', ' ')} is left out")
+    bounces = getattr(getattr(scene.world, "cycles", None), "max_bounces", 1024)
+    if bounces < 128:
+        reader.tell(f"world '{scene.world.name}'", f"light that was reflected more often than its {bounces} times is there")
     rays = getattr(scene.world, "cycles_visibility", None)
     unseen = [ray for ray in ("diffuse", "glossy", "transmission", "scatter") if not getattr(rays, ray, True)]
     if unseen:

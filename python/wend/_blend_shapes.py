@@ -65,6 +65,12 @@ def is_open(mesh: Any) -> bool:
     return bool((np.bincount(edges) == 1).any()) if len(edges) else False
 
 
+def triangles_of(mesh: Any) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+    """Points, and numbers of those of each triangle."""
+    mesh.calc_loop_triangles()
+    return _taken(mesh.vertices, "co", 3, np.float32).astype(np.float64), _taken(mesh.loop_triangles, "vertices", 3, np.int32)
+
+
 def mesh_parts(
     mesh: Any, ends: tuple[Geometry, Geometry] | None, uvs: npt.NDArray[np.float32] | None = None
 ) -> Iterator[tuple[int, Parameters]]:
@@ -101,6 +107,28 @@ def mesh_parts(
         if coordinates is not None:
             parameters["point2 uv"] = coordinates[loops]
         yield int(number), parameters
+
+
+#: Triangles of a mesh that are looked at.
+_SOME = 20000
+
+
+def lean(parts: list[tuple[Look, Parameters]]) -> float:
+    """By how many degrees the normals of a mesh lean from its faces, on average over their area."""
+    total = area = 0.0
+    for _, parameters in parts:
+        if "normal3 N" in parameters:
+            indices = parameters["integer indices"]
+            corners = indices[:: max(len(indices) // _SOME, 1)]
+            a, b, c = (parameters["point3 P"][corners[:, k]].astype(np.float64) for k in range(3))
+            across = np.cross(b - a, c - a)
+            size = np.linalg.norm(across, axis=1)
+            normals = np.asarray(parameters["normal3 N"], dtype=np.float64)[corners]
+            cosines = np.einsum("ijk,ik->ij", normals, across / np.maximum(size, 1e-30)[:, None]).clip(-1, 1)
+            # As far as the eye is concerned a normal has two sides.
+            total += float(size @ np.degrees(np.arccos(np.abs(cosines))).mean(axis=1))
+            area += float(size.sum())
+    return total / area if area > 0 else 0.0
 
 
 #: Of the size of a mesh, how far below it what it encloses begins where it is partly there.

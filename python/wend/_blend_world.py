@@ -66,7 +66,7 @@ def add_world_volume(reader: SceneReader, world: Any) -> str | None:
     if parameters is None:
         return None
     name = f" world {world.name}"
-    reader.builder.add("MakeNamedMedium", name, parameters | {"string type": "homogeneous"})
+    reader.make_medium(name, parameters)
     return name
 
 

@@ -55,14 +55,11 @@ class SceneBuilder:
         Raises:
             InputError: for arguments that are neither; what is wrong with them as a directive is said by `scene`.
         """
-        given = list(arguments)
-        parameters = given.pop() if given and isinstance(given[-1], Mapping) else {}
-        texts = [a for a in given if isinstance(a, str)]
-        try:
-            numbers = [float(x) for a in given if not isinstance(a, str) for x in np.ravel(a)]
-        except (TypeError, ValueError):
-            raise InputError(f"{directive}: expected texts and numbers, not {given!r}") from None
-        self._directives.append((directive, texts, numbers, [(n, _values(n, v)) for n, v in parameters.items()]))
+        self._directives.append(_directive(directive, arguments))
+
+    def insert(self, position: int, other: SceneBuilder) -> None:
+        """What another builder was given, before what was added here when `len` was `position`."""
+        self._directives[position:position] = other._directives
 
     @contextmanager
     def block(self, kind: str = "Attribute", *arguments: Any) -> Iterator[None]:
@@ -113,6 +110,17 @@ class SceneBuilder:
 
     def __repr__(self) -> str:
         return f"<wend.SceneBuilder {self._name!r}, {len(self)} directives>"
+
+
+def _directive(directive: str, arguments: tuple[Any, ...]) -> tuple[str, list[str], list[float], list[tuple[str, Any]]]:
+    given = list(arguments)
+    parameters = given.pop() if given and isinstance(given[-1], Mapping) else {}
+    texts = [a for a in given if isinstance(a, str)]
+    try:
+        numbers = [float(x) for a in given if not isinstance(a, str) for x in np.ravel(a)]
+    except (TypeError, ValueError):
+        raise InputError(f"{directive}: expected texts and numbers, not {given!r}") from None
+    return directive, texts, numbers, [(n, _values(n, v)) for n, v in parameters.items()]
 
 
 def _values(declared: str, value: Any) -> Any:

@@ -41,6 +41,7 @@ class Look:
     brushed: Brush | None = None  #: None: along its texture coordinates, if at all
     shown: str | None = None  #: file of a picture that it shines with, in place of the emission
     refracts: bool = False
+    index: float = 1.0  #: of what is below it, where it refracts
     is_one_sided: bool = False  #: its front alone shines
 
 
@@ -59,6 +60,7 @@ class SceneReader:
         #: pictures that are made of tiles, and the matrices that take coordinates to theirs
         self.sheets: dict[Any, tuple[str, npt.NDArray[np.float64]]] = {}
         self.around: str | None = None  #: the medium that fills the world
+        self.media: dict[str, dict[str, Any]] = {}  #: parameters of those that are the same everywhere, by name
         self._told: set[str] = set()
         self._maps = None if maps is None else Path(maps)
 
@@ -68,6 +70,11 @@ class SceneReader:
         if key not in self._told:
             self._told.add(key)
             warnings.warn(f"{place}: warning: {text}", SceneWarning, stacklevel=3)
+
+    def make_medium(self, name: str, parameters: dict[str, Any]) -> None:
+        """One that is the same everywhere."""
+        self.media[name] = parameters | {"string type": "homogeneous"}
+        self.builder.add("MakeNamedMedium", name, self.media[name])
 
     def map_file(self, name: str) -> str:
         """A file for a picture that is made for the scene."""
