@@ -12,6 +12,7 @@ from pxr import Sdf, UsdGeom  # type: ignore[import-not-found,import-untyped,unu
 from . import _usd_subdivision as subdivision
 from ._usd_colours import COLOURS, Colours
 from ._usd_materials import look_of
+from ._usd_triangles import triangulate
 
 Parameters = dict[str, Any]
 
@@ -50,7 +51,7 @@ def mesh_parts(
                 if len(holes) < len(faces.of_face):
                     yield bound, ("subdivision", surface | ({"integer holeIndices": holes} if len(holes) else {}))
             return
-    triangles, of_triangle = _triangulate(counts)
+    triangles, of_triangle = triangulate(points, counts, corners)
     if is_left_handed:
         triangles = triangles[:, ::-1]
     if scheme != UsdGeom.Tokens.none:
@@ -184,15 +185,6 @@ def _of_points(
     of_points = array[some]
     same = np.array_equal(of_points[corners], array)
     return (of_points, UsdGeom.Tokens.vertex) if same else (array, kind)
-
-
-def _triangulate(counts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Fans: of each triangle its corners, counted through all faces, and its face."""
-    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    of_face = np.maximum(counts - 2, 0)
-    faces = np.repeat(np.arange(len(counts)), of_face)
-    step = np.arange(len(faces)) - np.repeat(np.concatenate([[0], np.cumsum(of_face)[:-1]]), of_face)
-    return np.stack([first[faces], first[faces] + step + 1, first[faces] + step + 2], axis=1), faces
 
 
 def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
