@@ -49,7 +49,7 @@ def _tell_of_light(reader: Any, prim: Any) -> None:
 def _tell_of_binding(reader: Any, prim: Any) -> None:
     """Materials that are not there, and what is bound that is none of a surface."""
     api = UsdShade.MaterialBindingAPI(prim)
-    material, relationship = api.ComputeBoundMaterial(UsdShade.Tokens.full)
+    material, relationship = api.ComputeBoundMaterial(reader.binding_purpose)
     if not material:
         targets = api.GetDirectBindingRel().GetTargets()
         if targets:

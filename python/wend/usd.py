@@ -31,6 +31,7 @@ from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_old_lights as old_lights
 from . import _usd_materials as materials
+from . import _usd_settings as settings
 from . import _usd_skeletons as skeletons
 from . import _usd_unread as unread
 from ._usd_colours import COLOURS, coloured, display_colour
@@ -99,6 +100,8 @@ class _Reader(SceneReader):
         #: when the shutter opens and when it closes; the time twice where nothing is blurred
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
+        self.purposes = settings.purposes(stage)
+        self.binding_purpose = settings.binding_purpose(stage)
         self.copies = Copies()
         self.unpacked: dict[str, str] = {}  #: files of packages
         self.pictures = 0  #: how many others were made
@@ -109,10 +112,11 @@ class _Reader(SceneReader):
 
     def read(self, path: str | None, resolution: tuple[int, int] | None, spp: int, progress: bool) -> SceneBuilder:
         add = self.builder.add
-        resolution = resolution or cameras.resolution_of(self)
+        resolution = resolution or settings.resolution_of(self.stage)
         eye = cameras.find(self, path)
         with named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
+            settings.tell(self)
             old_lights.rename(self)
             skeletons.pose(self)
             film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
@@ -172,9 +176,10 @@ class _Reader(SceneReader):
     def is_for_renders(self, imageable: Any) -> bool:
         """By its purpose, and the visibility that some are given for that alone."""
         purpose = imageable.ComputePurpose()
-        if purpose == UsdGeom.Tokens.render:
-            return bool(imageable.ComputeEffectiveVisibility(purpose, self.time) != UsdGeom.Tokens.invisible)
-        return bool(purpose == UsdGeom.Tokens.default_)
+        if purpose not in self.purposes:
+            return False
+        is_plain = purpose == UsdGeom.Tokens.default_
+        return bool(is_plain or imageable.ComputeEffectiveVisibility(purpose, self.time) != UsdGeom.Tokens.invisible)
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
         unread.tell(self, prim)
