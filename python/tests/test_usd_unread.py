@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("pxr", reason="usd-core is absent")
 
-from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade  # noqa: E402
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade  # noqa: E402
 
 import wend  # noqa: E402
 from test_usd_as_written import bind, material  # noqa: E402
@@ -97,3 +97,34 @@ def test_samples_without_a_first_frame_are_taken_at_their_first(stage):
     with pytest.warns(wend.SceneWarning, match="no startTimeCode: it is taken at the first, 3"):
         stage.read()
     assert middle(stage.image()) == pytest.approx(np.full(3, 0.4), abs=0.01)
+
+
+@pytest.mark.parametrize(("family", "target"), [(None, "/m"), ("materialBind", "/nowhere")])
+def test_materials_of_faces_that_are_not_taken_are_told(stage, family, target):
+    material(stage, (0.8, 0, 0))
+    card = stage.card()
+    subset = UsdGeom.Subset.CreateGeomSubset(card, "part", "face", [0], family or "")
+    UsdShade.MaterialBindingAPI.Apply(subset.GetPrim())
+    subset.GetPrim().CreateRelationship("material:binding").SetTargets([target])
+    with pytest.warns(wend.SceneWarning, match="/card/part: .*(not there: /nowhere|family materialBind)"):
+        stage.read()
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "value"),
+    [
+        ("orientations", TYPES.QuathArray, [Gf.Quath(1)]),
+        ("orientationsf", TYPES.QuatfArray, [Gf.Quatf(1)]),
+        ("scales", TYPES.Float3Array, [(1, 1, 1)]),
+    ],
+)
+def test_instancers_with_too_few_turns_are_told(stage, name, kind, value):
+    """USD's own library makes places of what lies beyond them in memory."""
+    UsdGeom.Cube.Define(stage.stage, "/it/proto")
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/it")
+    instancer.CreatePrototypesRel().SetTargets(["/it/proto"])
+    instancer.CreateProtoIndicesAttr([0, 0, 0])
+    instancer.CreatePositionsAttr([(x, 0, -5) for x in (-1, 0, 1)])
+    instancer.GetPrim().CreateAttribute(name, kind).Set(value)
+    with pytest.warns(wend.SceneWarning, match=f"/it: .*whose {name} are not as many"):
+        stage.read()

@@ -48,6 +48,12 @@ def _tell_of_light(reader: Any, prim: Any) -> None:
 
 def _tell_of_binding(reader: Any, prim: Any) -> None:
     """Materials that are not there, and what is bound that is none of a surface."""
+    for subset in UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim)):
+        targets = UsdShade.MaterialBindingAPI(subset.GetPrim()).GetDirectBindingRel().GetTargets()
+        if targets and subset.GetFamilyNameAttr().Get() != UsdShade.Tokens.materialBind:
+            reader.warn(subset.GetPrim(), "a material of faces is left out, as they are not of the family materialBind")
+        elif targets and not prim.GetStage().GetPrimAtPath(targets[0]):
+            reader.warn(subset.GetPrim(), f"the material that is bound is not there: {targets[0]}")
     api = UsdShade.MaterialBindingAPI(prim)
     material, relationship = api.ComputeBoundMaterial(reader.binding_purpose)
     if not material:
