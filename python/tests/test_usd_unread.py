@@ -10,7 +10,7 @@ pytest.importorskip("pxr", reason="usd-core is absent")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade  # noqa: E402
 
 import wend  # noqa: E402
-from test_usd_as_written import bind, material  # noqa: E402
+from test_usd_as_written import bind, connect, material, on_a_card, png  # noqa: E402
 from usd_stage import Stage, middle  # noqa: E402
 
 TYPES = Sdf.ValueTypeNames
@@ -127,4 +127,12 @@ def test_instancers_with_too_few_turns_are_told(stage, name, kind, value):
     instancer.CreatePositionsAttr([(x, 0, -5) for x in (-1, 0, 1)])
     instancer.GetPrim().CreateAttribute(name, kind).Set(value)
     with pytest.warns(wend.SceneWarning, match=f"/it: .*whose {name} are not as many"):
+        stage.read()
+
+
+def test_other_coordinates_than_those_that_are_asked_for_are_told(stage, tmp_path):
+    on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 128)))
+    node = UsdShade.Shader(stage.stage.GetPrimAtPath("/m/emissiveColor"))
+    connect(stage, node, "st", "UsdPrimvarReader_float2", {"varname": (TYPES.String, "uv2")}, "result", TYPES.Float2)
+    with pytest.warns(wend.SceneWarning, match="/card: .*coordinates uv2 are not there: st are taken"):
         stage.read()
