@@ -65,7 +65,10 @@ def coloured(stage):
 
 
 WAYS = {
-    "a light that is a sphere": (lambda s: UsdLux.LightAPI.Apply(s.stage.DefinePrim("/it", "Sphere")), "/it: .* Sphere that is a light"),
+    "a light that is a sphere": (
+        lambda s: UsdLux.LightAPI.Apply(s.stage.DefinePrim("/it", "Sphere")),
+        "/it: .* Sphere that is a light",
+    ),
     "no shaping": (
         lambda s: s.stage.DefinePrim("/it", "SphereLight").CreateAttribute("inputs:shaping:cone:angle", TYPES.Float).Set(5.0),
         "/it: .*inputs:shaping:cone:angle is left out, as ShapingAPI is not applied",

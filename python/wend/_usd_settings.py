@@ -102,7 +102,8 @@ def tell(reader: Any) -> None:
         of_settings = UsdRender.SettingsBase(product)
         if not of_settings:
             continue
-        names = [name for name in UsdRender.SettingsBase.GetSchemaAttributeNames(False) if product.GetAttribute(name).HasAuthoredValue()]
+        known = UsdRender.SettingsBase.GetSchemaAttributeNames(False)
+        names = [name for name in known if product.GetAttribute(name).HasAuthoredValue()]
         if of_settings.GetCameraRel().GetTargets():
             names.append("camera")
         if names:

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 #: Colour spaces of pictures that are taken as they are: by the names of USD, MaterialX, and the configurations of ACES.
-_LINEAR = ("", "raw", "data", "linear", "identity", "unknown", "none", "lin_rec709", "lin_rec709_scene", "lin_srgb", "linear rec.709 (srgb)",
-           "scene-linear rec.709-srgb", "utility - raw", "utility - linear - srgb", "utility - linear - rec.709", "linear srgb")  # fmt: skip
-_ENCODED = ("srgb", "srgb_texture", "srgb_rec709_scene", "srgb_tx", "srgb - texture", "srgb - display", "srgb texture", "srgb encoded rec.709 (srgb)",
-            "input - generic - srgb - texture", "utility - srgb - texture")  # fmt: skip
+_LINEAR = (
+    "", "raw", "data", "linear", "identity", "unknown", "none", "lin_rec709", "lin_rec709_scene", "lin_srgb", "linear srgb",
+    "linear rec.709 (srgb)", "scene-linear rec.709-srgb", "utility - raw", "utility - linear - srgb",
+    "utility - linear - rec.709",
+)  # fmt: skip
+_ENCODED = (
+    "srgb", "srgb_texture", "srgb_rec709_scene", "srgb_tx", "srgb - texture", "srgb - display", "srgb texture",
+    "srgb encoded rec.709 (srgb)", "input - generic - srgb - texture", "utility - srgb - texture",
+)  # fmt: skip
 
 
 def is_encoded_space(name: str) -> bool | None:

@@ -125,7 +125,8 @@ class Inputs:
             return None, attribute
         space = str(attribute.GetColorSpace()) if attribute.HasColorSpace() else ""
         if is_encoded_space(space) is not False and attribute.GetTypeName().role == "Color":
-            self.reader.warn(attribute.GetPrim(), f"colours of the space {space}, not those of pictures, are taken as linear ones of sRGB")
+            what = f"colours of the space {space}, not those of pictures,"
+            self.reader.warn(attribute.GetPrim(), f"{what} are taken as linear ones of sRGB")
         return attribute.Get(self.reader.time), None
 
     def is_connected(self, name: str) -> bool:

@@ -32,8 +32,8 @@ def triangulate(points: npt.NDArray[np.float32], counts: Integers, corners: Inte
             triangles[rows] = turned[:, [[0, 1, 2], [0, 2, 3]]]
             continue
         for face in dented:
-            rows = slice(before[chosen[face]], before[chosen[face]] + count - 2)
-            triangles[rows] = around[face][_ears(_flattened(places[face], normals[face]))]
+            start = before[chosen[face]]
+            triangles[start : start + count - 2] = around[face][_ears(_flattened(places[face], normals[face]))]
     return triangles, faces
 
 
