@@ -6,8 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Tf, Usd, UsdGeom, UsdRender  # type: ignore[import-not-found,import-untyped,unused-ignore]
+from pxr import Gf, Tf, Usd, UsdGeom  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
+from . import _usd_settings as settings
 from ._errors import InputError
 from ._usd_subdivision import View
 
@@ -18,10 +19,8 @@ _DEEPEST = 32
 def find(reader: Any, path: str | None) -> Any:
     """The prim: of that path, or the one of the stage's render settings, or the first; None where the stage has none."""
     if path is None:
-        chosen = _settings(reader.stage)
-        targets = chosen.GetCameraRel().GetForwardedTargets() if chosen else []
-        named = reader.stage.GetPrimAtPath(targets[0]) if targets else None
-        if named and named.IsA(UsdGeom.Camera):
+        named = settings.camera_of(reader.stage)
+        if named is not None:
             return named
         return next((p for p in reader.prims(reader.stage.GetPseudoRoot()) if p.IsA(UsdGeom.Camera)), None)
     prim = reader.stage.GetPrimAtPath(path)
@@ -30,28 +29,7 @@ def find(reader: Any, path: str | None) -> Any:
     return prim
 
 
-def _settings(stage: Any) -> Any:
-    """How the stage itself wants to be rendered; false where it does not say."""
-    return UsdRender.Settings.GetStageRenderSettings(stage)
-
-
-def resolution_of(reader: Any) -> tuple[int, int]:
-    """Of the picture that the stage asks for, or what is usual here.
-
-    Raises:
-        InputError: for one that no picture has.
-    """
-    chosen = _settings(reader.stage)
-    if not chosen or not chosen.GetResolutionAttr().HasAuthoredValue():
-        return (640, 360)
-    width, height = (int(side) for side in chosen.GetResolutionAttr().Get())
-    if width < 1 or height < 1:
-        raise InputError(f"{chosen.GetPath()}: error: a picture of {width} x {height}")
-    return (width, height)
-
-
 def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
-    aspect = resolution[0] / resolution[1]
     if prim is None:
         reader.warn(reader.stage.GetPseudoRoot(), "no camera: one is put where all can be seen")
         view_of_all(reader, resolution)
@@ -59,7 +37,7 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
     camera = UsdGeom.Camera(prim)
     lens = camera.GetCamera(reader.time)
     shutter = [camera.GetShutterOpenAttr().Get(reader.time), camera.GetShutterCloseAttr().Get(reader.time)]
-    if shutter[0] < shutter[1] and not reader.time.IsDefault():
+    if shutter[0] < shutter[1] and not reader.time.IsDefault() and settings.has_blur(reader.stage):
         reader.shutter = [Usd.TimeCode(reader.time.GetValue() + offset) for offset in shutter]
         reader.transforms = [UsdGeom.XformCache(time) for time in reader.shutter]
     _tell_of_clipping(reader, prim, camera)
@@ -69,11 +47,7 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
     # A tenth of a scene unit, which is a millimetre where that is a centimetre.
     width, height = lens.horizontalAperture, lens.verticalAperture
     shift = (lens.horizontalApertureOffset, lens.verticalApertureOffset)
-    # The aperture is widened to the shape of the picture.
-    if aspect > width / height:
-        width = height * aspect
-    else:
-        height = width / aspect
+    width, height = settings.aperture(reader.stage, width, height, resolution)
     window = np.array([shift[0] - width / 2, shift[0] + width / 2, shift[1] - height / 2, shift[1] + height / 2])
     # A camera of USD looks along its -z.
     places = reader.world(prim)
@@ -85,10 +59,11 @@ def add(reader: Any, prim: Any, resolution: tuple[int, int]) -> None:
         reader.builder.add("Camera", "orthographic", {"float screenwindow": window / 10})
         return
     parameters: dict[str, Any] = {"float fov": 90, "float screenwindow": window / lens.focalLength}
-    if lens.fStop > 0 and not lens.focusDistance > 0:
+    f_stop = lens.fStop if settings.has_depth_of_field(reader.stage) else 0
+    if f_stop > 0 and not lens.focusDistance > 0:
         reader.warn(prim, "a camera that is focused on nothing sees all sharply")
-    elif lens.fStop > 0:
-        parameters["float lensradius"] = lens.focalLength / 10 / (2 * lens.fStop)
+    elif f_stop > 0:
+        parameters["float lensradius"] = lens.focalLength / 10 / (2 * f_stop)
         parameters["float focaldistance"] = lens.focusDistance
     reader.builder.add("Camera", "perspective", parameters)
 
@@ -139,7 +114,7 @@ def view_of_all(reader: Any, resolution: tuple[int, int]) -> None:
 
 def _bounds(reader: Any) -> Any:
     """Of what is to be seen, in the world."""
-    bounds = UsdGeom.BBoxCache(reader.time, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
+    bounds = UsdGeom.BBoxCache(reader.time, reader.purposes)
     box = Gf.Range3d()
     for prim in reader.prims(reader.stage.GetPseudoRoot()):
         # USD never ends with an instancer that copies itself.

@@ -50,6 +50,12 @@ class Copies:
         instancer = UsdGeom.PointInstancer(prim)
         prototypes = [self._prototype(reader, target) for target in instancer.GetPrototypesRel().GetForwardedTargets()]
         indices = instancer.GetProtoIndicesAttr().Get(reader.time) or []
+        # USD itself reads beyond their ends.
+        for name in ("orientations", "orientationsf", "scales"):
+            given = prim.GetAttribute(name).Get(reader.time) if prim.HasAttribute(name) else None
+            if given and len(given) != len(indices):
+                reader.warn(prim, f"an instancer whose {name} are not as many as what it copies is left out")
+                return
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, reader.time)) for time in reader.shutter)
         own = [p.GetPrimvarName() for p in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues() if p.GetInterpolation() != "constant"]
         if own:

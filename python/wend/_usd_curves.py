@@ -36,6 +36,9 @@ def curve_segments(reader: Any, prim: Any) -> Iterator[Parameters]:
     ends = [curves.ComputePointsAtTime(t, time) for t in reader.shutter] if reader.shutter[0] != reader.shutter[1] else []
     if ends and not np.array_equal(np.array(ends[0]), np.array(ends[1])):
         reader.warn(prim, "the points of curves stay while the shutter is open")
+    normals = (prim.GetAttribute(name) for name in ("normals", "primvars:normals"))
+    if any(attribute.HasAuthoredValue() for attribute in normals if attribute):
+        reader.warn(prim, "curves with normals, which are ribbons, are taken as round")
     kind = curves.GetTypeAttr().Get(time)
     basis = "linear" if kind == UsdGeom.Tokens.linear else str(curves.GetBasisAttr().Get(time))
     if basis not in _TO_BEZIER:

@@ -47,7 +47,7 @@ def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
     """Makes the material if it is not there yet, wherever the builder is."""
     looks: dict[str, UsdLook] = reader.materials
     # What is bound for all purposes is taken where nothing is bound for renders.
-    material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial(UsdShade.Tokens.full)
+    material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial(reader.binding_purpose)
     if material:
         key = str(material.GetPath())
         if key not in looks:

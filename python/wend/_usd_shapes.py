@@ -12,6 +12,7 @@ from pxr import Sdf, UsdGeom  # type: ignore[import-not-found,import-untyped,unu
 from . import _usd_subdivision as subdivision
 from ._usd_colours import COLOURS, Colours
 from ._usd_materials import look_of
+from ._usd_triangles import triangulate
 
 Parameters = dict[str, Any]
 
@@ -35,7 +36,7 @@ def mesh_parts(
     parts = _parts(mesh, time, len(counts))
     looks = [look_of(reader, prim, bound) for bound, chosen in parts if chosen.any()]
     by = _first(reader, prim, "texture coordinates", [look.coordinates for look in looks])
-    coordinates = _coordinates(prim, time, by)
+    coordinates = _coordinates(reader, prim, by)
     named = _first(reader, prim, "colours", [look.colours for look in looks])
     colours = Colours.of(prim, named, time) if named is not None else None
     values = _values(reader, prim, counts, corners, len(points), end_points is not None, coordinates, colours)
@@ -50,7 +51,7 @@ def mesh_parts(
                 if len(holes) < len(faces.of_face):
                     yield bound, ("subdivision", surface | ({"integer holeIndices": holes} if len(holes) else {}))
             return
-    triangles, of_triangle = _triangulate(counts)
+    triangles, of_triangle = triangulate(points, counts, corners)
     if is_left_handed:
         triangles = triangles[:, ::-1]
     if scheme != UsdGeom.Tokens.none:
@@ -186,15 +187,6 @@ def _of_points(
     return (of_points, UsdGeom.Tokens.vertex) if same else (array, kind)
 
 
-def _triangulate(counts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Fans: of each triangle its corners, counted through all faces, and its face."""
-    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    of_face = np.maximum(counts - 2, 0)
-    faces = np.repeat(np.arange(len(counts)), of_face)
-    step = np.arange(len(faces)) - np.repeat(np.concatenate([[0], np.cumsum(of_face)[:-1]]), of_face)
-    return np.stack([first[faces], first[faces] + step + 1, first[faces] + step + 2], axis=1), faces
-
-
 def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None:
     primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
     if primvar and primvar.HasValue():
@@ -203,7 +195,7 @@ def _normals(mesh: Any, time: Any) -> tuple[npt.NDArray[np.float32], str] | None
     return (np.array(found, dtype=np.float32).reshape(-1, 3), mesh.GetNormalsInterpolation()) if found else None
 
 
-def _coordinates(prim: Any, time: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
+def _coordinates(reader: Any, prim: Any, wanted: str | None) -> tuple[npt.NDArray[np.float32], str] | None:
     """Those that are asked for, or the usual ones."""
     api = UsdGeom.PrimvarsAPI(prim)
     names = ["st", "UVMap"] if wanted is None else [wanted, "st", "UVMap"]
@@ -212,8 +204,10 @@ def _coordinates(prim: Any, time: Any, wanted: str | None) -> tuple[npt.NDArray[
         # Older files have plain pairs of numbers; some programs a third coordinate.
         is_one = primvar in named or primvar.GetTypeName().role == "TextureCoordinate"
         if primvar and primvar.HasValue() and is_one:
-            array = np.array(primvar.ComputeFlattened(time), dtype=np.float32)
+            array = np.array(primvar.ComputeFlattened(reader.time), dtype=np.float32)
             if array.ndim == 2 and array.shape[1] in (2, 3):
+                if wanted not in (None, primvar.GetPrimvarName()):
+                    reader.warn(prim, f"texture coordinates {wanted} are not there: {primvar.GetPrimvarName()} are taken")
                 return np.ascontiguousarray(array[:, :2]), primvar.GetInterpolation()
     return None
 

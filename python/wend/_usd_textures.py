@@ -12,6 +12,7 @@ from pxr import UsdShade  # type: ignore[import-not-found,import-untyped,unused-
 from ._film import Film, opacity_of, read
 from ._udim import Tile, encoded, laid_out
 from ._usd_files import file_called, name_of, tiles_of
+from ._usd_spaces import has_bytes, is_encoded_space, is_grey
 
 Matrix = npt.NDArray[np.float64]
 
@@ -122,6 +123,10 @@ class Inputs:
                 if not inputs._is_there():
                     return inputs._missing(str(attribute.GetBaseName())), None
             return None, attribute
+        space = str(attribute.GetColorSpace()) if attribute.HasColorSpace() else ""
+        if is_encoded_space(space) is not False and attribute.GetTypeName().role == "Color":
+            what = f"colours of the space {space}, not those of pictures,"
+            self.reader.warn(attribute.GetPrim(), f"{what} are taken as linear ones of sRGB")
         return attribute.Get(self.reader.time), None
 
     def is_connected(self, name: str) -> bool:
@@ -238,14 +243,21 @@ class Inputs:
             picture.scale = np.array(inputs.constant("scale", (1, 1, 1, 1)), dtype=np.float64)
             picture.bias = np.array(inputs.constant("bias", (0, 0, 0, 0)), dtype=np.float64)
         elif kind.startswith("ND_tiledimage_"):
-            tiling, offset = (inputs.constant(name, value) for name, value in (("uvtiling", (1, 1)), ("uvoffset", (0, 0))))
-            picture.uv_matrix = _placed(np.array(tiling, dtype=np.float64), 0.0, np.array(offset, dtype=np.float64))
+            picture.uv_matrix = inputs._tiled()
         inputs._find_coordinates("st" if is_usd else "texcoord", picture)
         if tiles is not None:
             inputs._lay_out(picture, tiles, is_packed)
         if picture.coordinates is not None:
             self.coordinates.append(picture.coordinates)
         return picture
+
+    def _tiled(self) -> Matrix:
+        """Of a node that lays a picture out again and again: its offset is taken away."""
+        names = {"uvtiling": (1, 1), "uvoffset": (0, 0), "realworldimagesize": (1, 1), "realworldtilesize": (1, 1)}
+        values = (np.array(self.constant(name, value), dtype=np.float64) for name, value in names.items())
+        tiling, offset, of_image, of_tile = values
+        scale = of_tile / np.where(of_image == 0, 1, of_image)
+        return _placed(tiling * scale, 0.0, -offset * scale)
 
     def _lay_out(self, picture: Picture, tiles: dict[Tile, str], is_packed: bool) -> None:
         """Makes one picture of tiles, with what its node has where there is none."""
@@ -278,7 +290,10 @@ class Inputs:
         space = named or str(self.constant("sourceColorSpace", "auto"))
         if space == "auto":
             return has_bytes(file) and not is_grey(file)
-        return space.lower().startswith("srgb")
+        is_srgb = is_encoded_space(space)
+        if is_srgb is None:
+            self.reader.warn(self.shader.GetPrim(), f"the colour space {space} is taken as linear, with the primaries of sRGB")
+        return bool(is_srgb)
 
     def _wrap(self, is_usd: bool) -> str:
         """What is beyond the edges."""
@@ -313,6 +328,8 @@ class Inputs:
                 picture.coordinates = str(varname) if varname else None
                 return
             elif kind.startswith("ND_texcoord"):
+                if int(inputs.constant("index", 0)) != 0:
+                    self.reader.warn(inputs.shader.GetPrim(), "texture coordinates of another index than 0 are taken as the first")
                 return
             else:
                 self.reader.warn(inputs.shader.GetPrim(), f"{kind} as coordinates of a texture is left out")
@@ -355,28 +372,3 @@ def _placed(scale: Matrix, turn: float, place: Matrix) -> Matrix:
     result[:2, :2] = np.array([[c, -s], [s, c]]) @ np.diag(scale[:2])
     result[:2, 2] = place[:2]
     return result
-
-
-def is_grey(file: str) -> bool:
-    """Whether a picture has one channel, and perhaps an opacity; of PNG and JPEG files."""
-    with open(file, "rb") as opened:
-        head = opened.read(1 << 16)
-    if head.startswith(b"\x89PNG"):
-        return len(head) > 25 and head[25] in (0, 4)
-    place = 2
-    # JPEG: segments up to the one of the frame, which has the number of channels.
-    while head.startswith(b"\xff\xd8") and place + 9 < len(head) and head[place] == 0xFF:
-        if head[place + 1] in (0xC0, 0xC1, 0xC2):
-            return head[place + 9] == 1
-        place += 2 + int.from_bytes(head[place + 2 : place + 4], "big")
-    return False
-
-
-def has_bytes(file: str) -> bool:
-    """Whether a picture's numbers are of 8 bits, which are read as sRGB."""
-    name = file.lower()
-    if name.endswith(".png"):
-        with open(file, "rb") as opened:
-            head = opened.read(25)
-        return len(head) == 25 and head[24] <= 8
-    return name.endswith((".jpg", ".jpeg", ".tga", ".bmp", ".qoi", ".gif"))

@@ -21,7 +21,7 @@ from ._progress import Bar
 from ._scene_reader import Places, SceneReader
 
 try:
-    from pxr import Tf, Usd, UsdGeom, UsdLux, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    from pxr import Tf, Usd, UsdGeom, UsdVol  # type: ignore[import-not-found,import-untyped,unused-ignore]
 except ImportError as error:
     raise ImportError("wend.usd wants usd-core: pip install 'wend[usd]'") from error
 
@@ -31,7 +31,9 @@ from . import _usd_camera as cameras
 from . import _usd_lights as lights
 from . import _usd_old_lights as old_lights
 from . import _usd_materials as materials
+from . import _usd_settings as settings
 from . import _usd_skeletons as skeletons
+from . import _usd_unread as unread
 from ._usd_colours import COLOURS, coloured, display_colour
 from ._usd_copies import Copies
 from ._usd_curves import curve_segments
@@ -56,7 +58,8 @@ def read(
 
     Args:
         path: a .usda, .usdc, .usd or .usdz file.
-        time: the time code; None: the stage's default values, or its first frame where it has frames.
+        time: the time code; None: the stage's first frame, or its first sample where it names
+            none, or its default values where it has no samples.
         camera: path of the camera's prim; None: the one of the stage's render settings, or the first, or a view of all.
         resolution: (width, height) of the picture; None: that of the stage's render settings, or 640 x 360. Its shape
             decides what the camera sees above and below, or at the sides, of its aperture.
@@ -79,8 +82,8 @@ def read(
     except UnicodeDecodeError:
         # USD's own message quotes what is wrong.
         raise InputError(f"{os.fspath(path)}: error: its text is not UTF-8") from None
-    if time is None and stage.HasAuthoredTimeCodeRange():
-        time = stage.GetStartTimeCode()
+    if time is None:
+        time = unread.first_time(stage, os.fspath(path))
     when = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
     return _Reader(stage, os.fspath(path), when, maps, Refinement(subdivision)).read(camera, resolution, spp, progress)
 
@@ -97,6 +100,8 @@ class _Reader(SceneReader):
         #: when the shutter opens and when it closes; the time twice where nothing is blurred
         self.shutter = [time, time]
         self.transforms = [UsdGeom.XformCache(time)] * 2
+        self.purposes = settings.purposes(stage)
+        self.binding_purpose = settings.binding_purpose(stage)
         self.copies = Copies()
         self.unpacked: dict[str, str] = {}  #: files of packages
         self.pictures = 0  #: how many others were made
@@ -107,10 +112,11 @@ class _Reader(SceneReader):
 
     def read(self, path: str | None, resolution: tuple[int, int] | None, spp: int, progress: bool) -> SceneBuilder:
         add = self.builder.add
-        resolution = resolution or cameras.resolution_of(self)
+        resolution = resolution or settings.resolution_of(self.stage)
         eye = cameras.find(self, path)
         with named(eye or self.stage.GetPseudoRoot()):
             cameras.add(self, eye, resolution)
+            settings.tell(self)
             old_lights.rename(self)
             skeletons.pose(self)
             film: dict[str, Any] = {"integer xresolution": resolution[0], "integer yresolution": resolution[1]}
@@ -170,16 +176,16 @@ class _Reader(SceneReader):
     def is_for_renders(self, imageable: Any) -> bool:
         """By its purpose, and the visibility that some are given for that alone."""
         purpose = imageable.ComputePurpose()
-        if purpose == UsdGeom.Tokens.render:
-            return bool(imageable.ComputeEffectiveVisibility(purpose, self.time) != UsdGeom.Tokens.invisible)
-        return bool(purpose == UsdGeom.Tokens.default_)
+        if purpose not in self.purposes:
+            return False
+        is_plain = purpose == UsdGeom.Tokens.default_
+        return bool(is_plain or imageable.ComputeEffectiveVisibility(purpose, self.time) != UsdGeom.Tokens.invisible)
 
     def add_prim(self, prim: Any, world: Places, in_object: bool) -> None:
+        unread.tell(self, prim)
         if lights.is_light(prim):
             self.has_light = lights.add(self, prim, world) or self.has_light
         elif prim.IsA(UsdGeom.Mesh):
-            if prim.HasAPI(UsdLux.MeshLightAPI):
-                self.warn(prim, "a mesh that is a light shines by its material alone")
             for part, faces in mesh_parts(self, prim, world[0], in_object):
                 self.add_shape(prim, part, world, faces, in_object)
         elif prim.IsA(UsdGeom.BasisCurves):
