@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ._blend_nodes import Colour, Nodes, blackbody, output_node
+from ._blend_nodes import Colour, Nodes, blackbody
 
 
 class Values(Protocol):
@@ -15,11 +15,6 @@ class Values(Protocol):
     def number(self, socket: Any) -> Any: ...
 
     def colour(self, socket: Any) -> Any: ...
-
-
-def has_volume(material: Any) -> bool:
-    output = output_node(material.node_tree) if material.node_tree else None
-    return output is not None and output.inputs["Volume"].is_linked
 
 
 def volume_parameters(nodes: Nodes, node: Any) -> dict[str, Any] | None:
