@@ -1,5 +1,7 @@
 """Blender's cameras, and what moves before them, against Cycles."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -20,6 +22,7 @@ from blender_scene import (  # noqa: E402, F401
     scene,
     sky,
     straight,
+    told,
 )
 
 from wend import blend  # noqa: E402
@@ -123,6 +126,35 @@ def test_what_changes_its_number_of_points_is_named(scene):
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
     with pytest.warns(wend.SceneWarning, match="changes its number of points"):
         assert "P1" not in blend.of_scene(scene).text()
+
+
+def test_what_goes_along_a_curve_while_the_shutter_is_open_is_named(scene):
+    cube = mesh(scene, "cube")
+    for frame, place in ((1, (0, 0, 0)), (2, (1, 1, 0)), (3, (2, 0, 0))):
+        cube.location = place
+        cube.keyframe_insert("location", frame=frame)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    assert f"object '{cube.name}': warning: what goes along a curve" in told(scene)
+
+
+def test_what_goes_straight_is_not_named(scene):
+    straight(mesh(scene, "cube"))
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        blend.of_scene(scene)
+    assert not [w for w in found if "curve" in str(w.message)]
+
+
+def test_a_lens_that_changes_while_the_shutter_is_open_is_named(scene):
+    for frame, lens in ((1, 30), (3, 60)):
+        scene.camera.data.lens = lens
+        scene.camera.data.keyframe_insert("lens", frame=frame)
+    scene.frame_set(2)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.8
+    assert "a lens that changes while the shutter is open" in told(scene)
 
 
 PANORAMAS = {

@@ -97,8 +97,9 @@ def test_a_coat_darkens_what_shines_below_it(scene, tmp_path):
         ({"base_color": (1.4, 0.3, 0.1)}, "Base Color above 1"),
         ({"coat_weight": 1.0, "emission_strength": 1.0}, "a coat darkens"),
         ({"sheen_weight": 1.0, "emission_strength": 1.0}, "sheen does not darken"),
+        ({"ior": 0.8}, "an IOR below 1"),
     ],
-    ids=["too bright", "coat", "sheen"],
+    ids=["too bright", "coat", "sheen", "index"],
 )
 def test_what_is_not_quite_so_is_named(scene, inputs, words):
     mesh(scene, "cube", material("BsdfPrincipled", **inputs))

@@ -71,6 +71,8 @@ def _add_camera(reader: SceneReader, scene: Any, eye: Any, resolution: tuple[int
     place = f"camera '{eye.name}'"
     reader.put(np.asarray(np.linalg.inv(_CAMERA @ motion.of_camera(eye)), dtype=np.float64))
     tell_of_camera(reader, place, camera)
+    if motion.changes_lens:
+        reader.tell(place, "a lens that changes while the shutter is open stays as it is at the frame")
     parameters = _lens_of(eye)
     if camera.type == "PANO":
         reader.builder.add("Camera", "panorama", parameters | panorama_of(reader, place, scene, camera, resolution))

@@ -34,13 +34,17 @@ class Motion:
     def __init__(self, scene: Any, eye: Any, depsgraph: Any, set_frame: Callable[[int, float], Any]) -> None:
         self._ends: list[dict[Any, Matrix]] = []
         self._shapes: list[dict[str, Geometry]] = []
+        self.bent: list[str] = []  #: what does not go straight and evenly
+        self.changes_lens = False
         render = scene.render
         self.is_on = bool(render.use_motion_blur) and render.motion_blur_shutter > 0
         if not self.is_on:
             return
         frame, part = scene.frame_current, scene.frame_subframe
         opening = frame + part - _SHARES[render.motion_blur_position] * render.motion_blur_shutter
-        for time in (opening, opening + render.motion_blur_shutter):
+        lenses = []
+        for share in (0, 0.5, 1):
+            time = opening + share * render.motion_blur_shutter
             whole = int(np.floor(time))
             set_frame(whole, float(time - whole))
             depsgraph.update()
@@ -48,12 +52,21 @@ class Motion:
             for instance in depsgraph.object_instances:
                 places[_key(instance)] = rows(instance.matrix_world)
                 name = instance.object.name_full
-                if name not in shapes and _may_change(scene, instance.object):
+                if share != 0.5 and name not in shapes and _may_change(scene, instance.object):
                     shapes[name] = _shape_of(instance.object)
             if eye is not None:
-                places[None] = rows(eye.evaluated_get(depsgraph).matrix_world.normalized())
+                seen_by = eye.evaluated_get(depsgraph)
+                places[None] = rows(seen_by.matrix_world.normalized())
+                lenses.append(_lens(seen_by.data))
+            if share == 0.5:
+                half_way = places
+                continue
             self._ends.append(places)
             self._shapes.append({name: shape for name, shape in shapes.items() if shape is not None})
+        self.changes_lens = any(lens != lenses[0] for lens in lenses)
+        start, end = self._ends
+        bent = [key for key, place in half_way.items() if key in start and key in end and _is_bent(start[key], place, end[key])]
+        self.bent = sorted(f"object '{key[0]}'" if key else "the camera" for key in bent)
         set_frame(frame, part)
         depsgraph.update()
 
@@ -79,6 +92,17 @@ class Motion:
         if still or not self._ends or any(key not in places for places in self._ends):
             return np.array([now, now])
         return np.array([places[key] for places in self._ends])
+
+
+def _is_bent(start: Matrix, half_way: Matrix, end: Matrix) -> bool:
+    """Whether something is elsewhere half way than between both ends, by where its origin is."""
+    least = 0.05
+    a, b, c = start[3, :3], half_way[3, :3], end[3, :3]
+    return bool(np.linalg.norm(b - (a + c) / 2) > least * max(np.linalg.norm(b - a), np.linalg.norm(c - b)) + 1e-5 * np.linalg.norm(b))
+
+
+def _lens(camera: Any) -> tuple[float, ...]:
+    return (camera.lens, camera.ortho_scale, camera.shift_x, camera.shift_y) if hasattr(camera, "lens") else ()
 
 
 def _may_change(scene: Any, object_: Any) -> bool:

@@ -156,6 +156,8 @@ class _Reader(ObjectReader):
         add = self.builder.add
         expect_camera(self.scene, eye)
         tell_of_scene(self, self.scene, depsgraph.view_layer)
+        for name in motion.bent:
+            self.tell(name, "what goes along a curve, or unevenly, while the shutter is open goes straight and evenly here")
         fog = self.world_fog(depsgraph) if self.can_render else None
         if fog is not None:
             fog.add(self)
