@@ -139,3 +139,12 @@ def test_other_coordinates_than_those_that_are_asked_for_are_told(stage, tmp_pat
     connect(stage, node, "st", "UsdPrimvarReader_float2", {"varname": (TYPES.String, "uv2")}, "result", TYPES.Float2)
     with pytest.warns(wend.SceneWarning, match="/card: .*coordinates uv2 are not there: st are taken"):
         stage.read()
+
+
+@pytest.mark.parametrize(("mode", "is_told"), [("transparent", True), ("presence", False)])
+def test_reflection_that_an_opacity_takes_with_it_is_told(stage, mode, is_told):
+    made, shader = material(stage)
+    shader.CreateInput("opacity", TYPES.Float).Set(0.5)
+    shader.CreateInput("opacityMode", TYPES.Token).Set(mode)
+    bind(stage.card(), made)
+    assert any("/m/surface: " in word and "what is reflected" in word for word in told(stage)) == is_told

@@ -299,6 +299,8 @@ class _Surface:
             return False
         if opacity < 1 and (is_presence or opacity > 0.01):
             self.look.shape_parameters["float alpha"] = opacity
+            if not is_presence and not blender.wrote(self.inputs.shader.GetInput("opacity").GetAttr()):
+                self.reader.warn(self.inputs.shader.GetPrim(), "an opacity between 0 and 1 takes its share of what is reflected as well")
         return opacity <= 0.01 and not is_presence
 
     def _add_alpha(self, name: str) -> None:
