@@ -12,6 +12,7 @@ from pxr import UsdGeom, UsdShade  # type: ignore[import-not-found,import-untype
 from . import _usd_blender as blender
 from ._scene_reader import Look
 from ._usd_colours import Colours, display_colour, display_opacity
+from ._usd_material_words import COAT_IOR, COAT_ROUGHNESS, NOT_HERE, SHEEN_ROUGHNESS, WORDS
 from ._usd_textures import Inputs, kind_of
 
 
@@ -65,120 +66,8 @@ def look_of(reader: Any, prim: Any, bound: Any) -> UsdLook:
     return looks[key]
 
 
-#: What shaders of surfaces call the same things; the names that a shader has not are left out.
-_WORDS: dict[str, dict[str, str]] = {
-    "UsdPreviewSurface": {
-        "colour": "diffuseColor",
-        "metal": "metallic",
-        "roughness": "roughness",
-        "ior": "ior",
-        "coat": "clearcoat",
-        "coat_roughness": "clearcoatRoughness",
-        "shine_colour": "emissiveColor",
-        "tint": "specularColor",
-    },
-    "ND_standard_surface_surfaceshader": {
-        "colour": "base_color",
-        "weight": "base",
-        "metal": "metalness",
-        "roughness": "specular_roughness",
-        "ior": "specular_IOR",
-        "specular": "specular",
-        "opacity": "opacity",
-        "coat": "coat",
-        "coat_roughness": "coat_roughness",
-        "coat_ior": "coat_IOR",
-        "coat_colour": "coat_color",
-        "tint": "specular_color",
-        "chalk": "diffuse_roughness",
-        "brushed": "specular_anisotropy",
-        "sheen": "sheen",
-        "sheen_colour": "sheen_color",
-        "sheen_roughness": "sheen_roughness",
-        "clear": "transmission",
-        "clear_colour": "transmission_color",
-        "clear_depth": "transmission_depth",
-        "clear_scatter": "transmission_scatter",
-        "clear_g": "transmission_scatter_anisotropy",
-        "inside": "subsurface",
-        "inside_colour": "subsurface_color",
-        "inside_radius": "subsurface_radius",
-        "inside_scale": "subsurface_scale",
-        "inside_g": "subsurface_anisotropy",
-        "shine": "emission",
-        "shine_colour": "emission_color",
-    },
-    "ND_open_pbr_surface_surfaceshader": {
-        "colour": "base_color",
-        "weight": "base_weight",
-        "metal": "base_metalness",
-        "roughness": "specular_roughness",
-        "ior": "specular_ior",
-        "specular": "specular_weight",
-        "opacity": "geometry_opacity",
-        "coat": "coat_weight",
-        "coat_roughness": "coat_roughness",
-        "coat_ior": "coat_ior",
-        "coat_colour": "coat_color",
-        "tint": "specular_color",
-        "chalk": "base_diffuse_roughness",
-        "brushed": "specular_roughness_anisotropy",
-        "sheen": "fuzz_weight",
-        "sheen_colour": "fuzz_color",
-        "sheen_roughness": "fuzz_roughness",
-        "clear": "transmission_weight",
-        "clear_colour": "transmission_color",
-        "clear_depth": "transmission_depth",
-        "clear_scatter": "transmission_scatter",
-        "clear_g": "transmission_scatter_anisotropy",
-        "inside": "subsurface_weight",
-        "inside_colour": "subsurface_color",
-        "inside_radius": "subsurface_radius",
-        "inside_radii": "subsurface_radius_scale",
-        "inside_g": "subsurface_scatter_anisotropy",
-        "shine": "emission_luminance",
-        "shine_colour": "emission_color",
-    },
-}
-
-
-#: What has no counterpart, and the value at which it does nothing; none: it does so where nothing is connected.
-_NOT_HERE: dict[str, dict[str, float | None]] = {
-    "UsdPreviewSurface": {"displacement": 0},
-    "ND_standard_surface_surfaceshader": {
-        "specular_rotation": 0,
-        "transmission_dispersion": 0,
-        "transmission_extra_roughness": 0,
-        "coat_anisotropy": 0,
-        "coat_affect_color": 0,
-        "coat_affect_roughness": 0,
-        "thin_film_thickness": 0,
-        "thin_walled": 0,
-        "normal": None,
-        "coat_normal": None,
-        "tangent": None,
-    },
-    "ND_open_pbr_surface_surfaceshader": {
-        "transmission_dispersion_scale": 0,
-        "coat_roughness_anisotropy": 0,
-        "coat_darkening": 1,
-        "thin_film_weight": 0,
-        "geometry_thin_walled": 0,
-        "geometry_normal": None,
-        "geometry_coat_normal": None,
-        "geometry_tangent": None,
-        "geometry_coat_tangent": None,
-    },
-}
-
-#: What is not OpenPBR's value where none is given.
-_COAT_ROUGHNESS = {"UsdPreviewSurface": 0.01, "ND_standard_surface_surfaceshader": 0.1}
-_COAT_IOR = {"ND_standard_surface_surfaceshader": 1.5}
-_SHEEN_ROUGHNESS = {"ND_standard_surface_surfaceshader": 0.3}
-
-
 class _Surface:
-    """A shader of a surface, by the words above.
+    """A shader of a surface, by the words of `_usd_material_words`.
 
     Args:
         reader: of the stage.
@@ -190,7 +79,7 @@ class _Surface:
         self.reader, self.key = reader, key
         self.kind = kind_of(shader)
         self.is_preview = self.kind == "UsdPreviewSurface"
-        self.words = _WORDS[self.kind]
+        self.words = WORDS[self.kind]
         self.inputs = Inputs(reader, shader, key)
         self.look = UsdLook(key)
 
@@ -205,7 +94,7 @@ class _Surface:
 
     def made(self) -> UsdLook:
         """The look, after its material was made."""
-        for name, idle in _NOT_HERE[self.kind].items():
+        for name, idle in NOT_HERE[self.kind].items():
             if self.inputs.is_connected(name) or (idle is not None and float(self.inputs.constant(name, idle)) != idle):
                 self.reader.warn(self.inputs.shader.GetPrim(), f"{name} is left out")
         for word in ("clear", "inside"):
@@ -348,12 +237,12 @@ class _Surface:
         self.add_to(parameters, "roughness", "roughness", "float", self._roughness())
         self.add_to(parameters, "metal", "metallic", "float", 0.0)
         self.add_to(parameters, "coat", "coat", "float", 0.0)
-        self.add_to(parameters, "coat_roughness", "coatroughness", "float", _COAT_ROUGHNESS.get(self.kind, 0.0))
-        parameters["float coateta"] = float(self.constant("coat_ior", ior if self.is_preview else _COAT_IOR.get(self.kind, 1.6)))
+        self.add_to(parameters, "coat_roughness", "coatroughness", "float", COAT_ROUGHNESS.get(self.kind, 0.0))
+        parameters["float coateta"] = float(self.constant("coat_ior", ior if self.is_preview else COAT_IOR.get(self.kind, 1.6)))
         if self._has_sheen():
             self.add_to(parameters, "sheen", "sheen", "float", 0.0)
             self.add_to(parameters, "sheen_colour", "sheentint", "rgb", (1.0, 1.0, 1.0))
-            self.add_to(parameters, "sheen_roughness", "sheenroughness", "float", _SHEEN_ROUGHNESS.get(self.kind, 0.5))
+            self.add_to(parameters, "sheen_roughness", "sheenroughness", "float", SHEEN_ROUGHNESS.get(self.kind, 0.5))
         specular = blender.specular(self.inputs) if self.is_preview else float(self.constant("specular", 1))
         if specular != 1 and self.kind == "ND_standard_surface_surfaceshader":
             parameters["float specular"] = specular
@@ -413,9 +302,9 @@ class _Surface:
 def _surface(reader: Any, material: Any, key: str) -> UsdLook:
     of_materialx, plain = (material.ComputeSurfaceSource(context)[0] for context in ("mtlx", ""))
     names = [kind_of(shader) if shader else "no surface" for shader in (of_materialx, plain)]
-    if names[0] in _WORDS:
+    if names[0] in WORDS:
         return _Surface(reader, of_materialx, key).made()
-    if names[1] in _WORDS:
+    if names[1] in WORDS:
         reader.warn(material.GetPrim(), f"of a material of {names[0]} the {names[1]} is taken")
         return _Surface(reader, plain, key).made()
     reader.warn(material.GetPrim(), f"a material of {names[0]} is taken as grey")
