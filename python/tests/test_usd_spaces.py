@@ -1,7 +1,5 @@
 """Pictures of USD have the colours of their space, and MaterialX's tiled ones their place."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -18,16 +16,7 @@ TYPES = Sdf.ValueTypeNames
 
 @pytest.fixture
 def stage(tmp_path):
-    made = Stage(tmp_path)
-    made.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    return made
-
-
-def told(stage):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        stage.read()
-    return [str(w.message) for w in caught if w.category is wend.SceneWarning]
+    return Stage(tmp_path).sky()
 
 
 @pytest.mark.parametrize(
@@ -45,7 +34,7 @@ def told(stage):
 def test_colour_spaces_go_by_their_names(stage, tmp_path, space, value, is_told):
     on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 128)))
     stage.stage.GetPrimAtPath("/m/emissiveColor").GetAttribute("inputs:file").SetColorSpace(space)
-    assert any(f"the colour space {space}" in text for text in told(stage)) == is_told
+    assert any(f"the colour space {space}" in text for text in stage.told()) == is_told
     assert middle(stage.image()) == pytest.approx(np.full(3, value), rel=1e-3)
 
 
@@ -85,4 +74,4 @@ def test_coordinates_of_another_index_are_told(stage, tmp_path):
     card = on_a_card(stage, png(tmp_path / "map.png", np.full((4, 4, 3), 128)), kind="ND_image_color3")
     node = UsdShade.Shader(card.GetPrim().GetStage().GetPrimAtPath("/m/emissiveColor"))
     connect(stage, node, "texcoord", "ND_texcoord_vector2", {"index": (TYPES.Int, 1)}, "out", TYPES.Float2)
-    assert any("another index than 0" in text for text in told(stage))
+    assert any("another index than 0" in text for text in stage.told())

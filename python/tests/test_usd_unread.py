@@ -1,7 +1,5 @@
 """What stages say that nothing reads is told, with the prim."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -18,16 +16,7 @@ TYPES = Sdf.ValueTypeNames
 
 @pytest.fixture
 def stage(tmp_path):
-    made = Stage(tmp_path)
-    made.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
-    return made
-
-
-def told(stage):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        stage.read()
-    return [str(w.message) for w in caught if w.category is wend.SceneWarning]
+    return Stage(tmp_path).sky()
 
 
 def curves(stage):
@@ -85,7 +74,7 @@ WAYS = {
 
 @pytest.mark.parametrize("way", WAYS)
 def test_what_is_not_read_is_told(stage, way):
-    assert told(stage) == []
+    assert stage.told() == []
     change, text = WAYS[way]
     change(stage)
     with pytest.warns(wend.SceneWarning, match=text):
@@ -147,4 +136,4 @@ def test_reflection_that_an_opacity_takes_with_it_is_told(stage, mode, is_told):
     shader.CreateInput("opacity", TYPES.Float).Set(0.5)
     shader.CreateInput("opacityMode", TYPES.Token).Set(mode)
     bind(stage.card(), made)
-    assert any("/m/surface: " in word and "what is reflected" in word for word in told(stage)) == is_told
+    assert any("/m/surface: " in word and "what is reflected" in word for word in stage.told()) == is_told

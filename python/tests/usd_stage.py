@@ -23,6 +23,18 @@ class Stage:
         self.stage.GetRootLayer().Save()
         return wend.usd.read(self.file, resolution=size, spp=spp, **options)
 
+    def sky(self):
+        """Of radiance 1 everywhere."""
+        self.stage.DefinePrim("/sky", "DomeLight").GetAttribute("inputs:intensity").Set(1.0)
+        return self
+
+    def told(self):
+        """What it is warned of."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            self.read()
+        return [str(w.message) for w in caught if w.category is wend.SceneWarning]
+
     def image(self, **options):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", wend.SceneWarning)
