@@ -7,7 +7,6 @@ pytest.importorskip("pxr", reason="usd-core is absent")
 
 from pxr import Sdf, UsdGeom, UsdShade  # noqa: E402
 
-import wend  # noqa: E402
 from test_usd_as_written import bind, connect, material, on_a_card, png  # noqa: E402
 from usd_stage import Stage, middle  # noqa: E402
 
