@@ -137,3 +137,15 @@ def test_reflection_that_an_opacity_takes_with_it_is_told(stage, mode, is_told):
     shader.CreateInput("opacityMode", TYPES.Token).Set(mode)
     bind(stage.card(), made)
     assert any("/m/surface: " in word and "what is reflected" in word for word in stage.told()) == is_told
+
+
+def test_instancers_with_too_many_sizes_have_the_first(stage):
+    """As USD's own library makes them."""
+    UsdGeom.Cube.Define(stage.stage, "/it/proto")
+    instancer = UsdGeom.PointInstancer.Define(stage.stage, "/it")
+    instancer.CreatePrototypesRel().SetTargets(["/it/proto"])
+    instancer.CreateProtoIndicesAttr([0, 0])
+    instancer.CreatePositionsAttr([(-1, 0, -5), (1, 0, -5)])
+    instancer.CreateScalesAttr([(0.5, 0.5, 0.5)] * 3)
+    assert not stage.told()
+    assert stage.read().text().count("ObjectInstance") == 2

@@ -53,7 +53,7 @@ class Copies:
         # USD itself reads beyond their ends.
         for name in ("orientations", "orientationsf", "scales"):
             given = prim.GetAttribute(name).Get(reader.time) if prim.HasAttribute(name) else None
-            if given and len(given) != len(indices):
+            if given and len(given) < len(indices):
                 reader.warn(prim, f"an instancer whose {name} are not as many as what it copies is left out")
                 return
         start, end = (np.array(instancer.ComputeInstanceTransformsAtTime(time, reader.time)) for time in reader.shutter)
